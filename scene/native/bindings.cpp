@@ -57,7 +57,7 @@ std::int64_t read_some(int descriptor, char* to, std::size_t most) {
 #endif
 }
 
-// As many bytes of an open file as there is room for, fewer where it ends before; std::system_error where it cannot be read.
+// Reads bytes of an open file into `room`; fewer at the end of the file. Throws std::system_error if it cannot be read.
 std::size_t read_up_to(int descriptor, std::span<char> room) {
   std::size_t have = 0;
   while (have < room.size()) {
@@ -75,7 +75,7 @@ std::size_t read_up_to(int descriptor, std::span<char> room) {
   nb::raise_python_error();
 }
 
-// Up to `size` bytes of an open file, fewer where it ends before.
+// Up to `size` bytes of an open file; fewer at its end.
 nb::bytes read_file(int descriptor, std::size_t size) {
   PyObject* room = PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size));
   if (room == nullptr) nb::raise_python_error();

@@ -1,4 +1,4 @@
-// Steps that all readers share: stopping with a reason, final checks.
+// Functions that all readers share: errors and final checks.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace satcheck::scene {
 
-// Readers stop by throwing a ReadError; `run_reader` turns it into the outcome, so none escapes a room.
+// Readers stop by throwing a ReadError. `run_reader` catches it and returns it as the outcome.
 [[noreturn]] inline void fail_at_line(const char* code, std::string message, std::int64_t line) {
   throw ReadError{code, std::move(message), line, nowhere};
 }

@@ -1,4 +1,4 @@
-// Numbers in binary files, whatever the byte order of the file and of the machine.
+// Numbers in binary files, for any byte order of the file and of the machine.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Vertices of a format that writes each corner of each facet anew.
+// Vertices of a format that repeats the coordinates for each corner of each facet.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,18 @@
 
 namespace satcheck::scene {
 
-// Corners of the same coordinates, bit for bit, are one vertex; vertices are numbered as they first appear.
+// Corners with equal coordinates, bit for bit, are one vertex. Vertices are numbered in order of first appearance.
 // A hash table with linear probing, whose slots can be fetched before they are needed.
 template <class Coordinate>
 class Corners {
  public:
   using Point = std::array<Coordinate, 3>;
 
-  // A quarter full: a corner that is not in the first slot looked at costs a mispredicted jump.
+  // At most a quarter full, because a corner that is not in its first slot costs a mispredicted branch.
   explicit Corners(std::size_t expected)
       : size_(std::bit_ceil(std::max(4 * expected, kFewest))), slots_(zeroed<Slot>(size_)) {}
 
-  // Of the bytes of a point, wherever they lie: a copy that was just written in other pieces would have to be waited for.
+  // Hashes the bytes of a point in place. Reading a copy that was just written with another width would stall.
   static std::uint64_t hash(const void* point) {
     constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
     std::uint64_t h = 0;
@@ -47,7 +47,7 @@ class Corners {
 #endif
   }
 
-  // The number of its vertex; where that is new, its coordinates go to the end of `vertices`.
+  // The number of its vertex. The coordinates of a new vertex are appended to `vertices`.
   std::uint32_t number(const Point& point, std::uint64_t hash, std::vector<double>& vertices) {
     Slot& slot = find(point, hash);
     if (slot.behind != kEmpty) return slot.behind - 1;

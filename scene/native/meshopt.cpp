@@ -55,7 +55,7 @@ Unsigned unzigzag(Unsigned value) {
   return static_cast<Unsigned>((value & 1) != 0 ? ~(value >> 1) : value >> 1);
 }
 
-// What lies between the first byte, which names the version, and the tail.
+// The bytes between the first byte, which is the version, and the tail.
 Bytes body(std::string_view stream, std::size_t tail) {
   if (stream.size() < 1 + tail) fail_damaged("it is too short");
   return Bytes(stream.substr(1, stream.size() - 1 - tail));
@@ -66,7 +66,7 @@ Bytes body(std::string_view stream, std::size_t tail) {
 constexpr std::size_t group_size = 16;
 constexpr std::size_t max_block_bytes = 8192, max_block_elements = 256, max_stride = 256, channel_size = 4;
 
-// 16 bytes of `bits` each; those with every bit set follow in full behind all of them.
+// 16 values of `bits` each. Values with all bits set are escapes: their full bytes follow after all 16.
 void unpack_group(Bytes& bytes, unsigned bits, std::uint8_t* group) {
   if (bits == 0) {
     std::fill_n(group, group_size, std::uint8_t{0});
@@ -143,7 +143,7 @@ class Attributes {
     }
   }
 
-  // Four bytes of each element, from byte k on: differences to the element before, added up.
+  // Four bytes of each element, from byte k on. They are stored as differences to the previous element.
   void channel(std::size_t k, std::size_t count, char* elements) {
     const unsigned kind = version_ == 0 ? 0 : static_cast<std::uint8_t>(channels_[k / channel_size]);
     const unsigned mode = kind & 15, rotation = kind >> 4;
@@ -160,7 +160,7 @@ class Attributes {
     for (std::size_t j = 0; j < channel_size; ++j) last_[k + j] = static_cast<char>(value >> (8 * j));
   }
 
-  // Adds zigzag differences to the numbers of which a word consists, each by itself.
+  // Adds zigzag differences to each of the numbers in a word.
   template <class Number>
   static std::uint32_t add(std::uint32_t value, std::uint32_t delta) {
     std::uint32_t sum = 0;
@@ -199,7 +199,7 @@ std::string unpack_indices(std::string_view stream, std::size_t count, std::size
   return elements;
 }
 
-// The last 16 that were pushed; what was never pushed must not be read.
+// The last 16 pushed values. Reading a value that was never pushed is an error.
 template <class Value>
 class Recent {
  public:
@@ -251,7 +251,7 @@ class Triangles {
     }
   }
 
-  // With an edge of an earlier triangle.
+  // A triangle that shares an edge with an earlier one.
   void beside(Edge edge, unsigned low) {
     const auto [a, b] = edge;
     std::uint32_t c = 0;
@@ -270,7 +270,7 @@ class Triangles {
     emit(a, b, c);
   }
 
-  // Without one.
+  // A triangle without a shared edge.
   void apart(std::uint32_t a, unsigned for_b, unsigned for_c) {
     const std::uint32_t b = corner(for_b), c = corner(for_c);
     vertices_.push(a);
@@ -324,7 +324,7 @@ void undo_exponential_filter(std::string& elements) {
   }
 }
 
-// The largest component is left out; the last word tells which it is, and with which number the others stand for 1.
+// The largest component is not stored. The last word says which one it is, and the integer that means 1 for the others.
 void undo_quaternion_filter(std::string& elements) {
   constexpr double largest = 32767;
   for (std::size_t at = 0; at + 8 <= elements.size(); at += 8) {

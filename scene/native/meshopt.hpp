@@ -9,10 +9,10 @@ namespace satcheck::scene {
 
 enum class MeshoptMode { attributes, triangles, indices };
 
-// `count` elements of `stride` bytes each, one after the other. Throws ReadError for a stream that is not exactly that.
+// `count` consecutive elements of `stride` bytes. Throws ReadError if the stream does not contain exactly these.
 std::string unpack_meshopt(std::string_view stream, MeshoptMode mode, std::size_t count, std::size_t stride);
 
-// The filters that positions and placements may have gone through; the others are for normals and colours. In place.
+// Undo filters of positions and placements, in place. The other filters are for normals and colours.
 void undo_exponential_filter(std::string& elements);                      // 32-bit words: float32
 void undo_quaternion_filter(std::string& elements);                       // 8 bytes: four normalised int16
 

@@ -36,7 +36,7 @@ class HeaderReader {
   }
 
  private:
-  // Binary data follows the header, so lines must be sought in the header alone.
+  // Binary data follows the header, so only the header is searched for lines.
   static std::string_view header_text(std::string_view bytes) {
     const std::string_view first = bytes.substr(0, bytes.find_first_of("\r\n"));
     std::string_view word;

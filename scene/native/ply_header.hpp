@@ -37,7 +37,7 @@ struct PlyHeader {
   std::int64_t line_count = 0;  // lines up to and with end_header
 };
 
-// Throws ReadError; also when the promised counts cannot fit into the rest of the file.
+// Throws ReadError, also if the stated counts cannot fit into the rest of the file.
 PlyHeader read_ply_header(std::string_view bytes);
 
 }  // namespace satcheck::scene

@@ -1,7 +1,8 @@
-// Ear clipping: G. H. Meisters, "Polygons have ears" (1975). Seen along the axis nearest to its normal, a polygon is cut into
-// triangles that turn as it does, each sign exact. The borders of these triangles add up to that of the polygon, so where
-// none turns the other way they cover what it encloses, once. A fan from the first corner that has this property, as that
-// of every convex polygon, is taken as it is. A polygon that crosses itself may have no such triangles: it becomes a fan.
+// Ear clipping: G. H. Meisters, "Polygons have ears" (1975). Seen along the axis nearest to its normal, a polygon is
+// cut into triangles with its own orientation, by exact signs. The borders of these triangles add up to the border of
+// the polygon. If no triangle has the other orientation, they cover the inside of the polygon exactly once. A fan from
+// the first corner is used if it has this property, as for every convex polygon. A polygon that crosses itself may have
+// no such triangles. It becomes a fan.
 #include "polygons.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::int64_t most_steps = 2'000'000'000;  // a few seconds
 
-constexpr std::int64_t sign_steps = 16;  // what an exact sign costs beside a comparison
+constexpr std::int64_t sign_steps = 16;  // cost of an exact sign, in comparisons
 
 Vec3 point(const MeshData& mesh, std::uint32_t vertex) {
   const double* at = mesh.vertices.data() + 3 * std::size_t{vertex};
@@ -33,7 +34,8 @@ void push_fan(std::span<const std::uint32_t> corners, MeshData& mesh) {
   for (std::size_t i = 2; i < corners.size(); ++i) push(corners[0], corners[i - 1], corners[i], mesh);
 }
 
-// Whether the two triangles of a quadrilateral's fan face the same way beyond doubt: the usual case, without exact signs.
+// Whether the two triangles of a quadrilateral's fan certainly face the same way. This is the usual case and needs no
+// exact signs.
 bool is_plainly_convex_fan(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   const double turned = dot(cross(ab, ac), cross(ac, ad));
@@ -71,7 +73,7 @@ class Outline {
     return true;
   }
 
-  // The triangles, or none where the polygon cannot be cut.
+  // The triangles; empty if the polygon cannot be cut.
   std::vector<std::uint32_t> ears() {
     std::vector<std::uint32_t> triangles;
     left_.resize(points_.size());
@@ -98,7 +100,8 @@ class Outline {
     return orientation(points_[a], points_[b], points_[c], above);
   }
 
-  // The first corner from `from` on whose triangle turns by `wanted` and has no other corner in it; as many as there are: none.
+  // The first corner from `from` on whose triangle has the orientation `wanted` and contains no other corner; the
+  // number of corners: there is none.
   std::size_t find_ear(std::size_t from, int wanted) {
     const std::size_t n = left_.size();
     for (std::size_t k = 0; k < n; ++k) {

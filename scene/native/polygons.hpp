@@ -9,8 +9,8 @@
 
 namespace satcheck::scene {
 
-// Polygons with fewer than three corners are counted and reported once. Those that name vertices which the file only
-// writes later are cut when all are there.
+// Polygons with fewer than three corners are counted and reported once. A polygon that names vertices which come later
+// in the file is cut at the end.
 class Polygons {
  public:
   // place: of the polygon in the file, for messages.

@@ -10,7 +10,7 @@
 namespace satcheck::scene {
 namespace {
 
-// What each statement means to a collision checker; any other word could be misspelt geometry, and is an error.
+// The meaning of each statement. Any other word is an error, because it could be misspelt geometry.
 //   v, f, fo                 vertices and faces: read
 //   names and appearance     no geometry: accepted
 //   lines, points, curves    no area, so they cannot collide: accepted with a warning
@@ -94,7 +94,7 @@ class ObjReader {
     check_numbers(words, line);
   }
 
-  // A name that ends with a backslash, as a folder of Windows does, takes the next line into its own statement.
+  // A name that ends with a backslash, such as a Windows folder, joins the next line to its statement.
   void check_swallowed(Words& words, std::int64_t line) const {
     std::string_view word;
     while (words.next(word)) {
@@ -134,7 +134,7 @@ class ObjReader {
                  line);
   }
 
-  // A face may name vertices that the file only writes later.
+  // A face may name vertices that come later in the file.
   void check_forward_references() const {
     const std::int64_t count = static_cast<std::int64_t>(mesh_.vertices.size() / 3);
     for (const Reference& reference : forward_) {

@@ -98,7 +98,7 @@ class OffReader {
     return line;
   }
 
-  // The words of one record, which may go on in the next lines: then it ends with the last of them.
+  // The words of one record. It may continue in the next lines; it then ends at the end of a line.
   class Record {
    public:
     Record(OffReader& reader, std::string what)
@@ -112,7 +112,7 @@ class OffReader {
       }
       return word;
     }
-    // Colours and the like may stand behind a record of one line.
+    // Colours and similar data may follow a record of one line.
     void end() {
       if (goes_on_ && !words_.none_left()) {
         fail_at_line(code::bad_record, "bad record: " + what_ + " ends within a line", reader_.lines_.number());

@@ -1,5 +1,4 @@
-// PLY 1.0, after Greg Turk, "The PLY Polygon File Format" (1994). Elements and properties that carry no geometry
-// are stepped over.
+// PLY 1.0, after Greg Turk, "The PLY Polygon File Format" (1994). Elements and properties without geometry are skipped.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,10 +15,10 @@ namespace {
 
 constexpr std::uint64_t largest_integer = std::numeric_limits<std::int64_t>::max();
 
-// A length or a vertex number that the file keeps as a float.
+// A length or a vertex number that the file stores as a float.
 template <class Records>
 std::int64_t whole_number(double value, const Records& records) {
-  constexpr double largest = 1LL << 53;  // up to which float64 has every whole number
+  constexpr double largest = 1LL << 53;  // float64 holds all integers up to this
   if (!(std::abs(value) <= largest) || value != std::floor(value)) {
     records.stop(code::bad_record, "expected a whole number, found " + std::to_string(value));
   }
@@ -73,7 +72,7 @@ class AsciiRecords {
 
   Lines lines_;
   Words words_;
-  MeshData unused_;  // numbers that are no coordinates say nothing about the precision of these
+  MeshData unused_;  // other numbers do not affect the precision of coordinates
 };
 
 class BinaryRecords {
@@ -225,8 +224,8 @@ void read_faces(Records& records, const PlyElement& element, std::int64_t vertex
   polygons.finish(Records::unit, mesh);
 }
 
-// A strip of triangles: each corner makes one with the two before it, every other one turned; strip_end begins a new strip.
-// A corner that is repeated leads on without a triangle.
+// A strip of triangles: each corner forms a triangle with the two before it, and every other triangle is turned over.
+// strip_end starts a new strip. A repeated corner forms no triangle.
 template <class Records>
 void read_strips(Records& records, const PlyElement& element, std::int64_t vertex_count, MeshData& mesh) {
   constexpr std::int64_t strip_end = -1;

@@ -1,4 +1,4 @@
-// What a reader hands back: the mesh as the file wrote it, or the first thing wrong with the file.
+// The result of a reader: the mesh as the file states it, or the first error.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace satcheck::scene {
 
-// How finely the file's coordinates were written; decides what "touching" may mean.
+// How the file stores coordinates. The default tolerance follows from it.
 enum class Precision { written_digits, float32, float64 };
 
 struct Warning {

@@ -20,12 +20,12 @@ constexpr std::size_t normal_size = 12;
 constexpr std::size_t count_offset = 80;
 constexpr std::size_t facets_at_a_time = 10000;  // of a file that is read in pieces
 
-// Facets that are read before the corners of the first are looked up, which then need not wait for memory.
+// The number of facets read ahead, so that the lookups of corners do not wait for memory.
 constexpr std::size_t ahead = 16;
 
 using Facet = std::array<Corners<float>::Point, 3>;
 
-// All exponents at once: that of what is infinite or no number has every bit set.
+// Tests all exponents at once. The exponent of an infinite number or nan has all bits set.
 bool is_finite(const Facet& facet) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   bool finite = true;
@@ -42,7 +42,7 @@ bool is_finite(const Facet& facet) {
                static_cast<std::int64_t>(offset + i * sizeof(float)));
 }
 
-// Facets one after the other, wherever they lie.
+// Reads facets one after another, from any source.
 class BinaryReader {
  public:
   explicit BinaryReader(std::size_t count) : corners_(vertices_of(count)) {
@@ -79,7 +79,7 @@ class BinaryReader {
     if (count > static_cast<std::size_t>(max_vertices) / 3) {
       fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
     }
-    return count / 2;  // of a closed surface of few handles
+    return count / 2;  // for a closed surface with few handles
   }
 
   void number(const Waiting& next) {
@@ -93,7 +93,7 @@ class BinaryReader {
   std::uint32_t* triangles_;  // the next vertex number
 };
 
-// Words over line ends, as ASCII STL is free-form but for the names behind `solid` and `endsolid`.
+// Words across line ends. ASCII STL is free-form except for the names after `solid` and `endsolid`.
 class StlWords {
  public:
   explicit StlWords(std::string_view text) : lines_(text), words_({}) {}
@@ -174,7 +174,7 @@ class AsciiStlReader {
     fail_at_line(code::bad_record, "expected " + what + ", found " + quoted(word), words_.line());
   }
 
-  // The next word, whatever it is.
+  // The next word, of any kind.
   std::string_view any(std::string_view expected) {
     std::string_view word;
     if (!words_.next(word)) {
@@ -206,8 +206,8 @@ class AsciiStlReader {
     skip_remark();
   }
 
-  // What some exporters write behind the end of a loop or facet, as a number or a colour: up to the end of the line, or up
-  // to a word that belongs to the format.
+  // Skips remarks that some exporters write after the end of a loop or facet, such as a number or a colour: up to the
+  // end of the line, or up to a keyword.
   void skip_remark() {
     static constexpr std::array<std::string_view, 9> keywords = {"facet", "outer",   "loop",     "vertex",  "solid",
                                                           "end",   "endloop", "endfacet", "endsolid"};
@@ -229,7 +229,7 @@ bool looks_like_ascii(std::string_view bytes) {
   return starts_as_solid && bytes.find('\0') == std::string_view::npos;
 }
 
-// What the head of a file, if it is long enough for one, and the size of all say about facets.
+// The number of facets by the binary header, if the file is long enough for one, and by the size of the file.
 struct Promise {
   Promise(std::string_view head, std::size_t size) {
     if (size < header_size) return;

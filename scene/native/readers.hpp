@@ -10,17 +10,17 @@
 
 namespace satcheck::scene {
 
-// Wavefront OBJ. Every `f` of the file; colours, texture coordinates, normals, lines and points are not geometry here.
+// Wavefront OBJ: every `f` of the file. Colours, texture coordinates, normals, lines and points are ignored.
 ReadOutcome read_obj(std::string_view bytes);
 
 // Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.
 ReadOutcome read_stl(std::string_view bytes);
 
-// The next bytes of a file: as many as there is room for, fewer at its end. What it throws goes through a reader.
+// Reads the next bytes of a file into `room`; fewer at its end. Readers let its exceptions pass.
 using NextBytes = std::function<std::size_t(std::span<char> room)>;
 
-// A file of so many bytes that read_stl() takes for binary STL, a piece at a time: the pieces stay in the cache, and no
-// memory is fetched for all of it.
+// Reads a file of `size` bytes that is binary STL by the rules of read_stl(), piece by piece. The pieces stay in the
+// cache, and no memory for the whole file is needed.
 ReadOutcome read_binary_stl(std::size_t size, const NextBytes& next);
 
 // PLY 1.0: ascii, binary_little_endian, binary_big_endian.

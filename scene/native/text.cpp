@@ -17,7 +17,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' |
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// A number as written: enough to check its grammar, to know its precision, and to tell overflow from underflow.
+// A number as written: its grammar and precision, and whether it overflows or underflows.
 struct Written {
   bool valid = false;
   bool has_exponent = false;

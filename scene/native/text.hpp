@@ -58,7 +58,7 @@ void parse_vertex(Words& words, std::int64_t line, MeshData& mesh);
 // Throws bad_record at `line` unless each word that is left is a number, infinite or nan as it may be.
 void check_numbers(Words& words, std::int64_t line);
 
-// A decimal integer, all of `word`; throws bad_record at `line`.
+// The whole `word` as a decimal integer; throws bad_record at `line`.
 std::int64_t parse_integer(std::string_view word, std::int64_t line, const char* what);
 
 }  // namespace satcheck::scene

@@ -8,8 +8,8 @@
 
 namespace satcheck {
 
-// Half-edge h = 3 t + i runs from corner i to corner i + 1 of triangle t. Triangles that name a
-// corner twice have none.
+// Half-edge h = 3 t + i runs from corner i to corner i + 1 of triangle t. A triangle that names a corner twice has no
+// half-edges.
 class EdgeTable {
  public:
   EdgeTable(std::size_t vertex_count, const std::vector<Triangle>& triangles);
@@ -22,7 +22,7 @@ class EdgeTable {
   bool ascends(std::uint32_t h) const {
     return triangles_[h / 3][h % 3] < triangles_[h / 3][(h % 3 + 1) % 3];
   }
-  // How much more often triangles run the edge upward than downward.
+  // The number of triangles that run the edge upward, minus those that run it downward.
   int balance(std::size_t edge) const {
     int sum = 0;
     for (const std::uint32_t h : half_edges(edge)) sum += ascends(h) ? 1 : -1;

@@ -1,5 +1,5 @@
-// Method: least significant digit first, Donald E. Knuth, "The Art of Computer Programming", vol. 3
-// (1973), 5.2.5; triangles are distributed by their first corner, which leaves a few at a time to compare.
+// Method: radix sort, least significant digit first: Donald E. Knuth, "The Art of Computer Programming", vol. 3 (1973),
+// 5.2.5. Triangles are distributed by their first corner. The few triangles of one corner are then compared.
 #include "base/key_sort.hpp"
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 namespace satcheck {
 namespace {
 
-// By the lowest `bits` of key(item), a digit at a time, from one place to the other and back: where they are then.
+// Sorts by the lowest `bits` of key(item), one digit at a time, between two buffers. Returns the buffer that holds the
+// result.
 template <class Item, class Key>
 std::span<Item> sort_by_digits(std::span<Item> from, std::span<Item> to, std::size_t bits, Key key) {
   constexpr std::size_t kDigitBits = 11;
@@ -32,7 +33,7 @@ std::span<Item> sort_by_digits(std::span<Item> from, std::span<Item> to, std::si
   return from;
 }
 
-// By coordinates from this axis on, those before it being equal; of equal points the first comes first.
+// Sorts by the coordinates from this axis on; earlier coordinates are equal. Equal points keep their order.
 void order_from_axis(std::span<const Vec3> points, int axis, std::span<std::uint32_t> order) {
   const auto compare_all = [&] {
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
@@ -50,7 +51,7 @@ void order_from_axis(std::span<const Vec3> points, int axis, std::span<std::uint
     if (axis < 2) order_from_axis(points, axis + 1, order);
     return;
   }
-  // Cells of equal width keep the order of the coordinates, whatever rounds, and the ends are not in one.
+  // Cells of equal width keep the order of the coordinates in spite of rounding. The two ends lie in different cells.
   constexpr double kLastCell = 0xFFFFFFFF;
   const double scale = kLastCell / (high - low);
   if (!(scale > 0 && scale < INFINITY)) return compare_all();
@@ -99,12 +100,12 @@ bool strictly_ascending(std::span<const Vec3> points) {
 }
 
 void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count) {
-  std::vector<std::uint32_t> end = with_room<std::uint32_t>(vertex_count + 1);  // of the list of each first corner
+  std::vector<std::uint32_t> end = with_room<std::uint32_t>(vertex_count + 1);  // end of the list of each first corner
   end.resize(vertex_count + 1);
   for (const Triangle& t : triangles) ++end[t[0] + 1];
   std::inclusive_scan(end.begin(), end.end(), end.begin());
   const auto others = unwritten<std::uint64_t>(triangles.size());  // the second and the third corner
-  // Each starts where the one before it ends, and comes to its own end as it is filled.
+  // Each entry starts as the end of the list before it, and grows to the end of its own list.
   for (const Triangle& t : triangles) others[end[t[0]]++] = std::uint64_t{t[1]} << 32 | t[2];
   std::uint32_t start = 0;
   for (std::uint32_t v = 0; v < vertex_count; start = end[v++]) {

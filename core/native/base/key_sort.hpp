@@ -1,4 +1,4 @@
-// Sorting by keys of few bits, which needs no comparisons.
+// Sorting by keys of few bits, without comparisons.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Keyed {
   std::uint32_t number;
 };
 
-// In place; of a few items, as most lists around a vertex are, for less than std::sort().
+// Sorts in place. Faster than std::sort() for few items, such as most lists around a vertex.
 template <class Item>
 void sort_list(Item* first, Item* last) {
   constexpr std::ptrdiff_t kFew = 16;
@@ -32,16 +32,16 @@ void sort_list(Item* first, Item* last) {
   }
 }
 
-// By key, equal keys by number. Equal keys must come with ascending numbers.
+// Sorts by key; equal keys by number. Items with equal keys must have ascending numbers.
 void sort_by_key(std::span<Keyed> items);
 
-// The numbers of the points by x, then y, then z; points of equal coordinates in the order they have.
+// The numbers of the points, sorted by x, then y, then z. Equal points keep their order.
 std::vector<std::uint32_t> order_by_coordinates(std::span<const Vec3> points);
 
 // Whether each point comes after the one before it, so that no two are equal.
 bool strictly_ascending(std::span<const Vec3> points);
 
-// In lexicographic order. Every corner is below `vertex_count`.
+// Sorts in lexicographic order. Every corner is below `vertex_count`.
 void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count);
 
 }  // namespace satcheck

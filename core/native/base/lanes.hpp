@@ -1,5 +1,5 @@
-// Four float64 at a time. Every lane does what plain code would do, in the order it is written: the same
-// bits on every machine, whatever registers hold them.
+// Four float64 at a time. Every lane computes what plain code computes, in the same order. The bits are therefore equal
+// on every machine, whatever the width of its registers.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <emmintrin.h>
 #endif
 
-// A function with this mark is compiled twice, and the machine's registers choose at run time. What it
-// calls on Lanes is inlined into both. Sanitizers and Clang cannot.
+// A function with this mark is compiled twice, and the version for the machine's registers is chosen at run time.
+// Functions on Lanes are inlined into both. Sanitizers and Clang do not support this.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define SATCHECK_WIDE __attribute__((target_clones("avx2", "default")))
-// The same for a fused multiply-add, where it is asked for by name: without such an instruction it is a call.
+// The same for an explicit fused multiply-add. Without such an instruction it is a function call.
 #define SATCHECK_FUSED __attribute__((target_clones("fma", "default")))
 #else
 #define SATCHECK_WIDE
@@ -21,7 +21,7 @@
 #endif
 #define SATCHECK_INLINE inline __attribute__((always_inline))
 
-// How Lanes would be passed, if they were not inlined.
+// A warning about how Lanes are passed. It does not apply, because all functions are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace satcheck {
@@ -37,7 +37,7 @@ SATCHECK_INLINE void store_lanes(double* to, Lanes v) {
   typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
   *reinterpret_cast<Unaligned*>(to) = v;
 }
-// In bits: `mask ? a : b` is taken apart, lane by lane, where registers are narrower.
+// Uses bit operations, because compilers split `mask ? a : b` lane by lane for narrow registers.
 SATCHECK_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
   return (Lanes)((mask & (LaneMask)a) | (~mask & (LaneMask)b));
 }
@@ -51,7 +51,7 @@ SATCHECK_INLINE Lanes shuffle(Lanes v) {
 #endif
 }
 
-// The same of two vectors: 4 to 7 are the lanes of the second.
+// The same for two vectors: 4 to 7 are the lanes of the second.
 template <int a, int b, int c, int d>
 SATCHECK_INLINE Lanes shuffle(Lanes u, Lanes v) {
 #if defined(__clang__)
@@ -61,7 +61,7 @@ SATCHECK_INLINE Lanes shuffle(Lanes u, Lanes v) {
 #endif
 }
 
-// Lane by lane; where they are equal, or one is no number, that of b.
+// Lane by lane. If the lanes are equal, or one is nan, the lane of b.
 SATCHECK_INLINE Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 
 SATCHECK_INLINE Lanes square_root(Lanes v) {
@@ -79,7 +79,7 @@ SATCHECK_INLINE Lanes with_sign_of(Lanes sign, Lanes size) {
   return (Lanes)((LaneMask)size | ((LaneMask)sign & (LaneMask)Lanes{-0.0, -0.0, -0.0, -0.0}));
 }
 
-// Bit l is set where lane l holds.
+// Bit l is set if lane l of the mask is true.
 SATCHECK_INLINE int bits_of(LaneMask mask) {
 #if defined(__SSE2__)
   __m128d half[2];
@@ -90,8 +90,8 @@ SATCHECK_INLINE int bits_of(LaneMask mask) {
 #endif
 }
 
-// Which lanes of up to kVectors vectors hold: bit 4 k + l of bits() is lane l of vector k. They meet in one register at
-// the end, not one by one.
+// Collects the masks of up to kVectors vectors: bit 4 k + l of bits() is lane l of vector k. All masks are combined at
+// the end, which is faster than one by one.
 class ManyLaneBits {
  public:
   static constexpr int kVectors = 16;

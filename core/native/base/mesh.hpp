@@ -19,7 +19,7 @@ struct MeshView {
   std::span<const Triangle> triangles;
 
   MeshView(std::span<const Vec3> v, std::span<const Triangle> t) : vertices(v), triangles(t) {}
-  MeshView(const Mesh& mesh) : MeshView(mesh.vertices, mesh.triangles) {}  // wherever a mesh will do
+  MeshView(const Mesh& mesh) : MeshView(mesh.vertices, mesh.triangles) {}  // implicit: a mesh is accepted as a view
 };
 
 }  // namespace satcheck

@@ -12,7 +12,7 @@ namespace satcheck {
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& task,
                   std::size_t chunk) {
   const std::size_t shares = (count + chunk - 1) / chunk;
-  // To ask how many cores there are takes as long as some pairs.
+  // Querying the number of cores takes as long as several pairs.
   if (threads == 0 && shares > 1) threads = std::thread::hardware_concurrency();
   threads = static_cast<unsigned>(std::min<std::size_t>(threads, shares));
   if (threads <= 1) {
@@ -21,7 +21,7 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   }
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
-  std::size_t failed = count;  // the task that threw it
+  std::size_t failed = count;  // index of the first task that threw
   std::mutex failure_mutex;
   const auto work = [&] {
     std::size_t i = count;
@@ -29,9 +29,9 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
       for (std::size_t from = next.fetch_add(chunk); from < count; from = next.fetch_add(chunk)) {
         for (i = from; i < std::min(from + chunk, count); ++i) task(i);
       }
-    } catch (...) {  // carried to the caller's thread, not swallowed
+    } catch (...) {  // rethrown in the caller's thread
       const std::lock_guard lock(failure_mutex);
-      // What comes before a failed task was handed out before, and has run or will.
+      // All tasks before a failed task have been started, so they will finish.
       if (i < failed) {
         failed = i;
         failure = std::current_exception();
@@ -43,7 +43,7 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   pool.reserve(threads - 1);
   try {
     for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
-  } catch (const std::exception&) {  // no more threads, or no memory for one: those that there are do the work
+  } catch (const std::exception&) {  // no further thread: the existing threads do the work
   }
   work();
   for (std::thread& thread : pool) thread.join();

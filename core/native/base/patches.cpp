@@ -23,7 +23,7 @@ Labels number_sets(DisjointSets& sets, std::size_t triangle_count) {
 
 struct SetAtEdge {
   std::uint32_t set;
-  int balance;  // how much more often its triangles run the edge upward than downward
+  int balance;  // number of its triangles that run the edge upward, minus downward
 };
 
 void find_sets_at(std::size_t edge, const Labels& labels, const EdgeTable& edges, std::vector<SetAtEdge>& sets) {
@@ -60,7 +60,7 @@ std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges) {
 }
 
 std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges) {
-  std::vector<std::vector<SetAtEdge>> rims;  // edges that some set leaves open
+  std::vector<std::vector<SetAtEdge>> rims;  // edges at which a set is open
   std::vector<std::vector<std::size_t>> rims_of(labels.count);
   std::vector<std::uint32_t> next;
   std::vector<SetAtEdge> sets;

@@ -17,7 +17,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // Whether they were apart.
+  // Returns whether they were in different sets.
   bool unite(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
@@ -37,11 +37,11 @@ struct Labels {
   std::vector<std::vector<std::uint32_t>> members() const;
 };
 
-// Which sets have a boundary: an edge that their triangles run more often in one direction than in the other.
+// Sets with a boundary: an edge that their triangles run more often in one direction than in the other.
 std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges);
 
-// Sets that are taken off one after the other, each while it has a rim of its own: an edge that it leaves open, and at
-// which no other set is left. A wall within a closed box is one, where it does not reach the box all around.
+// Flaps: sets that are removed one after another, as long as a set has an open edge at which no other set remains. For
+// example, a wall within a closed box is a flap if it does not reach the box all around.
 std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges);
 
 // Sets connected through shared edges, whatever the number of triangles at them.

@@ -10,58 +10,59 @@ namespace satcheck {
 inline constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 // |computed - true| of a support value n.(a - b) for a unit axis n is at most this many roundoffs
-// of the scale. Relative pose: 2 products of rounded 3x3 matrices, 6 roundings a coordinate, 3
-// coordinates, 18; dot product of 3 terms, 3 roundings, 9 after the sum over coordinates; length of
-// the axis itself, 2 roundings; difference of the two supports, 1; rounded up to 40.
+// of the scale. Relative pose: 2 products of rounded 3x3 matrices with 6 roundings for each of 3 coordinates, 18. Dot
+// product of 3 terms: 3 roundings, 9 in the sum over coordinates. Length of the axis: 2. Difference of the two
+// supports: 1. The sum is rounded up to 40.
 inline constexpr double kSupportError = 40 * kUnitRoundoff;
 
-// The same where a shape is curved, for the rotations that the quaternions name: an entry of a rounded
-// matrix is off by up to 17 roundoffs on the diagonal (length of the quaternion 5, products 3, both times 2,
-// and 1) and 8 beside it, 36 in the norm, for each of the two poses; with the 40 of above, rounded up.
+// The same for curved shapes, relative to the exact rotations of the quaternions. An entry of a rounded matrix has an
+// error of up to 17 roundoffs on the diagonal (length of the quaternion 5, products 3, both times 2, plus 1) and 8 off
+// the diagonal. The norm of the error is 36 for each of the two poses. With the 40 from above, rounded up.
 inline constexpr double kCurvedSupportError = 128 * kUnitRoundoff;
 
-// EPA takes a support point as outside a face only beyond this fraction of the scale: below it the
-// height is rounding noise, and a face built on it would have a meaningless normal.
+// EPA counts a support point as outside a face only beyond this fraction of the scale. Smaller heights are rounding
+// noise, and a face built on such a point would have a meaningless normal.
 inline constexpr double kVisible = 16 * kUnitRoundoff;
 
-// A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale. As an
-// angle it bounds what the rounding of two unit vectors, 15 roundoffs, does to their cross product, and
-// that, times sqrt(3) for the farthest support point, to a support value.
+// A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale. As an angle, it
+// bounds the error of the cross product of two unit vectors that are off by 15 roundoffs. Times sqrt(3), for the
+// farthest support point, this is the error of a support value.
 inline constexpr double kFlat = 64 * kUnitRoundoff;
 
 // Bounds of curved shapes close only in the limit; GJK stops at this fraction of the scale.
 inline constexpr double kCurvedGap = 1e-11;
 
-// EPA stops earlier on curved shapes. A facet of width s leaves a gap of about s^2 / 8, and the support
-// errors turn its normal by 40 roundoffs / s: below s = 1e-4, that is a gap of 1e-9, the proven bounds
-// drift apart again. Newton's method adds the last digits of the axis, not of the proof.
+// EPA stops earlier on curved shapes. A facet of width s leaves a gap of about s^2 / 8, and the support errors turn its
+// normal by 40 roundoffs / s. Below s = 1e-4, which is a gap of 1e-9, the proven bounds diverge again. Newton's method
+// improves the last digits of the axis, but not the proof.
 inline constexpr double kCurvedFacetGap = 1e-9;
 
-// Where all ways out are equally long (concentric balls, cylinders) the bounds of EPA close with the
-// number of facets only. After so many expansions of a curved pair the bounds reached are the answer.
+// If all translations out are equally long (concentric balls, cylinders), the bounds of EPA close only with the number
+// of facets. After this many expansions of a curved pair, the current bounds are the answer.
 inline constexpr int kCurvedExpansions = 512;
 
-// Newton steps on the axis of a curved pair, and the turn of its forward differences (radians), which
-// is the square root of the roundoff. From an axis good to 1e-4 two steps reach the last digit.
+// Newton steps on the axis of a curved pair, and the angle of its forward differences (radians), which is the square
+// root of the roundoff. If the axis is accurate to 1e-4, two steps reach the last digit.
 inline constexpr int kPolishSteps = 4;
 inline constexpr double kPolishAngle = 1e-8;
 
-// Two segments with sin^2 of their angle below this count as parallel where their common points are sought.
+// Two segments count as parallel if sin^2 of their angle is below this, when their common points are computed.
 inline constexpr double kParallelSquared = 1e-12;
 
-// Arcs on the Gauss map whose end points come this close to the other arc's plane may or may not
-// cross: their axis is projected in full instead of trusted.
+// If an end point of an arc on the Gauss map is this close to the other arc's plane, the arcs may or may not cross.
+// Both shapes are then projected completely on their axis.
 inline constexpr double kArcUncertain = 1e-7;
 
-// An axis rounded by more than this (radians) does not serve as a filter: its exact sign is taken.
+// An axis with a rounding error above this (radians) is no filter, and its exact sign is computed.
 inline constexpr double kTrustedAxis = 1e-6;
 
-// Penetrations that SAT on hulls finds below this fraction of the scale are confirmed by exact signs, because
-// the stored normal of a sliver face carries more error than a support value does.
+// If SAT on hulls finds a penetration below this fraction of the scale, exact signs confirm it, because the stored
+// normal of a sliver face has a larger error than a support value.
 inline constexpr double kShallow = 1e-7;
 
-// Where the proven bounds of two polytopes are further apart than this fraction of the scale, or the rounding
-// of their placement is more, the exact stage takes over. On facets of ordinary shape float64 leaves 1e-14 to 1e-13; slivers cost it more.
+// The exact stage takes over if the proven bounds of two polytopes differ by more than this fraction of the scale, or
+// if the rounding of their placement is larger. On well-shaped facets, float64 bounds differ by 1e-14 to 1e-13; on
+// slivers by more.
 inline constexpr double kWidestInterval = 1e-12;
 
 // A short chain of operations on coordinates (a rotation, a translation, a scaling about a point: fewer than 16
@@ -73,13 +74,13 @@ inline double chain_rounding(double largest_coordinate) {
   return kChainRoundoffs * kUnitRoundoff * largest_coordinate;
 }
 
-// Columns of a transform whose cosines are below this count as perpendicular: the box that it carries is
-// then padded by the same fraction of its size, which covers what the cosines neglect.
+// Columns of a transform count as perpendicular if their cosines are below this. A transformed box is then padded by
+// the same fraction of its size, which covers the neglected cosines.
 inline constexpr double kOrthogonality = 1e-12;
 
-// How far the rounding of a pose moves a point at most, as a fraction of the largest of its coordinates and
-// those of the translation: 3 products, 2 sums and the translation make 6 roundings a coordinate, times
-// sqrt(3) for the vector.
+// The largest distance that the rounding of a pose moves a point, as a fraction of the largest coordinate of the point
+// and the translation. 3 products, 2 sums and the translation make 6 roundings for each coordinate, times sqrt(3) for
+// the vector.
 inline constexpr double kPlacementError = 11 * kUnitRoundoff;
 
 // Vertices this close to a support plane, as a fraction of the scale, belong to the contact feature.

@@ -25,7 +25,7 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline double norm_squared(Vec3 a) { return dot(a, a); }
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
-// Plain comparisons: one instruction each, where fmax() is a call.
+// Plain comparisons are one instruction each, while fmax() is a function call.
 inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }
 inline double max_abs(Vec3 a) { return larger(std::fabs(a.x), larger(std::fabs(a.y), std::fabs(a.z))); }
@@ -33,7 +33,7 @@ inline double max_abs(Vec3 a) { return larger(std::fabs(a.x), larger(std::fabs(a
 inline bool coordinates_less(Vec3 a, Vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-// A unit vector across `along`, by the coordinate axis least aligned with it.
+// A unit vector perpendicular to `along`, from the coordinate axis that is least aligned with it.
 inline Vec3 any_perpendicular(Vec3 along) {
   const double x = std::fabs(along.x), y = std::fabs(along.y), z = std::fabs(along.z);
   const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -65,14 +65,14 @@ struct Aabb {
   Vec3 max{-INFINITY, -INFINITY, -INFINITY};
 
   void include(Vec3 p) { include(Aabb{p, p}); }
-  void include(const Aabb& box) {  // an empty one changes nothing
+  void include(const Aabb& box) {  // an empty box changes nothing
     const Vec3 &low = box.min, &high = box.max;
     min = {low.x < min.x ? low.x : min.x, low.y < min.y ? low.y : min.y, low.z < min.z ? low.z : min.z};
     max = {high.x > max.x ? high.x : max.x, high.y > max.y ? high.y : max.y, high.z > max.z ? high.z : max.z};
   }
 };
 
-// Closed boxes: boxes that share only a face, edge or corner do meet.
+// Closed boxes: boxes that share only a face, edge or corner meet.
 inline bool meet(const Aabb& a, const Aabb& b) {
   return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
          a.min.z <= b.max.z && b.min.z <= a.max.z;

@@ -1,5 +1,5 @@
-// The work of all queries on this thread so far, in steps of about a nanosecond. Steps are counted where the work is
-// done, also in exact arithmetic, and not by a clock: the same input has the same count on every machine.
+// The work of all queries on this thread so far, in steps of about a nanosecond. The code counts steps, also in exact
+// arithmetic, and does not use a clock. The same input therefore has the same count on every machine.
 #pragma once
 
 #include <cstdint>

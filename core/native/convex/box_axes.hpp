@@ -1,17 +1,15 @@
 // Boxes: 3 + 3 face normals and 9 edge pairs, three axes at a time. Deviations from the customary code:
 //
-// - No constant is added to |R| and no face is preferred beyond rounding: the least overlap is the least
-//   overlap.
-// - Edge axes count however short their cross product e x b is. Along it, the reach of B's other edges
-//   b' is taken from the minors (e x b) . b', not from entries of R that equal them for a true rotation:
-//   every term is then as small as the cross product, and dividing by its length costs no digits. The
-//   result is exact to rounding for the box whose edges are the columns of R as computed, and that one lies
-//   within rounding of B. Only edges whose squared cross product float64 hardly holds are parallel, to far less
-//   than rounding, and span no facet.
-// - Nothing branches on coordinates: which axis is least is anybody's guess, and a wrong guess of the
-//   processor costs as much as all nine edge pairs.
+// - No constant is added to |R|, and faces are preferred only within rounding. The result is the true least overlap.
+// - Edge axes count even if their cross product e x b is short. The reach of B's other edges b' along it comes from the
+//   minors (e x b) . b', and not from the entries of R that equal them for a true rotation. Every term is then as small
+//   as the cross product, so dividing by its length loses no digits. The result is exact up to rounding for the box
+//   whose edges are the computed columns of R, and this box is within rounding of B. Edges count as parallel only if
+//   float64 can hardly hold their squared cross product. They are then parallel far within rounding and span no facet.
+// - No branch depends on coordinates. The processor cannot predict which axis is least, and a wrong prediction costs as
+//   much as all nine edge pairs.
 //
-// What is inlined here is compiled for wide registers by those who include it.
+// Files that include this header compile its inlined functions for wide registers.
 #pragma once
 
 #include <bit>
@@ -23,7 +21,7 @@
 
 namespace satcheck {
 
-// Lane k of three is coordinate k, or axis k; lane 3 is 0 where nothing else is said.
+// Lane k of three is coordinate k, or axis k. Lane 3 is 0 unless stated otherwise.
 SATCHECK_INLINE Lanes three(Vec3 v) { return Lanes{v.x, v.y, v.z, 0}; }
 SATCHECK_INLINE Lanes next_lane(Lanes v) { return shuffle<1, 2, 0, 3>(v); }  // lane k takes lane k + 1 of three
 SATCHECK_INLINE Lanes last_lane(Lanes v) { return shuffle<2, 0, 1, 3>(v); }  // lane k takes lane k - 1 of three
@@ -79,8 +77,8 @@ SATCHECK_INLINE PlacedBoxes placed_boxes(const Shape& a, const Pose& pose_a, con
 }
 
 // 15 axes in five triples: the face normals of A, those of B, and the cross products of edge 0, 1 and 2 of A
-// with the three edges of B. Along each, times its length: the centre of B from that of A, and how far the
-// boxes overlap (reach less distance). Lane 3 says nothing.
+// with the three edges of B. Along each axis, times its length: the offset from A's centre to B's, and the overlap of
+// the boxes (reach minus distance). Lane 3 is meaningless.
 struct BoxAxes {
   Lanes distance[5], overlap[5];
   Lanes length_squared[3];  // of the cross products
@@ -110,15 +108,14 @@ SATCHECK_INLINE void measure_edges(const PlacedBoxes& boxes, BoxAxes& axes) {
   }
 }
 
-// Squares of sines that float64 no longer holds to all digits: such edges are parallel, to far less than
-// rounding.
+// Squares of sines that float64 does not hold with all digits. Such edges are parallel far within rounding.
 inline constexpr double kParallelEdges = 1e-200;
 
 struct LeastOverlap {
   double penetration;
-  double lower;           // and no axis has less, rounding of a support value aside
+  double lower;           // no axis has less, up to the rounding of a support value
   int kind;               // 0: a face normal of A; 1: of B; 2: edge of A x edge of B
-  int i, k;               // axis of A, axis of B; of a face normal both are its own
+  int i, k;               // axis of A, axis of B; both the same for a face normal
   Lanes axis, axis_in_b;  // unit, from A to B, in the frame of A and of B
   double inverse_sine;    // of the angle between the edges
 };
@@ -133,7 +130,7 @@ SATCHECK_INLINE LeastOverlap least_overlap(const PlacedBoxes& boxes) {
     of_edges[i] = select(axes.length_squared[i] > all_lanes(kParallelEdges), axes.overlap[2 + i] * inverse_sine[i],
                          all_lanes(INFINITY));
   }
-  // Chosen in memory from here on: no branch, whatever the compiler thinks.
+  // From here on, values are selected by index in memory, so that the compiler makes no branch.
   const Lanes least[3] = {axes.overlap[0], axes.overlap[1], smaller(smaller(of_edges[0], of_edges[1]), of_edges[2])};
   const double of_a = least_of_three(least[0]), of_b = least_of_three(least[1]), of_pair = least_of_three(least[2]);
   const double tie = kVisible * boxes.scale;
@@ -145,7 +142,7 @@ SATCHECK_INLINE LeastOverlap least_overlap(const PlacedBoxes& boxes) {
   best.penetration = by_edges ? of_pair : of_face;
   best.lower = best.penetration - tie;
   const int where = bits_of_three(least[best.kind] == all_lanes(best.penetration));
-  best.k = std::countr_zero(static_cast<unsigned>(where) | 4u);  // within three also where nothing is a number
+  best.k = std::countr_zero(static_cast<unsigned>(where) | 4u);  // below three even if all are nan
   const bool not_0 = of_edges[0][best.k] != best.penetration, not_1 = of_edges[1][best.k] != best.penetration;
   best.i = by_edges ? not_0 + (not_0 & not_1) : best.k;
 

@@ -1,4 +1,4 @@
-// Nothing branches on coordinates up to the end (box_axes.hpp): what the axis decides is looked up.
+// No branch depends on coordinates until the end (box_axes.hpp). Values that depend on the axis are read from tables.
 #include "convex/box_pair.hpp"
 
 #include "convex/box_axes.hpp"
@@ -9,10 +9,10 @@ namespace satcheck {
 
 namespace {
 
-// 1 / sine of the angle of two edges, up to which their crossing is well conditioned.
+// The largest 1 / sine of the angle of two edges for which their crossing is well conditioned.
 constexpr double kCrossing = 1e3;
 
-// The boxes in the order in which they are answered.
+// The boxes in the order in which they are compared.
 struct OrderedBoxes {
   const Shape *a, *b;
   const Pose *pose_a, *pose_b;
@@ -32,7 +32,7 @@ SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
   return proof_noise(scale, *o.a, *o.pose_a, *o.b, *o.pose_b);
 }
 
-// What the axis is, by LeastOverlap::kind; 3: there is none. In the order of A and B as they were given.
+// The feature of the axis, by LeastOverlap::kind; 3: none. A and B are in the given order.
 struct PairFeature {
   Feature feature;
   std::uint32_t index_a, index_b;
@@ -52,7 +52,7 @@ struct ContactPoints {
   bool sole;
 };
 
-// By kind of axis and axis of the box: where witness points have to lie over the face, or within the edge, 0.
+// By kind of axis and axis of the box: 0 if witness points have to lie over the face or within the edge.
 constexpr double kFar = INFINITY;
 constexpr double kSlackA[3][3][4] = {{{kFar, 0, 0, kFar}, {0, kFar, 0, kFar}, {0, 0, kFar, kFar}},
                                      {{kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}},
@@ -61,17 +61,17 @@ constexpr double kSlackB[3][3][4] = {{{kFar, kFar, kFar, kFar}, {kFar, kFar, kFa
                                      {{kFar, 0, 0, kFar}, {0, kFar, 0, kFar}, {0, 0, kFar, kFar}},
                                      {{0, kFar, kFar, kFar}, {kFar, 0, kFar, kFar}, {kFar, kFar, 0, kFar}}};
 
-// A corner of B against a face of A, a corner of A against a face of B, or the crossing of an edge of
-// each seen along the axis.
+// The contact of a corner of B with a face of A, of a corner of A with a face of B, or of two edges that cross, seen
+// along the axis.
 SATCHECK_INLINE ContactPoints contact_points(const PlacedBoxes& boxes, const LeastOverlap& least) {
   const Lanes n = least.axis, against = -least.axis_in_b, way = n * least.penetration;
   const bool edges = least.kind == 2;
-  // Of edges the middles, which are 0 along them.
+  // For edges, their middles, which are 0 along the edge.
   constexpr double keeps[4][4] = {{0, 1, 1, 0}, {1, 0, 1, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
   const Lanes of_a = with_sign_of(n, boxes.half_a) * load_lanes(keeps[edges ? least.i : 3]);
   const Lanes in_b = with_sign_of(against, boxes.half_b) * load_lanes(keeps[edges ? least.k : 3]);
   const Lanes of_b = combine(boxes.a_in_b.row, in_b) + boxes.offset;
-  // How far along A's edge the crossing lies: by what of it is across B's.
+  // The position of the crossing along A's edge, from its component perpendicular to B's edge.
   const Lanes e = unit_lane(least.i), across_f = e - boxes.a_in_b.row[least.k] * boxes.b_in_a.row[least.i][least.k];
   const Lanes apart = across_f * (of_b - of_a + way);
   const double s = (apart[0] + apart[1] + apart[2]) * (least.inverse_sine * least.inverse_sine);
@@ -81,7 +81,7 @@ SATCHECK_INLINE ContactPoints contact_points(const PlacedBoxes& boxes, const Lea
   const Lanes placed_in_b = combine(boxes.b_in_a.row, on_b - boxes.offset);
   const LaneMask beside = (abs(on_a) > boxes.half_a + load_lanes(kSlackA[least.kind][least.i])) |
                           (abs(placed_in_b) > boxes.half_b + load_lanes(kSlackB[least.kind][least.k]));
-  // A face of the other box sees one corner.
+  // For a face, a single corner of the other box is nearest.
   constexpr double least_slope[3][2] = {{0, kSameFeature}, {kSameFeature, 0}, {0, 0}};
   const LaneMask level = (abs(n) < all_lanes(least_slope[least.kind][0])) | (abs(against) < all_lanes(least_slope[least.kind][1]));
   const bool crosses = !edges | (least.inverse_sine < kCrossing), none = bits_of_three(beside | level) == 0;
@@ -109,13 +109,14 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
   measure_faces(boxes, axes);
   const double noise = proof_noise(boxes.scale, ordered);
   const Lanes some = all_lanes(noise), none = all_lanes(-noise), limit = all_lanes(noise * noise);
-  // Four bits a triple of axes: where the boxes are apart by more than noise, and where they may be.
+  // Four bits for each triple of axes: axes along which the boxes are apart by more than noise, and axes along which
+  // they may be.
   int apart = bits_of_three(axes.overlap[0] < none) | bits_of_three(axes.overlap[1] < none) << 4;
   LaneMask open = (axes.overlap[0] < some) | (axes.overlap[1] < some);
   const bool by_face = apart != 0;
   if (!by_face) measure_edges(boxes, axes);
   for (int i = 0; i < 3 && !by_face; ++i) {
-    // Against noise times the length, squared: of parallel edges that is 0 against 0, and excludes no axis.
+    // Compared with noise times the length, squared. For parallel edges both sides are 0, which excludes no axis.
     const Lanes overlap = signed_square(axes.overlap[2 + i]), short_of = limit * axes.length_squared[i];
     apart |= bits_of_three(overlap < -short_of) << (8 + 4 * i);
     open = open | (overlap < short_of);

@@ -6,9 +6,9 @@
 
 namespace satcheck {
 
-// The axis of least overlap, and the witness points where the contact has but one place: a corner against a
-// face, or an edge across another. `sole` is false where edges or faces lie along each other, or rounding
-// puts the points beside the face or the edge.
+// The axis of least overlap, and the witness points if the contact is a single point: a corner on a face, or an edge
+// across another. `sole` is false if edges or faces are parallel, or if rounding puts the points outside of the face or
+// the edge.
 struct BoxContact {
   SatResult sat;
   Witnesses witness;
@@ -16,8 +16,8 @@ struct BoxContact {
 };
 BoxContact contact_of_boxes(const MinkowskiDifference& difference);
 
-// check_pair() of two boxes, in either order, as far as float64 proves its answer: a depth, of an overlap
-// in one place only. The outcome is `undecided` where that is left to the other stages.
+// check_pair() of two boxes, in either order, if float64 proves the answer. A depth is given only for an overlap with a
+// single contact point. The outcome is `undecided` if other stages have to decide.
 PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 

@@ -16,20 +16,20 @@ namespace satcheck {
 
 struct ClosestPoint {
   Vec3 v;
-  double distance_squared = INFINITY;  // INFINITY: rounding left nothing
-  unsigned carriers = 0;               // bit i: point i carries v. None, at distance 0: the origin lies inside
-  double share[4] = {0, 0, 0, 0};      // of the carriers: proportional to their weights
+  double distance_squared = INFINITY;  // INFINITY: no candidate survived rounding
+  unsigned carriers = 0;               // bit i: point i carries v. None, at distance 0: origin inside
+  double share[4] = {0, 0, 0, 0};      // proportional to the weights of the carriers
 
   bool encloses() const { return distance_squared == 0 && carriers == 0; }
 };
 
-// Edges and faces of a tetrahedron by their corners, and of a face the edges opposite to its corners.
+// Edges and faces of a tetrahedron by their corners, and for each face the edges opposite to its corners.
 inline constexpr unsigned kEdge[6][2] = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}};
 inline constexpr unsigned kFace[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
 inline constexpr unsigned kOpposite[4][3] = {{2, 1, 0}, {4, 3, 0}, {5, 3, 1}, {5, 4, 2}};
 
-// Up to four points, and the best that was found on them. Edges and faces are known when this is compiled, so that
-// nothing waits for an index.
+// Up to four points, and the closest point found on them. Edges and faces are compile-time constants, so that no index
+// has to be loaded.
 class ClosestPointSearch {
  public:
   SATCHECK_INLINE ClosestPointSearch(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) : point_{a, b, c, d} {}
@@ -51,11 +51,11 @@ class ClosestPointSearch {
     const double length_squared = norm_squared(e), along = -dot(p, e);
     if (!(along > 0)) return offer_vertex<i>();
     if (!(along < length_squared)) return offer_vertex<j>();
-    // The foot is measured from the nearer end, where the subtraction loses least.
+    // The foot is measured from the nearer end, where cancellation is least.
     const double t = along / length_squared;
     Vec3 v = t <= 0.5 ? p + e * t : q - e * (dot(q, e) / length_squared);
-    // Cancellation leaves a component along the edge; without it all of the edge has one support value,
-    // and the duality gap can close however small v is.
+    // Cancellation leaves a component along the edge. Without this component, the whole edge has one support value, and
+    // the duality gap can close even if v is very small.
     v = v - e * (dot(v, e) / length_squared);
     const double distance_squared = norm_squared(v);
     if (!(distance_squared < best_.distance_squared)) return;
@@ -66,7 +66,7 @@ class ClosestPointSearch {
     best_.share[j] = t;
   }
 
-  // Its inside, or those of its edges that are in `edges`.
+  // Tries the inside of the face, else those of its edges that are in `edges`.
   template <unsigned face, unsigned edges>
   SATCHECK_INLINE void offer_face() {
     constexpr unsigned i = kFace[face][0], j = kFace[face][1], k = kFace[face][2];
@@ -75,7 +75,7 @@ class ClosestPointSearch {
     const double area_squared = norm_squared(n);
     const double wp = dot(n, cross(q, r)), wq = dot(n, cross(r, p)), wr = dot(n, cross(p, q));
     if (wp > 0 && wq > 0 && wr > 0) {
-      // Along the normal, not as a weighted sum: the direction stays good however close the plane is.
+      // Along the normal and not as a weighted sum, so that the direction is accurate even if the plane is very close.
       const Vec3 v = n * (dot(n, p) / area_squared);
       const double distance_squared = norm_squared(v);
       if (!(distance_squared < best_.distance_squared)) return;
@@ -92,7 +92,7 @@ class ClosestPointSearch {
     if ((edges >> kOpposite[face][2] & 1) && !(wr > 0)) offer_edge<kOpposite[face][2]>();
   }
 
-  // Those of the faces, given as bits.
+  // Tries the faces given as bits.
   template <unsigned edges>
   SATCHECK_INLINE void offer_faces(unsigned faces) {
     if (faces & 1) offer_face<0, edges>();
@@ -108,11 +108,12 @@ class ClosestPointSearch {
   ClosestPoint best_;
 };
 
-// Signed volumes of the origin with each face of a tetrahedron: all of the sign of the whole when it is inside.
+// Signed volumes of the origin with each face of a tetrahedron. If the origin is inside, all have the sign of the whole
+// volume.
 struct Volumes {
   double opposite[4];  // of the face opposite to each vertex
   double whole() const { return opposite[0] + opposite[1] + opposite[2] + opposite[3]; }
-  // The faces that have the origin on their outer side (or on their plane), as bits, by kFace.
+  // Faces with the origin on their outer side or on their plane, as bits, by kFace.
   SATCHECK_INLINE unsigned outside() const {
     const double w = whole();
     return unsigned{!(opposite[3] * w > 0)} | unsigned{!(opposite[2] * w > 0)} << 1 | unsigned{!(opposite[1] * w > 0)} << 2 |
@@ -124,8 +125,8 @@ SATCHECK_INLINE Volumes volumes_of_origin(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return {{dot(b, cross(d, c)), dot(a, cross(c, d)), dot(a, cross(d, b)), dot(a, cross(b, c))}};
 }
 
-// Of the first `count` points. `last_is_needed`: without the last of them there is no closer point, so what the
-// others span is left out.
+// The closest point on the first `count` points. `last_is_needed`: the closest point needs the last point, so hulls of
+// the other points are skipped.
 template <bool last_is_needed>
 SATCHECK_INLINE ClosestPoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int count) {
   ClosestPointSearch search(a, b, c, d);
@@ -147,12 +148,12 @@ SATCHECK_INLINE ClosestPoint closest_point(const Vec3& a, const Vec3& b, const V
   return search.best();
 }
 
-// A ball around the origin that a tetrahedron holds: a lower bound of its radius, without the rounding of the
-// vertices. 0 or less when the origin may lie outside.
+// A lower bound of the radius of the largest ball around the origin in a tetrahedron, apart from the rounding of the
+// vertices. 0 or less if the origin may lie outside.
 //
-// The height of the origin over a face is its volume over twice the area, both times 6; twice the area is at most
-// (2 r)^2 where all vertices lie within r. A volume of 3 factors up to r carries at most 12 roundoffs of sqrt(3) r^3
-// for its terms.
+// The height of the origin over a face is 6 times the volume divided by twice the area. Twice the area is at most (2
+// r)^2 if all vertices lie within r. A volume is a sum of products of 3 factors up to r, so its error is at most 12
+// roundoffs of sqrt(3) r^3.
 SATCHECK_INLINE double enclosed_radius(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Volumes v = volumes_of_origin(a, b, c, d);
   const double sign = v.opposite[0] > 0 ? 1 : -1;

@@ -1,6 +1,6 @@
-// Clipping: I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping" (1974), on the two support
-// features seen along the axis. Their common region is never empty in exact arithmetic when the axis
-// is a facet normal of the Minkowski difference whose facet holds the origin's projection.
+// Clipping: I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping" (1974), applied to the two support features,
+// seen along the axis. Let the axis be the normal of a facet of the Minkowski difference that contains the projection
+// of the origin. The features then have a common region in exact arithmetic.
 
 #include "convex/contact_region.hpp"
 
@@ -87,7 +87,7 @@ Vec2 closest_on_segment(Vec2 p, Vec2 a, Vec2 b) {
   return {a.x + t * e.x, a.y + t * e.y};
 }
 
-// The point where two segments cross or come closest; collinear ones give the middle of their overlap.
+// The point where two segments cross or are closest. For collinear segments, the middle of their overlap.
 Vec2 crossing(const Polygon& s, const Polygon& t) {
   const Vec2 d = s[1] - s[0], e = t[1] - t[0];
   const double area = cross2(d, e);
@@ -112,7 +112,7 @@ Vec2 common_point(const Polygon& a, const Polygon& b) {
   if (a.size() == 2 && b.size() == 2) return crossing(a, b);
   const Polygon common = a.size() >= 3 ? clip(b, a) : clip(a, b);
   if (!common.empty()) return middle(common);
-  // Features that meet in a point only may miss it by rounding: the nearest corner is that point.
+  // Features that meet in a single point may miss each other by rounding. The nearest corner is then that point.
   const Polygon& window = a.size() >= 3 ? a : b;
   const Polygon& other = a.size() >= 3 ? b : a;
   Vec2 best = other[0];

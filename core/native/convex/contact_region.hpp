@@ -1,4 +1,4 @@
-// Witness points of an overlap along a known axis: the middle of the contact region.
+// Witness points of an overlap along a given axis: the middle of the contact region.
 #pragma once
 
 #include "convex/minkowski.hpp"

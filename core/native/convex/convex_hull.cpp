@@ -32,8 +32,8 @@ DistinctPoints distinct(const std::vector<Vec3>& points) {
   return result;
 }
 
-// The index that maximises `score` among those that `accept`s, the exact test that decides: the
-// score is rounded and only steers towards a well-shaped choice. Size of the set when none.
+// The index with the largest `score` among those that `accept` allows; the size of the set if there is none. `accept`
+// is exact. The score is rounded and only prefers well-shaped choices.
 template <class Score, class Accept>
 std::uint32_t best(const std::vector<Vec3>& points, Score score, Accept accept) {
   const auto count = static_cast<std::uint32_t>(points.size());

@@ -1,11 +1,10 @@
 // Newton's method on the support function h of A - B over the unit sphere.
 //
-// h is convex, homogeneous of degree 1, and its gradient is the support point w(n) (R. T. Rockafellar,
-// "Convex Analysis", 1970, section 25). At (n + u) / |n + u|, u across n, the value has the gradient
-// of the tangential part of w and the Hessian dw/du - h. The Hessian is taken by forward
-// differences; a step that does not lower the value ends the search, so creases of h do no harm. The
-// creases that matter are known, flat faces and the straight lines of a mantle: their normals are
-// candidates.
+// h is convex and homogeneous of degree 1, and its gradient is the support point w(n) (R. T. Rockafellar, "Convex
+// Analysis", 1970, section 25). Let u be perpendicular to n. At (n + u) / |n + u|, the gradient of the value is the
+// tangential part of w, and its Hessian is dw/du - h. The Hessian is approximated by forward differences. A step that
+// does not lower the value ends the search, so creases of h do no harm. The creases that matter come from flat faces
+// and from the straight lines of a mantle. Their normals are candidates.
 
 #include "convex/curved_axis.hpp"
 
@@ -16,7 +15,7 @@ namespace satcheck {
 namespace {
 
 struct Tangent {
-  Vec3 u, v;  // unit, across the axis and each other
+  Vec3 u, v;  // unit, perpendicular to the axis and each other
 };
 
 Tangent tangent_plane(Vec3 axis) {
@@ -30,7 +29,7 @@ SATCHECK_WIDE AxisSupport support_along(const MinkowskiDifference& m, Vec3 direc
   return {axis, point, dot(axis, point.w)};
 }
 
-// The outward normal of the flat face that looks most along `direction`; (0, 0, 0) without any.
+// The outward normal of the flat face that points most along `direction`; (0, 0, 0) if there is none.
 Vec3 nearest_flat_normal(const Shape& shape, Vec3 direction) {
   if (shape.kind == ShapeKind::cylinder) return {0, 0, direction.z >= 0 ? 1.0 : -1.0};
   if (shape.kind == ShapeKind::cone) return {0, 0, -1};
@@ -44,13 +43,13 @@ Vec3 nearest_flat_normal(const Shape& shape, Vec3 direction) {
   return nearest;
 }
 
-// The normal along a straight line of the mantle, at the azimuth of `direction`; (0, 0, 0) without any.
+// The normal along a straight line of the mantle, at the azimuth of `direction`; (0, 0, 0) if there is none.
 Vec3 nearest_mantle_normal(const Shape& shape, Vec3 direction) {
   const double across = std::hypot(direction.x, direction.y);
   if (across == 0) return {0, 0, 0};
   if (shape.kind == ShapeKind::cylinder) return {direction.x, direction.y, 0};
   if (shape.kind != ShapeKind::cone) return {0, 0, 0};
-  // The slant runs radius out and two half heights down; its normal stands square on that.
+  // The slant goes outward by the radius and down by two half heights. The normal is perpendicular to it.
   const double out = 2 * shape.size.z / across;
   return {direction.x * out, direction.y * out, shape.size.x};
 }
@@ -83,7 +82,7 @@ AxisSupport least_support_near(const MinkowskiDifference& m, Vec3 axis) {
     const double uu = dot(along_u, t.u) - best.value, vv = dot(along_v, t.v) - best.value;
     const double uv = (dot(along_u, t.v) + dot(along_v, t.u)) / 2;
     const double gu = dot(w, t.u), gv = dot(w, t.v), determinant = uu * vv - uv * uv;
-    if (!(determinant > 0) || !(uu > 0)) break;  // no bowl around here
+    if (!(determinant > 0) || !(uu > 0)) break;  // the value has no minimum nearby
     const Vec3 turn = t.u * ((uv * gv - vv * gu) / determinant) + t.v * ((uv * gu - uu * gv) / determinant);
     AxisSupport next = support_along(m, best.axis + turn);
     offer_crease(m, nearest_mantle_normal, next.axis, next);

@@ -5,8 +5,8 @@
 //   outside, on or inside the first tetrahedron: aligned and concentric shapes need no special case.
 // - min over faces <= signed penetration <= support value along any axis. The loop ends when the two
 //   meet, or on a negative support value, which is a separating axis.
-// - A face counts as visible only beyond rounding noise. When rounding breaks the polytope all the
-//   same, the loop says so (`stalled`) and the caller takes another way.
+// - A face counts as visible only beyond rounding noise. If rounding still breaks the polytope, the loop returns
+//   `stalled`, and the caller uses another method.
 
 #include "convex/epa.hpp"
 
@@ -19,12 +19,12 @@ namespace satcheck {
 
 namespace {
 
-// The points of the seed, as long as each adds a dimension beyond noise, and support points up to four. Fewer
-// where A - B is flat; `flat_normal` is set then.
+// The points of the seed that add a dimension beyond noise, and further support points, up to four in all. If A - B is
+// flat, there are fewer, and `flat_normal` is set.
 Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec3& flat_normal) {
   const double thin = kFlat * m.scale;
   Simplex s;
-  // How far a point lies from what the points of s span.
+  // The distance of a point from the affine hull of s.
   const auto height = [&](Vec3 w) {
     const Vec3 p = s.vertex[0].w, e = s.vertex[1].w - p;
     if (s.count == 1) return norm(w - p);
@@ -59,7 +59,7 @@ Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec
     const Vec3 e = s.vertex[1].w - p, unit = e * (1 / norm(e));
     const Vec3 across = any_perpendicular(unit), third = cross(unit, across);
     if (!add_farthest({across, -across, third, -third})) {
-      const Vec3 off = p - unit * dot(unit, p);  // a segment: away from the origin, or any way across
+      const Vec3 off = p - unit * dot(unit, p);  // a segment: away from the origin, or any perpendicular
       flat_normal = norm(off) > thin ? off * (1 / norm(off)) : across;
       return s;
     }
@@ -72,8 +72,8 @@ Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec
   return s;
 }
 
-// An edge of A against an edge of B makes a parallelogram of A - B, of which a face is half. Turns such a face into
-// the other half. False for any other face.
+// An edge of A and an edge of B form a parallelogram of A - B, and a face is half of it. Replaces such a face by the
+// other half. Returns false for any other face.
 bool turn_to_other_half(Simplex& face) {
   for (int corner = 0; corner < 3; ++corner) {
     SupportPoint& c = face.vertex[corner];
@@ -90,7 +90,7 @@ bool turn_to_other_half(Simplex& face) {
   return false;
 }
 
-// The face weighted at the point of it that is closest to `foot`, a point of its plane.
+// Sets the weights of the face to its point closest to `foot`, a point of its plane.
 double weigh(Simplex& face, Vec3 foot) {
   for (SupportPoint& p : face.vertex) p.w = p.w - foot;
   const ClosestPoint closest = closest_point(face);
@@ -111,7 +111,8 @@ Simplex weighted_facet(const ExpandingPolytope& polytope, HalfEdge f) {
   return facet;
 }
 
-// A set without volume: its support value along the normal of its plane is the plane's distance from the origin.
+// For a set without volume: the support value along the normal of its plane is the distance of the plane from the
+// origin.
 void set_flat(EpaResult& result, const MinkowskiDifference& m, Vec3 flat_normal) {
   const double towards = dot(flat_normal, m.support(flat_normal).w);
   const double against = dot(-flat_normal, m.support(-flat_normal).w);
@@ -134,7 +135,7 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
       return result;
     }
     polytope.clear(m);
-    if (!polytope.start(tetrahedron)) {  // a needle: no polytope, but any axis bounds the penetration
+    if (!polytope.start(tetrahedron)) {  // a needle: no polytope, but every axis bounds the penetration
       const Vec3 p = tetrahedron.vertex[0].w;
       const Vec3 n = cross(tetrahedron.vertex[1].w - p, tetrahedron.vertex[2].w - p);
       set_flat(result, m, n * (1 / norm(n)));
@@ -167,14 +168,14 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
       return result;
     }
     if (facet_of_difference) {
-      // On curved shapes the last facets are splinters: what was proven before may be more.
+      // On curved shapes the last facets are slivers, so an earlier bound may be better.
       result.lower = std::max(m.curved ? result.lower : -INFINITY, polytope.least_proven_distance(f));
       result.facet = weighted_facet(polytope, f);
       result.status = EpaResult::Status::depth;
       return result;
     }
-    // A vertex that is there already and still outside a face: rounding has bent the polytope, and
-    // going on could go on for ever. What was proven so far stands.
+    // An existing vertex is outside a face: rounding has bent the polytope, and the loop might never end. The proven
+    // bounds stay valid.
     if (m.curved) {
       result.lower = std::max(result.lower, polytope.least_proven_distance(f));
       result.status = EpaResult::Status::bounded;

@@ -9,11 +9,11 @@ namespace satcheck {
 
 struct EpaResult {
   enum class Status {
-    depth,      // bounds met
-    bounded,    // curved shapes: the bounds hold, but came no closer than they are
+    depth,      // the bounds met
+    bounded,    // curved shapes: the bounds hold, but did not close
     separated,  // an axis of negative support value: the shapes do not overlap
     flat,       // A - B has no volume (both shapes lie in one plane): `axis` is its normal
-    stalled,    // rounding broke the polytope before the bounds met: not an answer
+    stalled,    // rounding broke the polytope before the bounds met: no answer
   };
   Status status = Status::stalled;
   // Signed penetration: min over unit axes n of the support value h(n) of A - B; positive inside.
@@ -23,10 +23,10 @@ struct EpaResult {
   int iterations = 0;
 };
 
-// sign: stop as soon as the bounds agree on it; the facet is not filled in.
+// sign: stop as soon as both bounds have the same sign; the facet is not set.
 enum class EpaGoal { sign, depth };
 
-// `seed` may hold the last simplex of GJK; it saves the first support points.
+// `seed` may be the last simplex of GJK, which saves the first support points.
 EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed, EpaGoal goal);
 
 }  // namespace satcheck

@@ -1,7 +1,7 @@
-// The expanding polytope algorithm of epa.cpp in exact arithmetic, where it needs no tolerance. The
-// facets that the new vertex sees, or whose plane it lies in, give way to a fan around it: no facet of
-// the fan can have area 0, because an edge in line with the new vertex lies between two such facets.
-// Rounded distances and the filter of `side` only save work; exact signs decide.
+// The expanding polytope algorithm of epa.cpp in exact arithmetic, without tolerances. The facets that are visible from
+// the new vertex, or whose plane contains it, are replaced by a fan around it. No facet of the fan has area 0: an edge
+// in line with the new vertex lies between two removed facets. Rounded distances and the filter of `side` only save
+// work. Exact signs decide.
 
 #include "convex/exact_depth.hpp"
 
@@ -19,7 +19,7 @@ struct Facet {
   DyadicVec normal;
   Dyadic height;    // normal . p on the plane
   Vec3 unit;        // rounded
-  double distance;  // of the plane from the origin, signed, within 4 roundoffs of itself
+  double distance;  // of the plane from the origin, signed, relative error within 4 roundoffs
 };
 
 class ExactPolytope {
@@ -43,7 +43,7 @@ class ExactPolytope {
   std::vector<Facet> facets_;
 };
 
-// Is the plane of f nearer than that of g, by signed distances?
+// Whether the plane of f is nearer than the plane of g, by signed distances.
 bool is_nearer(const Facet& f, const Facet& g) {
   const auto signed_square = [](const Facet& facet) {
     const Dyadic square = facet.height * facet.height;
@@ -53,8 +53,8 @@ bool is_nearer(const Facet& f, const Facet& g) {
   return (of_f - signed_square(g) * dot(f.normal, f.normal)).sign() < 0;
 }
 
-// The foot of the origin lies in the facet whose plane is nearest, and in no other: so rounded distances
-// only leave few to be compared.
+// The foot of the origin lies in the facet with the nearest plane. Rounded distances leave only few facets to be
+// compared exactly.
 const Facet& ExactPolytope::nearest() const {
   const Facet* best = &*std::min_element(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
     return f.distance < g.distance;
@@ -66,7 +66,7 @@ const Facet& ExactPolytope::nearest() const {
   return *best;
 }
 
-// Takes the point as a corner of the first tetrahedron when it adds a dimension.
+// Adds the point to the first tetrahedron if it adds a dimension.
 void ExactPolytope::offer(const ExactSupport& p) {
   const auto edge = [&](std::size_t i) { return vertices_[i].w - vertices_[0].w; };
   if (vertices_.size() == 4) return;
@@ -86,7 +86,7 @@ void ExactPolytope::start() {
       offer(difference_.support(DyadicVec(axis * sign)));
     }
   }
-  // These span A - B from its first vertex, whatever its shape.
+  // These directions span A - B from its first vertex, whatever its shape.
   const auto corner = vertices_.front();
   for (std::uint32_t i = 0; i < difference_.vertices_a().size(); ++i) offer(difference_.at(i, corner.b));
   for (std::uint32_t i = 0; i < difference_.vertices_b().size(); ++i) offer(difference_.at(corner.a, i));
@@ -132,7 +132,7 @@ void ExactPolytope::expand(const ExactSupport& w) {
 
 ExactFigure ExactPolytope::figure(const Facet& nearest) const {
   ExactFigure figure = rooted(nearest.height * nearest.height, dot(nearest.normal, nearest.normal));
-  // The normal is rounded: along it the way out is a little longer. `upper` is long enough for it.
+  // The normal is rounded, so the translation along it has to be a little longer. `upper` is long enough.
   figure.normal = nearest.unit;
   const DyadicVec normal(figure.normal);
   const double along = rounded_ratio(dot(normal, difference_.support(normal).w), dot(normal, normal));
@@ -153,7 +153,8 @@ ExactFigure ExactPolytope::figure(const Facet& nearest) const {
   return figure;
 }
 
-// Expands the polytope up to the facet that the whole difference lies behind: the depth is its distance.
+// Expands the polytope until the whole difference lies behind the nearest facet. The depth is the distance of that
+// facet.
 const Facet& expand_fully(ExactPolytope& polytope, const ExactDifference& difference) {
   for (;;) {
     const Facet& nearest = polytope.nearest();

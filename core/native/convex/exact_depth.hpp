@@ -8,7 +8,7 @@ namespace satcheck {
 // A and B must have a common interior.
 ExactFigure exact_depth(const ExactDifference& difference);
 
-// Sign of the depth - length, of the same.
+// The sign of depth - length, for the same depth.
 int compare_depth(const ExactDifference& difference, const Dyadic& length);
 
 }  // namespace satcheck

@@ -53,8 +53,8 @@ std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const D
     highest = std::fmax(highest, height[i]);
     extent = std::fmax(extent, max_abs(p));
   }
-  // Per height: 12 roundoffs of the unit vector, 1 of the point, 3 of the dot product, times sqrt(3) for
-  // three terms up to the extent: below 36. Two heights compare to twice that.
+  // The error of a height: 12 roundoffs of the unit vector, 1 of the point, 3 of the dot product, times sqrt(3) for
+  // three terms up to the extent: below 36. The difference of two heights has twice that error.
   const double slack = 72 * kUnitRoundoff * extent;
   std::uint32_t best = 0;
   bool has_best = false;
@@ -84,7 +84,7 @@ void place_witnesses(ExactFigure& figure, const ExactDifference& difference,
 }
 
 ExactFigure rooted(const Dyadic& numerator, const Dyadic& denominator) {
-  // The ratio is within 2 ulp, 4 roundoffs; the root halves that and adds one of its own.
+  // The ratio has an error of 2 ulp, 4 roundoffs. The root halves it and adds one roundoff.
   constexpr double kRootError = 4 * kUnitRoundoff;
   // The square of a very short length underflows.
   const double square = rounded_ratio(numerator, denominator);

@@ -1,5 +1,5 @@
-// The Minkowski difference A - B of two vertex sets without rounding: the support points of an exact
-// direction. Float64 picks the few vertices that can be farthest, exact products decide among them.
+// The Minkowski difference A - B of two vertex sets without rounding: support points for exact directions. Float64
+// selects the few vertices that can be farthest, and exact products decide among them.
 #pragma once
 
 #include <vector>
@@ -25,14 +25,14 @@ DyadicVec operator*(const DyadicVec& a, const Dyadic& s);
 Dyadic dot(const DyadicVec& a, const DyadicVec& b);
 DyadicVec cross(const DyadicVec& a, const DyadicVec& b);
 
-// The vector over its length, each coordinate within 12 roundoffs of itself. It must not be 0.
+// The vector divided by its length; each coordinate has a relative error within 12 roundoffs. The vector must not be 0.
 Vec3 rounded_unit(const DyadicVec& v);
 
 // A vertex of A - B.
 struct ExactSupport {
   std::uint32_t a = 0, b = 0;  // vertices of A and B
   DyadicVec w;                 // a - b
-  Vec3 rounded;                // each coordinate within a roundoff of itself
+  Vec3 rounded;                // each coordinate with a relative error of one roundoff
 
   bool operator==(const ExactSupport& other) const { return a == other.a && b == other.b; }
 };
@@ -43,7 +43,7 @@ class ExactDifference {
   ExactDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
   ExactSupport at(std::uint32_t a, std::uint32_t b) const;
-  // The vertex farthest along an exact direction, not 0.
+  // The vertex farthest along an exact direction, which is not 0.
   ExactSupport support(const DyadicVec& direction) const;
 
   const std::vector<Vec3>& vertices_a() const { return a_; }
@@ -66,11 +66,11 @@ struct ExactFigure {
   Vec3 witness_a, witness_b;
 };
 
-// The root of numerator / denominator, both positive, as the three numbers of a figure.
+// The square root of numerator / denominator, both positive, as a figure: value and bounds.
 ExactFigure rooted(const Dyadic& numerator, const Dyadic& denominator);
 
-// Sets the witness points: a point of difference vertices by its weights, all >= 0, not all 0, taken to the
-// vertices of A and of B and rounded once.
+// Sets the witness points from a point of A - B. The point is a weighted mean of difference vertices, with weights >= 0
+// that are not all 0. The same weights on the vertices of A and of B give the witness points, each rounded once.
 void place_witnesses(ExactFigure& figure, const ExactDifference& difference,
                      const std::vector<ExactSupport>& carriers, const std::vector<Dyadic>& weights);
 

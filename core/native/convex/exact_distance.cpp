@@ -1,7 +1,7 @@
-// P. Wolfe, "Finding the Nearest Point in a Polytope" (1976), in exact arithmetic: like GJK it comes
-// nearer with every support point, and it ends at one that is no farther along, without a tolerance. The
-// nearest point of a simplex is found by its optimality alone: the point of an affine hull with
-// positive weights that no other vertex improves on.
+// P. Wolfe, "Finding the Nearest Point in a Polytope" (1976), in exact arithmetic. Like GJK it comes nearer with every
+// support point. It ends without a tolerance, when a support point is no farther along the direction. The nearest point
+// of a simplex is found by its optimality: it is a point of an affine hull with positive weights, and no other vertex
+// improves it.
 
 #include "convex/exact_distance.hpp"
 
@@ -18,7 +18,7 @@ struct Nearest {
   Dyadic sum;
 };
 
-// Unnormalised weights of the origin's foot on the affine hull of one to three points.
+// Weights, not normalised, of the origin's foot on the affine hull of one to three points.
 std::vector<Dyadic> weights_of(const std::vector<ExactSupport>& carriers) {
   const DyadicVec& p = carriers[0].w;
   if (carriers.size() == 1) return {Dyadic(1)};
@@ -29,7 +29,7 @@ std::vector<Dyadic> weights_of(const std::vector<ExactSupport>& carriers) {
   return {dot(n, cross(q, r)), dot(n, cross(r, p)), dot(n, cross(p, q))};
 }
 
-// The foot on the affine hull of the carriers, if it lies inside them and nearer than all of `simplex`.
+// The foot on the affine hull of the carriers, if it lies inside their hull and no vertex of `simplex` improves it.
 std::optional<Nearest> optimum(std::vector<ExactSupport> carriers, const std::vector<ExactSupport>& simplex) {
   Nearest nearest;
   nearest.weights = weights_of(carriers);
@@ -46,7 +46,7 @@ std::optional<Nearest> optimum(std::vector<ExactSupport> carriers, const std::ve
   return nearest;
 }
 
-// The nearest point of a simplex that does not hold the origin: one of its vertices, edges or faces has it.
+// The nearest point of a simplex that does not contain the origin. It lies on a vertex, an edge or a face.
 std::optional<Nearest> nearest_in(const std::vector<ExactSupport>& simplex) {
   for (int size = 1; size <= 3; ++size) {
     for (unsigned subset = 1; subset < 1u << simplex.size(); ++subset) {

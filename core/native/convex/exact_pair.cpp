@@ -1,8 +1,7 @@
-// Do the surfaces have a common point? If not, the hulls are apart or nested. If so, the origin lies in
-// A - B, and on its boundary exactly when one of the facets that hold it separates weakly. Such a facet
-// is a face of A, a face of -B, or spanned by an edge of each that meet: a finite question about signs
-// of determinants of coordinate differences. The float64 supports leave only the axes within
-// `slack` of separating to be tested.
+// If the surfaces have no common point, the hulls are apart or nested. Otherwise the origin lies in A - B. It lies on
+// the boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or
+// spanned by two edges that meet, one of each. This is a finite number of signs of determinants of coordinate
+// differences. Float64 support values leave only axes within `slack` of separating to be tested.
 
 #include "convex/exact_pair.hpp"
 
@@ -30,7 +29,7 @@ struct Hull {
   }
 };
 
-// A unit axis in float64 and how far it may be from the true one, in radians.
+// A unit axis in float64, and its largest error in radians.
 struct RoundedAxis {
   Vec3 unit;
   double error = INFINITY;
@@ -39,14 +38,14 @@ struct RoundedAxis {
 RoundedAxis axis_across(Vec3 u, Vec3 v) {
   const Vec3 n = cross(u, v);
   const double length = norm(n);
-  // Each component of the product carries 3 roundings of terms no larger than |u| |v|; the inputs,
-  // differences of coordinates, one more each; times sqrt(3) for the vector: under 12.
+  // Each component of the product has 3 roundings of terms up to |u| |v|. The inputs are differences of coordinates
+  // with one more rounding each. Times sqrt(3) for the vector: below 12.
   const double error = 12 * kUnitRoundoff * norm(u) * norm(v) / length;
   if (!(error < kTrustedAxis)) return {};
   return {n * (1 / length), error};
 }
 
-// Three corners of face f that span its plane: the widest triangle of a fan, for the filter's sake.
+// Three corners of face f that span its plane. The widest triangle of a fan is best for the filter.
 Triangle corners_of(const Polytope& p, std::size_t f) {
   const std::uint32_t first = p.face_offset[f], end = p.face_offset[f + 1];
   Triangle best{};
@@ -62,7 +61,7 @@ Triangle corners_of(const Polytope& p, std::size_t f) {
   return best;
 }
 
-// Is all of `other` on or above the plane of a face of `owner`, which lies on or below it?
+// Whether `other` lies completely on or above the plane of a face of `owner`. `owner` lies on or below it.
 bool face_separates(const Polytope& owner, const Triangle& t, const Polytope& other) {
   return std::all_of(other.vertices.begin(), other.vertices.end(), [&](Vec3 p) {
     return orientation(owner.vertices[t[0]], owner.vertices[t[1]], owner.vertices[t[2]], p) >= 0;
@@ -77,7 +76,7 @@ struct Range {
   int min = 1, max = -1;
 };
 
-// Signs of p's sides of the plane through ea parallel to eb.
+// The range of signs of p's vertices relative to the plane through ea parallel to eb.
 Range sides_of(const Polytope& p, Segment ea, Segment eb) {
   Range range;
   for (Vec3 v : p.vertices) {
@@ -88,7 +87,7 @@ Range sides_of(const Polytope& p, Segment ea, Segment eb) {
   return range;
 }
 
-// Are A and B on two sides of the plane through A's edge that is parallel to B's?
+// Whether A and B lie on different sides of the plane through A's edge that is parallel to B's edge.
 bool edges_separate(const Polytope& a, Segment ea, const Polytope& b, Segment eb) {
   const Range ra = sides_of(a, ea, eb);
   if (ra.min < 0 && ra.max > 0) return false;
@@ -133,7 +132,7 @@ class ExactPair {
                  ? Outcome::penetrating
                  : Outcome::separated;
     }
-    // Two flats whose dimensions add up to less than three span no volume between them.
+    // Two flat hulls whose dimensions add up to less than three span no volume.
     if (a_.polytope.dimension + b_.polytope.dimension < 3) return Outcome::touching;
     const bool weakly = some_face_separates(a_, b_, 1) || some_face_separates(b_, a_, -1) || some_edges_separate();
     return weakly ? Outcome::touching : Outcome::penetrating;
@@ -174,8 +173,8 @@ class ExactPair {
     });
   }
 
-  // Can this axis separate, even weakly, once its own error is granted? Vertices that refuted the last
-  // axis are tried first: most axes fall at once.
+  // Whether this axis may separate, even weakly, given its error. Vertices that refuted the last axis are tried first,
+  // because they refute most axes at once.
   bool worth_testing(const RoundedAxis& axis, Vec3 sign_unit) const {
     const double allowed = slack_ + axis.error * 2 * (a_.extent + b_.extent);
     const auto lies_beyond = [&](std::size_t i, std::size_t j) {

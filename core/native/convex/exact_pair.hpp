@@ -5,12 +5,11 @@
 
 namespace satcheck {
 
-// Both are exact hulls in world coordinates. `slack` bounds the rounding error
-// of a float64 support value: only axes within it of separating are tested exactly, all others
-// are known to overlap. Never undecided.
+// Both are exact hulls in world coordinates. `slack` bounds the rounding error of a float64 support value. Only axes
+// within `slack` of separating are tested exactly; along all others the hulls overlap. Never undecided.
 //
-// touching: a common point, and a plane that holds the hulls apart weakly. penetrating: a common point
-// and no such plane, or one hull inside the other. separated: neither.
+// touching: a common point, and a plane that separates the hulls weakly. penetrating: a common point and no such plane,
+// or one hull inside the other. separated: no common point.
 Outcome decide_exactly(Polytope a, Polytope b, double slack);
 
 }  // namespace satcheck

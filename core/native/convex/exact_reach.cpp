@@ -1,7 +1,7 @@
-// Two disjoint convex bodies are nearest at a pair of features: two vertices, a vertex over the inside of
-// an edge or a face, or two edges over the inside of each other. The square of that distance is a quotient
-// of polynomials in the coordinates, so whether it exceeds another square is a sign of integers.
-// Any such pair of points lies in the bodies, so the nearest pair is the least of all.
+// The nearest points of two disjoint convex bodies lie on a pair of features: two vertices, a vertex over the inside of
+// an edge or a face, or two edges over the inside of each other. The squared distance is a quotient of polynomials in
+// the coordinates, so comparing it with another square is a sign of integers. All such pairs of points lie in the
+// bodies, so the least distance over all pairs of features is the distance of the bodies.
 
 #include "convex/exact_reach.hpp"
 
@@ -43,7 +43,7 @@ Squared between(Vec3 p, Vec3 q) {
   return {dot(w, w), Dyadic(1)};
 }
 
-// Empty where the nearest point of the line is not inside the edge.
+// Empty if the nearest point of the line is not inside the edge.
 std::optional<Squared> between(Vec3 p, const Segment& edge) {
   const ExactVec w = difference(p, edge.tail), d = difference(edge.head, edge.tail);
   const Dyadic along = dot(w, d), length = dot(d, d);
@@ -51,7 +51,7 @@ std::optional<Squared> between(Vec3 p, const Segment& edge) {
   return Squared{dot(w, w) * length - along * along, length};
 }
 
-// Empty where the nearest point of the plane is not inside the triangle.
+// Empty if the nearest point of the plane is not inside the triangle.
 std::optional<Squared> between(Vec3 p, const Corners& t) {
   const ExactVec normal = cross(difference(t[1], t[0]), difference(t[2], t[0]));
   const Dyadic length = dot(normal, normal);
@@ -64,7 +64,7 @@ std::optional<Squared> between(Vec3 p, const Corners& t) {
   return Squared{height * height, length};
 }
 
-// Empty where the nearest points of the lines are not inside both edges, or the edges are parallel.
+// Empty if the nearest points of the lines are not inside both edges, or the edges are parallel.
 std::optional<Squared> between(const Segment& p, const Segment& q) {
   const ExactVec d1 = difference(p.head, p.tail), d2 = difference(q.head, q.tail);
   const ExactVec r = difference(p.tail, q.tail), normal = cross(d1, d2);
@@ -88,7 +88,7 @@ Aabb bounds_of(const Points& points) {
 Aabb bounds_of(Vec3 p) { return {p, p}; }
 Aabb bounds_of(const Segment& s) { return bounds_of(std::array{s.tail, s.head}); }
 
-// The features that come within reach of a box.
+// The features within reach of a box.
 struct Features {
   std::vector<Vec3> vertices;
   std::vector<Segment> edges;
@@ -98,7 +98,7 @@ struct Features {
 class NearestFeatures {
  public:
   NearestFeatures(const Polytope& a, const Polytope& b, const Dyadic& length) : length_squared_(length * length) {
-    // Five roundings in a squared distance of boxes, four in the length, doubled by its square, and one of that.
+    // Roundings: five in a squared distance of boxes, four in the length (doubled by squaring), and one of the square.
     const double rounded = rounded_ratio(length, Dyadic(1));
     within_ = rounded * rounded * (1 + 32 * kUnitRoundoff);
     a_ = features_near(a, bounds_of(b.vertices));

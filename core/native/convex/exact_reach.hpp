@@ -1,4 +1,4 @@
-// Is the distance of two convex hulls smaller than, equal to, or larger than a length? Decided exactly.
+// Compares the distance of two convex hulls with a length, exactly.
 #pragma once
 
 #include "convex/polytope.hpp"

@@ -1,7 +1,7 @@
 // The closed surface of triangles that EPA grows inside A - B, on support points.
 //
-// Faces lie in blocks of four, one a lane, so that planes are computed and compared four at a time. New faces
-// begin a block of their own: what is written four wide is read four wide, which costs no wait.
+// Faces are stored in blocks of four, one for each lane, so that planes are computed and compared four at a time. New
+// faces start a new block, because a read with the width of the last write does not stall.
 #pragma once
 
 #include <algorithm>
@@ -13,26 +13,27 @@
 
 namespace satcheck {
 
-// An edge of a face: 16 times the block, 4 times the corner that it starts from (0, 1, 2) and the lane. A face
-// goes by its first edge.
+// An edge of a face: 16 * block + 4 * corner that it starts from (0, 1, 2) + lane. A face is identified by its first
+// edge.
 using HalfEdge = std::uint32_t;
 
 struct FaceBlock {
-  // A face's plane: a unit outward normal, and its signed distance from the origin, positive when that lies
-  // inside. A lane at distance INFINITY holds no face.
+  // The plane of a face: unit outward normal, and signed distance from the origin, positive if the origin lies inside.
+  // A lane with distance INFINITY has no face.
   double normal_x[4], normal_y[4], normal_z[4], distance[4];
-  double stretch_squared[4];  // (two shortest edges / twice the area)^2: what a normal's rounding error grows with
-  // By the last four bits of an edge: the vertex that it starts from, and the other side of it.
+  double stretch_squared[4];  // (product of the two shortest edges / twice the area)^2: factor of a normal's error
+  // By the last four bits of an edge: its start vertex, and its opposite half-edge.
   std::uint32_t vertex[12];
   HalfEdge twin[12];
 };
 
 class ExpandingPolytope {
  public:
-  // The calling thread's own. Not inlined: a loop that sees an address to be a thread's own asks for it over and over.
+  // The polytope of the calling thread. Not inlined, because a loop would otherwise look up the thread-local address
+  // again and again.
   static ExpandingPolytope& of_thread();
 
-  // Of one query after the other: the buffers stay.
+  // Prepares for the next query and keeps the buffers.
   void clear(const MinkowskiDifference& difference) {
     visible_noise_ = kVisible * difference.scale;
     thin_ = kFlat * difference.scale;
@@ -43,19 +44,19 @@ class ExpandingPolytope {
     free_count_ = 0;
   }
 
-  // False when the tetrahedron is flat to rounding.
+  // False: the tetrahedron is flat up to rounding.
   SATCHECK_INLINE bool start(const Simplex& tetrahedron);
 
   SATCHECK_INLINE HalfEdge closest_face() const;
 
-  // Adds a point that sees `face`. False when the polytope cannot take it, and is broken.
+  // Adds a point that sees `face`. False: the polytope cannot be expanded and is broken.
   SATCHECK_INLINE bool expand(const SupportPoint& point, HalfEdge face);
 
-  // A lower bound of the signed penetration. A closed surface whose oriented planes all pass the origin by
-  // more than r winds around it, and the hull of its vertices holds the ball of radius r, whether rounding
-  // has left it convex or not. The vertices are off by a support error at most; a plane is off by the error
-  // of a cross product of computed edges, 6 roundoffs times their lengths, over its length, at a lever of
-  // sqrt(3) scales. `closest` is looked at first: few others come near it.
+  // A lower bound of the signed penetration. If all oriented planes of a closed surface pass the origin at more than r,
+  // the surface winds around the origin, and the hull of its vertices contains the ball of radius r. This holds even if
+  // rounding has made the surface non-convex. Vertices have at most a support error. The error of a plane is that of a
+  // cross product of computed edges (6 roundoffs times their lengths), divided by its length, at a lever of sqrt(3)
+  // scales. `closest` is tried first, because few other faces come near it.
   SATCHECK_INLINE double least_proven_distance(HalfEdge closest) const;
 
   double distance(HalfEdge face) const { return blocks_[face / 16].distance[face % 4]; }
@@ -84,14 +85,14 @@ class ExpandingPolytope {
 
   static void empty(FaceBlock& b) { store_lanes(b.distance, all_lanes(INFINITY)); }
 
-  // An empty block, by its first edge. The one after the last is empty as well.
+  // The first edge of an empty block. The block after the last one is empty too.
   HalfEdge take_block() {
     if (free_count_ > 0) return free_[--free_count_];
     empty(blocks_[blocks_used_ + 1]);
     return 16 * blocks_used_++;
   }
 
-  // One bit of 64: a point of which it is not known is new.
+  // One bit of 64. If the bit of a point is not set, the point is new.
   static std::uint64_t mark_of(const SupportPoint& p) { return std::uint64_t{1} << ((7 * p.index_a + p.index_b) % 64); }
   std::uint32_t add_vertex(const SupportPoint& point) {
     vertices_[vertices_used_] = point;
@@ -99,7 +100,7 @@ class ExpandingPolytope {
     return vertices_used_++;
   }
 
-  // Room for a vertex, and for a fan around all faces there are.
+  // Reserves memory for one vertex, and for a fan around all faces.
   void make_room() {
     if (std::max(2 * blocks_used_ + 2, vertices_used_ + 4) > room_) grow();
   }
@@ -111,7 +112,7 @@ class ExpandingPolytope {
   }
   SATCHECK_INLINE std::uint32_t take_visible(Vec3 point, HalfEdge face);
   SATCHECK_INLINE bool add_fan(std::uint32_t apex, std::uint32_t count);
-  // The planes of a block's first `faces` faces. False when one is thinner than noise.
+  // Sets the planes of a block's first `faces` faces. False: a face is thinner than noise.
   SATCHECK_INLINE bool set_planes(FaceBlock& b, const FourPoints& tail, const FourPoints& head, const FourPoints& apex,
                                   std::size_t faces) const;
 
@@ -119,13 +120,13 @@ class ExpandingPolytope {
   std::uint32_t blocks_used_ = 0, free_count_ = 0, vertices_used_ = 0, room_ = 0;
   std::uint64_t known_ = 0;  // the marks of the vertices
   std::vector<FaceBlock> blocks_;
-  std::vector<std::uint32_t> faces_in_;  // by block
+  std::vector<std::uint32_t> faces_in_;  // number of faces of each block
   std::vector<HalfEdge> free_;           // the first edges of blocks without a face
   std::vector<SupportPoint> vertices_;
-  std::vector<HalfEdge> horizon_;     // the edges around what a point sees, on their hidden sides
-  std::vector<std::uint32_t> tails_;  // the vertices that they start from, seen from the other side
+  std::vector<HalfEdge> horizon_;     // edges around the visible faces, as half-edges of hidden faces
+  std::vector<std::uint32_t> tails_;  // their end vertices
   std::vector<HalfEdge> fan_;         // the first edges of its blocks
-  std::vector<HalfEdge> pending_;     // edges that the walk comes back to
+  std::vector<HalfEdge> pending_;     // edges that the walk has still to visit
 };
 
 SATCHECK_INLINE HalfEdge ExpandingPolytope::closest_face() const {
@@ -133,7 +134,7 @@ SATCHECK_INLINE HalfEdge ExpandingPolytope::closest_face() const {
   const Lanes first = {0, 1, 2, 3};
   LaneBest even = {-load_lanes(blocks[0].distance), first}, odd = even;
   Lanes at = first + all_lanes(16);
-  for (std::size_t i = 1; i < blocks_used_; i += 2) {  // two chains: each block waits for the one before the last
+  for (std::size_t i = 1; i < blocks_used_; i += 2) {  // two chains: a block depends on the block before the last
     const Lanes value0 = -load_lanes(blocks[i + 1].distance), value1 = -load_lanes(blocks[i].distance);
     const LaneMask closer0 = value0 > even.value, closer1 = value1 > odd.value;
     even = {select(closer0, value0, even.value), select(closer0, at + all_lanes(16), even.index)};
@@ -162,7 +163,7 @@ SATCHECK_INLINE bool ExpandingPolytope::start(const Simplex& tetrahedron) {
   const SupportPoint* v = tetrahedron.vertex;
   const bool turn = dot(cross(v[1].w - v[0].w, v[2].w - v[0].w), v[3].w - v[0].w) > 0;
   for (const int i : {0, turn ? 2 : 1, turn ? 1 : 2, 3}) add_vertex(v[i]);
-  // The base, and over its edges the faces to the last vertex.
+  // The base, and the faces from its edges to the last vertex.
   static constexpr std::uint32_t vertex[12] = {0, 1, 0, 2, 1, 0, 2, 1, 2, 3, 3, 3};
   static constexpr HalfEdge twin[12] = {1, 0, 8, 4, 3, 10, 11, 9, 2, 7, 5, 6};
   FaceBlock& b = blocks_[take_block() / 16];
@@ -179,7 +180,7 @@ SATCHECK_INLINE bool ExpandingPolytope::set_planes(FaceBlock& b, const FourPoint
   const Lanes bx = apex.x - head.x, by = apex.y - head.y, bz = apex.z - head.z;
   const Lanes cx = tail.x - apex.x, cy = tail.y - apex.y, cz = tail.z - apex.z;
   const Lanes aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, cc = cx * cx + cy * cy + cz * cz;
-  // The cross product of the two shortest edges carries the least rounding error: a x b, b x c, or -a x c.
+  // The cross product of the two shortest edges has the least rounding error: a x b, b x c, or -a x c.
   const LaneMask a_longest = (aa >= bb) & (aa >= cc), c_longest = (cc > aa) & (cc > bb);
   const Lanes sign = select(a_longest | c_longest, all_lanes(1), all_lanes(-1));
   const Lanes ux = select(a_longest, bx, ax * sign), uy = select(a_longest, by, ay * sign), uz = select(a_longest, bz, az * sign);
@@ -200,9 +201,9 @@ SATCHECK_INLINE bool ExpandingPolytope::set_planes(FaceBlock& b, const FourPoint
   return bits_of(area_squared > longest_squared * all_lanes(thin_ * thin_)) == 15;
 }
 
-// Takes the faces away that the point sees, and lists where the edges around them start in the order of the
-// loop: from an edge on over the other two of its face. Their hidden sides are given to the faces of a fan, of
-// which the blocks are listed. 0 when they make no loop.
+// Removes the faces that the point sees, and lists the start vertices of the edges around them in the order of the
+// loop. The walk enters a face over one edge and continues over its other two. The hidden half-edges become neighbours
+// of the faces of a fan, whose blocks are listed. Returns 0 if the edges form no loop.
 SATCHECK_INLINE std::uint32_t ExpandingPolytope::take_visible(Vec3 point, HalfEdge face) {
   FaceBlock* blocks = blocks_.data();
   HalfEdge *horizon = horizon_.data(), *pending = pending_.data(), *fan = fan_.data();
@@ -243,12 +244,12 @@ SATCHECK_INLINE std::uint32_t ExpandingPolytope::take_visible(Vec3 point, HalfEd
   return count < 3 || gaps != 0 || head != tails[0] ? 0 : count;
 }
 
-// Faces from the edges of the loop to a vertex.
+// Adds faces from the edges of the loop to a vertex.
 SATCHECK_INLINE bool ExpandingPolytope::add_fan(std::uint32_t apex, std::uint32_t count) {
   FaceBlock* blocks = blocks_.data();
   const HalfEdge *horizon = horizon_.data(), *fan = fan_.data();
   std::uint32_t* tails = tails_.data();
-  for (int i = 0; i < 7; ++i) tails[count + i] = tails[i];  // lanes without a face go on around the loop
+  for (int i = 0; i < 7; ++i) tails[count + i] = tails[i];  // lanes without a face continue around the loop
   const Vec3 p = vertices_[apex].w;
   const FourPoints tip = {all_lanes(p.x), all_lanes(p.y), all_lanes(p.z)};
   FourPoints tail = gather(tails);
@@ -263,7 +264,7 @@ SATCHECK_INLINE bool ExpandingPolytope::add_fan(std::uint32_t apex, std::uint32_
     std::copy_n(horizon + i, 4, b.twin);
     for (HalfEdge l = 0; l < 4; ++l) {
       b.twin[4 + l] = edge + 9 + l;  // the next face of the fan
-      b.twin[8 + l] = edge + 3 + l;  // the one before
+      b.twin[8 + l] = edge + 3 + l;  // the previous face of the fan
     }
     b.twin[8] = last + 4;
     blocks[last / 16].twin[4 + last % 4] = edge + 8;

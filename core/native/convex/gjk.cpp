@@ -48,7 +48,7 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m) {
     const SupportPoint* p = simplex.vertex;
     const ClosestPoint closest = closest_point<true>(p[0].w, p[1].w, p[2].w, p[3].w, simplex.count);
     if (closest.encloses()) {
-      simplex.weight[3] = 0;  // the best point so far; where all around the origin is rounding, it is the answer
+      simplex.weight[3] = 0;  // the best point so far; it is the answer if the rest is rounding noise
       normalize_weights(simplex);
       result.v = {0, 0, 0};
       result.status = GjkResult::Status::encloses;

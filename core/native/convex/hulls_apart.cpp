@@ -1,7 +1,7 @@
-// Method: a few points of each set stand for all. Where the hulls of these meet, so do the hulls of all. Where they
-// are apart, every point is asked how far it lies along the axis between them, and those that lie farthest join the
-// few: Philip Wolfe, "Finding the Nearest Point in a Polytope" (1976), without his step that drops points, as each
-// round costs a walk over all points and hardly depends on how many were kept.
+// Method: start with a few points of each set. If the hulls of these points meet, the full hulls meet. If they are
+// apart, find the points of each set that are farthest along the axis between them, and add these: Philip Wolfe,
+// "Finding the Nearest Point in a Polytope" (1976). Where we deviate: no points are dropped, because a round visits all
+// points anyway, and its cost hardly depends on the number of kept points.
 #include "convex/hulls_apart.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFirstPoints = 64;  // of each set, evenly along its order
 constexpr int kRounds = 32;
-// Of the distance. The exact hulls would give all of it, but no caller needs that.
+// The lower bound has to reach this share of the distance. No caller needs more.
 constexpr double kGoodShare = 0.99;
 
 std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
@@ -24,7 +24,7 @@ std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
   return some;
 }
 
-// The point farthest along an axis; the first of them in a tie.
+// The point farthest along an axis; the first one in a tie.
 Vec3 farthest(const std::vector<Vec3>& points, Vec3 axis) {
   std::size_t at = 0;
   double most = dot(points[0], axis);

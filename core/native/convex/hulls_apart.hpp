@@ -1,4 +1,4 @@
-// Whether the hulls of two large sets of points are apart, without the hulls.
+// Decides whether the hulls of two large point sets are apart, without computing the hulls.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace satcheck {
 
-// The outcome, and of sets apart the bounds of the distance of their hulls: the lower one proven against every
-// point, and usually within a hundredth of it. Nothing where that takes too many rounds. largest: no |coordinate|
-// is greater. Neither set is empty.
+// The outcome; for separate sets, also bounds of the distance of their hulls. The lower bound is proven against every
+// point, and usually within a hundredth of the distance. Empty if it takes too many rounds. largest: the largest
+// |coordinate|. Neither set is empty.
 std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
 
 }  // namespace satcheck

@@ -10,13 +10,13 @@ bool has_only_vertices(const Shape& shape) {
   return shape.is_polytope() || shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
 }
 
-// (b - a) + (d - c) to within a rounding of the result, however large the terms that cancel.
+// (b - a) + (d - c) with one rounding of the result, even if large terms cancel.
 double sum_of_differences(double a, double b, double c, double d) {
   return static_cast<double>(exact_sum(b, -a) + exact_sum(d, -c));
 }
 
-// The vector from A's core origin to B's, world axes. A pair far from the world's origin keeps its digits, and so
-// does one whose translations undo how far the hulls lie from theirs.
+// The vector from A's core origin to B's, world axes. It keeps its digits far from the world's origin, and also if the
+// translations cancel large offsets of the hulls from their own origins.
 Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const Vec3 origin_a = pose_a.rotation * a.origin, origin_b = pose_b.rotation * b.origin;
   const Vec3 &ta = pose_a.translation, &tb = pose_b.translation;

@@ -27,11 +27,11 @@ struct MinkowskiDifference {
   Pose b_in_a;   // places B's core in A's frame
   double scale;  // bounds every coordinate of A - B: the unit of all tolerances
   const SupportMap *map_a, *map_b;  // or null
-  bool curved;   // a core has more than vertices: bounds close in the limit
+  bool curved;   // a core is curved: bounds close only in the limit
 
   MinkowskiDifference(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
-  // The point of A - B farthest along `direction` (any length but zero).
+  // The point of A - B farthest along `direction` (of any length except zero).
   SATCHECK_INLINE SupportPoint support(Vec3 direction) const {
     const Vec3 into_b = transpose_times(b_in_a.rotation, -direction);
     const CorePoint on_a = map_a ? map_a->support(direction) : inlined_core_support(a, direction);

@@ -24,7 +24,7 @@ namespace {
 // Signed penetration of the cores of A and B, before margins: > 0 overlap, < 0 gap.
 struct CoreAnswer {
   double lower = -INFINITY, upper = INFINITY;
-  double value = INFINITY;  // between them: minus the distance of the witness points, or the support value
+  double value = INFINITY;  // between the bounds: minus the distance of the witness points, or the support value
   Vec3 axis;      // unit, A to B, frame of A
   Witnesses witness;
   bool has_axis = false;  // axis and witness are set
@@ -65,8 +65,8 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   return answer;
 }
 
-// `lower_bound` of the distance may come from another stage than GJK's own axes. What GJK calls its
-// distance is measured along a normal; the proof is the distance of two points of the shapes.
+// `lower_bound` of the distance may come from another stage than GJK. The upper bound is the distance of two points of
+// the shapes, because GJK measures its distance along a normal.
 CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
   answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
@@ -81,14 +81,14 @@ CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, d
   return answer;
 }
 
-// What is left between the witness points beside value * axis goes to both of them by halves.
+// The difference of the witness points from value * axis is distributed to both of them by halves.
 void straighten(CoreAnswer& core) {
   const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
   core.witness = {middle + half, middle - half};
 }
 
-// GJK came too close to prove a gap, EPA found an axis that does. GJK's closest points hold; its
-// direction may be rounding noise, and only counts when it separates too.
+// The gap is too small for GJK to prove, but EPA found a separating axis. GJK's closest points are valid. Its direction
+// may be rounding noise, and counts only if it separates too.
 CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const EpaResult& e) {
   CoreAnswer answer = from_gjk_distance(m, g, -e.upper);
   if (dot(answer.axis, m.support(answer.axis).w) < 0) return answer;
@@ -97,7 +97,7 @@ CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const 
   return answer;
 }
 
-// GJK on the shapes moved apart along the axis until they touch.
+// Runs GJK on the shapes, moved apart along the axis until they touch.
 Witnesses touching_points(const MinkowskiDifference& m, Vec3 axis, double penetration) {
   MinkowskiDifference touching = m;
   touching.b_in_a.translation = touching.b_in_a.translation + axis * penetration;
@@ -106,8 +106,8 @@ Witnesses touching_points(const MinkowskiDifference& m, Vec3 axis, double penetr
   return {g.simplex.witness_a(), g.simplex.witness_b() - axis * penetration};
 }
 
-// The facet that EPA ends on may hold the origin's projection only together with coplanar points it
-// never asked for: then the contact region tells, or, for curved shapes, the points where they touch.
+// The last facet of EPA may be only a part of a flat face, and the projection of the origin may lie in another part.
+// The witness points then come from the contact region, or, for curved shapes, from the points where they touch.
 Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
   const Witnesses facet{e.facet.witness_a(), e.facet.witness_b()};
   const double miss = norm(facet.a - facet.b - e.axis * e.upper);
@@ -117,7 +117,7 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
 }
 
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
-  // Near contact GJK's simplex on curved shapes is a splinter, whose faces prove nothing.
+  // Near contact, GJK's simplex on curved shapes is a sliver, and its faces prove nothing.
   const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
@@ -128,7 +128,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   switch (e.status) {
     case EpaResult::Status::depth:
     case EpaResult::Status::bounded:
-      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most what GJK came down to
+      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most GJK's upper bound
       answer.has_axis = true;
       if (query != Query::overlap) answer.witness = overlap_witness(m, e);
       return answer;
@@ -156,7 +156,7 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& resul
   return from_epa(m, g, query, result);
 }
 
-// Curved shapes have no exact stage: bounds that close around 0 mean that they touch.
+// Curved shapes have no exact stage here. Bounds that close around 0 count as touching.
 Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double noise) {
   const double margin = m.a.margin + m.b.margin;
   const double lower = core.lower + margin, upper = core.upper + margin;
@@ -166,8 +166,8 @@ Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double no
   return noise <= band && lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
 }
 
-// The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over, with
-// the points that belong to it: the support points, or, of a flat face or a mantle line, others there.
+// Improves the last digits of a curved pair's axis, for a smaller upper bound. An overlap takes this axis, with its
+// witness points: the support points, or other points of a flat face or a mantle line.
 void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   const AxisSupport best = least_support_near(m, core.axis);
   if (!(best.value < core.upper)) return;
@@ -180,8 +180,8 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
                         : touching_points(m, best.axis, best.value);
 }
 
-// The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
-// round them to, curved ones where their poses put them.
+// The rounding error that a proof in float64 has to exceed. Cores with vertices are judged at their rounded world
+// coordinates, curved cores at their exact pose.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
   if (m.curved) return m.support_error() + origin_error(m.a, pose_a) + origin_error(m.b, pose_b);
   return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
@@ -200,7 +200,7 @@ void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const 
   result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
 }
 
-// The outcome is known, and not touching: its figure without float64's error.
+// Computes the figure without float64 errors. The outcome is known and not touching.
 void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
   const ExactDifference difference(a.vertices, b.vertices);
   const bool apart = result.outcome == Outcome::separated;
@@ -214,7 +214,7 @@ void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
   result.method = Method::exact;
 }
 
-// What float64 left open about two polytopes: the sign, or a figure with bounds too far apart.
+// Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds.
 void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt,
                     double noise, PairResult& result) {
   const Polytope hull_a = world_hull(a, pose_a), hull_b = world_hull(b, pose_b);
@@ -231,7 +231,7 @@ void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   }
 }
 
-// The same for cores of vertices with balls around them: the bounds follow the sign.
+// The same for cores of vertices with a margin: the bounds follow the sign.
 void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
                   PairResult& result) {
   const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
@@ -243,13 +243,13 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (!result.has_distance) return;
   if (side >= 0) result.lower = std::fmax(result.lower, 0.0);
   if (side <= 0) result.upper = std::fmin(result.upper, 0.0);
-  // Where float64 had the sign wrong, the proven bound on the right side is the figure that is left.
+  // If float64 had the wrong sign, the proven bound on the right side becomes the figure.
   if (side > 0 && !(result.distance > 0)) result.distance = result.upper;
   if (side < 0 && !(result.distance < 0)) result.distance = result.lower;
   if (side == 0) result.distance = 0;
 }
 
-// An axis that separates leaves the distance open. For boxes whose distance is needed, the distance comes first.
+// A separating axis does not give the distance. For boxes whose distance is needed, the distance is computed first.
 CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
   const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
   const auto distance = [&](double lower_bound) {
@@ -273,12 +273,12 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   PairResult result;
   const bool by_sat = takes_sat(m, method);
   if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
-    result.axes_tested = 15;  // overlap_of_boxes() left it open
+    result.axes_tested = 15;  // overlap_of_boxes() did not decide
     settle_exactly(a, pose_a, b, pose_b, true, noise, result);
     return result;
   }
   if (query == Query::overlap && margin == 0 && !by_sat) {
-    // Of curved shapes only what is clear of touching: their touch is told by the bounds of a depth.
+    // For curved shapes, only pairs clearly away from touching. The bounds of a depth decide whether they touch.
     const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
     result.portal_rounds = portal.rounds;
     if (portal.finding != PortalFinding::open) {
@@ -316,7 +316,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
 
 PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                               MethodChoice method) {
-  // Looked up, not branched upon: which comes first is anybody's guess.
+  // Selected by index instead of a branch, because the order is unpredictable.
   const Shape* const shapes[2] = {&a, &b};
   const Pose* const poses[2] = {&pose_a, &pose_b};
   const bool swapped = !comes_before(a, pose_a, b, pose_b);

@@ -12,9 +12,9 @@ enum class Reason : std::uint8_t { none, bounds_not_closed };
 enum class Method : std::uint8_t { none, sat, gjk, epa, exact, portal };
 enum class Query : std::uint8_t { overlap, depth, distance };
 // automatic: SAT for two boxes, else portals for overlap and GJK + EPA for figures. Two boxes have 15 axes. Other
-// polytopes have an axis for each pair of edges whose arcs cross, and bench/crossover.py finds no number of vertices
-// at which SAT pays: with 4 on each side, the fewest that a solid has, it takes 2.6 times as long for overlap and 2.4
-// times for depth, with 12 vertices 29 and 14 times. sat: of two solid polytopes. gjk: portals, GJK and EPA for all.
+// polytopes have an axis for each pair of edges whose arcs cross, and bench/crossover.py finds no number of vertices at
+// which SAT is faster: with 4 vertices each, the fewest of a solid, it takes 2.6 times as long for overlap and 2.4
+// times for depth; with 12 vertices 29 and 14 times. sat: for two solid polytopes. gjk: portals, GJK and EPA for all.
 enum class MethodChoice : std::uint8_t { automatic, sat, gjk };
 
 // "auto", "sat" or "gjk"; std::invalid_argument for another name.

@@ -8,7 +8,7 @@ namespace satcheck {
 
 namespace {
 
-// Coordinates are finite, so the order is total but for the sign of zero, which changes nothing.
+// Coordinates are finite, so the order is total, except for the sign of zero, which has no effect.
 std::partial_ordering order(Vec3 a, Vec3 b) {
   if (const auto by_x = a.x <=> b.x; by_x != 0) return by_x;
   if (const auto by_y = a.y <=> b.y; by_y != 0) return by_y;

@@ -1,4 +1,4 @@
-// The results of many pairs, taken apart: an array a field, as numpy reads them.
+// The results of many pairs as one array for each field, as numpy reads them.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ namespace satcheck {
 template <auto Member>
 using Field = std::remove_cvref_t<decltype(std::declval<PairResult>().*Member)>;
 
-// So many rows of even the narrowest field, a byte, fill a cache line: threads that set whole blocks of them, counted
-// from row 0, never write to the same line.
+// This many rows of the narrowest field, a byte, fill a cache line. Threads that set whole blocks of rows, counted from
+// row 0, never write to the same line.
 inline constexpr std::size_t kRowsOfALine = 64;
 
-// The fields `Members` of so many PairResults: arrays in one piece of memory. Each starts on a cache line. Nothing is
-// written before it is set, so the thread that sets a row is the first to touch it.
+// The fields `Members` of `count` PairResults, as arrays in one block of memory. Each array starts on a cache line.
+// Memory is not initialized, so the thread that sets a row touches it first.
 template <auto... Members>
 class FieldArrays {
   template <auto Member>
@@ -63,7 +63,7 @@ class FieldArrays {
 
 class PairResults {
  public:
-  // Not `measured`: no distances, and none of what belongs to them. They are NaN and take no room.
+  // Without `measured`, distances and related fields are NaN and need no memory.
   PairResults(std::size_t count, bool measured) : count_(count), measures_(measured ? count : 0), facts_(count) {}
 
   std::size_t size() const { return count_; }
@@ -78,7 +78,7 @@ class PairResults {
     if (measures_.rows() > 0) measures_.get(i, result);
     return result;
   }
-  // Of all pairs; null where nothing was measured.
+  // The array of all pairs; null if nothing was measured.
   template <auto Member>
   const Field<Member>* array() const {
     if constexpr (Facts::holds<Member>) {

@@ -7,7 +7,7 @@
 
 namespace satcheck {
 
-// An edge between two faces. Seen from outside, face `left` lies left of the way tail -> head.
+// An edge between two faces. Seen from outside, face `left` lies to the left of tail -> head.
 struct PolytopeEdge {
   std::uint32_t tail, head;
   std::uint32_t left, right;

@@ -20,7 +20,7 @@ std::uint64_t directed_key(std::uint32_t tail, std::uint32_t head) {
   return (static_cast<std::uint64_t>(tail) << 32) | head;
 }
 
-// For each half-edge of a closed manifold the one that runs the other way.
+// For each half-edge of a closed manifold the opposite half-edge.
 std::vector<std::uint32_t> find_twins(std::size_t vertex_count,
                                       const std::vector<Triangle>& triangles) {
   const EdgeTable edges(vertex_count, triangles);

@@ -7,14 +7,14 @@
 
 namespace satcheck {
 
-// Fills everything but `dimension` from outward triangles over `points`: exactly coplanar
-// neighbours become one face; corners of fewer than three faces are not extreme and are left out.
+// Sets everything except `dimension` from outward triangles over `points`. Exactly coplanar neighbours become one face.
+// Corners of fewer than three faces are not extreme and are left out.
 // Vertices keep the order of `points`; faces are ordered by their corners.
 void add_solid_faces(Polytope& polytope, const std::vector<Vec3>& points,
                      const std::vector<Triangle>& boundary,
                      const std::vector<std::uint32_t>& source);
 
-// Fills faces, edges and triangles of a planar polygon whose vertices are set, in cyclic order.
+// Sets faces, edges and triangles of a planar polygon. Its vertices are already set, in cyclic order.
 void add_flat_faces(Polytope& polytope);
 
 }  // namespace satcheck

@@ -2,9 +2,9 @@
 // a point inside A - B through the origin. A portal is a triangle of support points that it passes; portals move
 // outwards until the origin lies on the inner side of one, or an axis separates.
 //
-// Deviations: the second support point is sought from the first edge towards the origin, as GJK does. Every direction
-// that is asked may separate. Both ends are proofs that beat a bound of all rounding, and what has none is left open:
-// rounding on the way there, and the limit of rounds, cost no right answer.
+// Deviations: the second support point is searched from the first edge towards the origin, as in GJK. Every queried
+// direction may separate. Both results are proofs that exceed a bound of all rounding, and a pair without a proof stays
+// open. Rounding and the limit of rounds therefore never cause a wrong answer.
 
 #include "convex/portal.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRounds = 64;
 
-// The square of a length is good to rounding from here on; below, it may have lost digits to underflow.
+// Squares of lengths below this may have lost digits to underflow.
 constexpr double kLeastSquare = 1e-290;
 
 }  // namespace
@@ -44,13 +44,14 @@ SATCHECK_WIDE PortalResult seek_portal(const MinkowskiDifference& m, double nois
       const Vec3 across = cross(point, inside);
       const double side0 = dot(p[0], across), side1 = dot(p[1], across);
       if (count == 2) {
-        // Seen from `inside`, the origin is to lie between the points.
+        // Seen from `inside`, the origin has to lie between the points.
         const int missed = side0 < 0 ? 1 : side1 > 0 ? 0 : 2;
         p[missed] = point;
         count += missed == 2;
       } else {
         if (height - plane <= rounding) break;
-        // The planes through `inside`, the new point and each of the old cut the portal in three; the ray passes one.
+        // The planes through `inside`, the new point and each old point cut the portal into three. The ray passes one
+        // of them.
         p[side0 > 0 ? (side1 > 0 ? 0 : 2) : (dot(p[2], across) > 0 ? 1 : 0)] = point;
       }
     }
@@ -59,7 +60,7 @@ SATCHECK_WIDE PortalResult seek_portal(const MinkowskiDifference& m, double nois
       direction = edge * dot(inside, edge) - inside * norm_squared(edge);
     } else if (count == 2) {
       direction = cross(p[0] - inside, p[1] - inside);
-      if (dot(direction, inside) > 0) {  // it is to point towards the origin
+      if (dot(direction, inside) > 0) {  // it has to point towards the origin
         std::swap(p[0], p[1]);
         direction = -direction;
       }

@@ -1,4 +1,4 @@
-// Do two convex shapes overlap? From their support functions, with a proof either way.
+// Decides by support functions whether two convex shapes overlap, with a proof for either answer.
 #pragma once
 
 #include "convex/minkowski.hpp"
@@ -7,8 +7,8 @@ namespace satcheck {
 
 enum class PortalFinding {
   apart,     // an axis separates by more than `noise`
-  overlaps,  // points of A - B hold the origin, deeper than `noise`
-  open,      // neither is proven: they touch, or come close to it, or A - B is flat
+  overlaps,  // points of A - B contain the origin, deeper than `noise`
+  open,      // nothing is proven: they touch or almost touch, or A - B is flat
 };
 
 struct PortalResult {
@@ -16,7 +16,7 @@ struct PortalResult {
   int rounds = 0;  // of one support point each
 };
 
-// `noise` bounds what rounding does to a support value of the shapes as they are placed.
+// `noise`: a bound of the rounding error of a support value of the placed shapes.
 PortalResult seek_portal(const MinkowskiDifference& difference, double noise);
 
 }  // namespace satcheck

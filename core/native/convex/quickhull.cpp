@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// Measured steps: of making a facet, with the faces and edges that the hull gets from it, and of testing a point
-// against a facet.
+// Measured steps: of making a facet, including its faces and edges in the hull, and of testing a point against a facet.
 constexpr std::uint64_t kFacetWork = 300, kHeightWork = 4;
 
 // The error bound of the 3x3 determinant, derived in predicates.cpp, with one more u because the
@@ -37,7 +36,7 @@ struct Facet {
 
 struct HorizonEdge {
   std::uint32_t tail, head;
-  std::uint32_t behind;  // the facet on the far side, which stays
+  std::uint32_t behind;  // the facet on the far side, which is kept
 };
 
 class Builder {

@@ -1,6 +1,6 @@
-// Two convex polygons are disjoint exactly when an edge normal of one of them separates them; when they
-// overlap, the least overlap is along an edge normal as well, because every edge of the Minkowski
-// difference is an edge of A or of -B (C. Ericson, "Real-Time Collision Detection", 2004, 5.2).
+// Two convex polygons are disjoint exactly if an edge normal of one of them separates them. If they overlap, the least
+// overlap is also along an edge normal, because every edge of the Minkowski difference is an edge of A or of -B (C.
+// Ericson, "Real-Time Collision Detection", 2004, 5.2).
 
 #include "convex/sat_polygon.hpp"
 
@@ -67,7 +67,7 @@ PolygonResult sat_polygons(const std::vector<Vec2>& a, const std::vector<Vec2>& 
       const double length = std::hypot(to.x - from.x, to.y - from.y);
       if (length == 0) continue;
       const Vec2 outward{(to.y - from.y) / length, -(to.x - from.x) / length};
-      // Projections relative to the edge's own corner keep their digits far from the origin.
+      // Projections are relative to a corner of the edge, so they keep their digits far from the origin.
       double nearest = INFINITY;
       for (Vec2 p : other) nearest = std::min(nearest, (p.x - from.x) * outward.x + (p.y - from.y) * outward.y);
       const EdgeSigns signs = signs_across(from, to, other);
@@ -83,8 +83,8 @@ PolygonResult sat_polygons(const std::vector<Vec2>& a, const std::vector<Vec2>& 
   };
   try_edges(a, b, true);
   try_edges(b, a, false);
-  // Closed polygons whose interiors a line separates without a gap share a point unless another edge
-  // normal has a gap: in the plane the edge normals are all the normals there are.
+  // If a line separates the interiors of closed polygons without a gap, the polygons share a point, unless another edge
+  // normal has a gap. In the plane there are no other normals.
   result.outcome = apart ? Outcome::separated : weakly_apart ? Outcome::touching : Outcome::penetrating;
   return result;
 }

@@ -22,7 +22,7 @@ struct PolygonResult {
   Outcome outcome = Outcome::undecided;
   double penetration = 0;  // > 0: least overlap. < 0: the widest gap along an edge normal, a lower bound of the distance
   Vec2 normal;             // unit, from A to B; moving A by -penetration * normal separates
-  int edge_a = -1, edge_b = -1;  // the edge whose normal won
+  int edge_a = -1, edge_b = -1;  // the edge with the deciding normal
 };
 
 // Convex polygons, counter-clockwise, at least 3 corners, not all on one line. The outcome is exact.

@@ -1,8 +1,7 @@
 // Polytopes: an edge pair spans a facet of A - B exactly when the arc between the normals of the two
 // faces at A's edge crosses the negated arc of B's edge on the Gauss map (Gregorius, GDC 2013).
-// Deviations: arcs that come too close to call are projected in full instead of being decided by
-// a sign that is rounding noise. Nearly parallel edges count too: the shorter their cross product, the
-// worse its direction and the lower the lower bound.
+// Deviations: if the sign for two arcs is rounding noise, both shapes are projected completely on their axis. Nearly
+// parallel edges count too: with a shorter cross product its direction is less accurate, and the lower bound is lower.
 
 #include <algorithm>
 
@@ -32,8 +31,8 @@ Arcs classify_arcs(const EdgeArc& a, const EdgeArc& b) {
   const double a_least = std::fmin(std::fabs(a_left), std::fabs(a_right));
   if (a_left * a_right > 0 && a_least > kArcUncertain) return Arcs::apart;
   if (std::fmin(a_least, b_least) <= kArcUncertain) return Arcs::uncertain;
-  // Both arcs cross the other's great circle; they meet unless they do so on opposite sides. Half a circle, between the
-  // faces of a sliver, may lie on either.
+  // Each arc crosses the other's great circle. The arcs meet unless they cross on opposite sides. An arc of half a
+  // circle, between the faces of a sliver, may lie on either side.
   const Vec3 n = cross(a.direction, b.direction);
   const double a_side = dot(n, a.normal_left + a.normal_right), b_side = dot(n, b.normal_left + b.normal_right);
   const double least = std::fmin(std::fabs(a_side), std::fabs(b_side));
@@ -81,7 +80,7 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
       if (arcs == Arcs::apart) continue;
       Vec3 axis = cross(ea.direction, eb.direction);
       const double length_squared = norm_squared(axis);
-      if (length_squared < kFlat * kFlat) {  // a facet this narrow lies that close to the faces beside it
+      if (length_squared < kFlat * kFlat) {  // a facet this narrow is this close to its neighbours
         narrow_facets = 2 * kFlat * m.scale;
         continue;
       }
@@ -94,7 +93,7 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
         offer(overlap, along, Feature::edge_edge, i, j);
         best.lower = std::fmin(best.lower, overlap - kFlat * m.scale / length);
       };
-      // Where the arcs cross, the support is no less than these two edges reach.
+      // If the arcs cross, the support is at least the reach of these two edges.
       const bool worth_it = dot(axis, ea.tail - eb.tail) - kFlat * m.scale / length < best.penetration;
       if (worth_it || arcs == Arcs::uncertain) project(axis);
       if (arcs == Arcs::uncertain) project(-axis);

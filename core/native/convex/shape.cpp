@@ -17,9 +17,9 @@ void require_positive(double value, const char* what) {
   }
 }
 
-// The middle along the axes on which the shape is far from 0, by more than 1.5 sizes: its coordinates lie
-// within a third of it there, so that subtracting it rounds nothing (P. H. Sterbenz, "Floating-Point
-// Computation", 1974). 0 along the others.
+// The middle of the shape along axes on which it is farther from 0 than 1.5 sizes; 0 along the others. All coordinates
+// are then within a third of the middle, so subtracting it is exact (P. H. Sterbenz, "Floating-Point Computation",
+// 1974).
 Vec3 exact_centre(const Aabb& bounds) {
   const Vec3 size = bounds.max - bounds.min, middle = bounds.min + size * 0.5;
   const double far = 1.5 * max_abs(size);
@@ -33,7 +33,7 @@ double largest_coordinate(const std::vector<Vec3>& points) {
   return extent;
 }
 
-// The points farthest against three skew directions and along them.
+// The points farthest along three skew directions and their opposites.
 std::array<Vec3, 6> skew_ends(const std::vector<Vec3>& points) {
   std::array<Vec3, 6> ends;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -215,12 +215,12 @@ CorePoint round_support(const Shape& shape, Vec3 d) {
       Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
       const double largest = max_abs(scaled);
       if (largest == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
-      scaled = scaled * (1 / largest);  // the direction may be of any length: its square may overflow
+      scaled = scaled * (1 / largest);  // the direction may have any length, so its square may overflow
       const double length = norm(scaled);
       return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
     }
   }
-  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: these have supports of their own
+  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: these have other support functions
 }
 
 }  // namespace satcheck

@@ -1,7 +1,7 @@
 // Convex shapes given by their support function.
 //
-// A sphere and a capsule are a core (a point, a segment) and a margin: the Minkowski sum with a
-// ball, which moves every support value by the radius and nothing else (van den Bergen, "Collision
+// A sphere and a capsule are a core (a point, a segment) and a margin: the Minkowski sum with a ball, which adds the
+// radius to every support value (van den Bergen, "Collision
 // Detection in Interactive 3D Environments", 2003, chapter 4).
 #pragma once
 
@@ -15,7 +15,7 @@ namespace satcheck {
 
 enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone, ellipsoid };
 
-// An edge as the separating axis test needs it: where it runs and the normals of its two faces.
+// An edge for the separating axis test: its position, and the normals of its two faces.
 struct EdgeArc {
   Vec3 tail, direction;  // unit direction
   Vec3 normal_left, normal_right;
@@ -24,10 +24,10 @@ struct EdgeArc {
 struct Shape {
   static constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
-  // First what every query reads.
+  // The fields that every query reads come first.
   ShapeKind kind = ShapeKind::hull;
-  // Of a hull. False: the vertices hold all extreme points, and maybe others; faces, edges and arcs are
-  // left to those who need them (with_faces).
+  // For a hull. False: the vertices include all extreme points and perhaps others, and there are no faces, edges and
+  // arcs (see with_faces).
   bool has_faces = true;
   // Box: half extents. Ellipsoid: radii. Cylinder, cone, capsule: radius in x and y, half height
   // in z. Sphere: radius in x. The axis is the local z; the cone's apex is at +z.
@@ -35,11 +35,12 @@ struct Shape {
   double margin = 0;  // radius of the ball around the core: sphere and capsule
   Vec3 origin;
   double extent = 0;  // largest |coordinate| of the core, relative to `origin`
-  // Two points of the core, usually deep inside it, within 8 roundoffs of the extent: the first where it is A, the
-  // second where it is B. Off planes of symmetry: rays between such points of aligned shapes would graze edges.
+  // Two points of the core, usually deep inside it, within 8 roundoffs of the extent. The first is used if the shape is
+  // A, the second if it is B. They are not on planes of symmetry, because rays between such points of aligned shapes
+  // would graze edges.
   Vec3 inside[2];
-  // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
-  // origin to its own without any rounding.
+  // Hull and box. Coordinates of a hull are relative to `origin`. This moves a hull far from the world's origin to its
+  // own origin without rounding.
   VertexLanes lanes;
   LazySupportMap support_map;  // of a hull of many vertices
   Polytope polytope;
@@ -51,9 +52,9 @@ struct Shape {
 // Points (n >= 1) in any order; the shape is their convex hull, computed exactly.
 Shape make_hull(const std::vector<Vec3>& points);
 Shape make_hull(Polytope polytope);
-// The same of three points that are not collinear, without faces.
+// The same for three points that are not collinear, without faces.
 Shape make_triangle(const std::array<Vec3, 3>& corners);
-// The hull of points of which the faces are not computed; they span a solid.
+// The hull of points that span a solid. The faces are not computed.
 Shape make_hull_without_faces(std::vector<Vec3> points);
 // The same hull, with its faces.
 Shape with_faces(const Shape& hull);
@@ -67,7 +68,7 @@ Shape make_ellipsoid(Vec3 radii);
 
 // Support point of the core in the local frame.
 CorePoint core_support(const Shape& shape, Vec3 direction);
-CorePoint round_support(const Shape& shape, Vec3 direction);  // of neither hulls nor boxes
+CorePoint round_support(const Shape& shape, Vec3 direction);  // not for hulls and boxes
 
 // core_support() for loops that are compiled for wide registers as a whole.
 SATCHECK_INLINE CorePoint inlined_core_support(const Shape& shape, Vec3 d) {

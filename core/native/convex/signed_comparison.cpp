@@ -1,4 +1,4 @@
-// Each shape is its core and a ball around it: the distance of the cores is compared with the length plus both radii.
+// Each shape is a core with a ball around it. The distance of the cores is compared with the length plus both radii.
 #include "convex/signed_comparison.hpp"
 
 #include "convex/exact_depth.hpp"

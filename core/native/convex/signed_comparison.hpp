@@ -1,4 +1,4 @@
-// Is the signed distance of two convex shapes smaller than, equal to, or larger than a length? Decided exactly.
+// Compares the signed distance of two convex shapes with a length, exactly.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace satcheck {
 
-// Sign of (signed distance - length), where a gap counts > 0 and a penetration < 0. Polytopes are taken at the
-// vertices that their poses round to, spheres and capsules at such centres and axes. Nothing for other curved shapes.
+// Sign of (signed distance - length); a gap is > 0, a penetration < 0. The answer holds for the rounded world
+// coordinates of vertices, centres and axes. Empty for other curved shapes.
 std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                                            double length);
 

@@ -30,8 +30,8 @@ ClosestPoint closest_on_surface(const Simplex& s) {
 
 }  // namespace
 
-// By elimination with row pivots: its residual is rounding, however thin the tetrahedron. Quotients of
-// volumes (Cramer's rule) are noise where the volumes are. N. J. Higham, "Accuracy and Stability of
+// By elimination with row pivots: its residual is rounding noise even for thin tetrahedra. If the volumes are noise,
+// their quotients (Cramer's rule) are noise too. N. J. Higham, "Accuracy and Stability of
 // Numerical Algorithms" (2002), 1.10.1 and 9.3.
 void weigh_enclosed_origin(Simplex& s) {
   const Vec3 o = s.vertex[0].w, e = s.vertex[1].w - o, f = s.vertex[2].w - o, g = s.vertex[3].w - o;
@@ -51,7 +51,7 @@ void weigh_enclosed_origin(Simplex& s) {
   s.weight[0] = 1 - s.weight[1] - s.weight[2] - s.weight[3];
   const bool inside = s.weight[0] >= 0 && s.weight[1] >= 0 && s.weight[2] >= 0 && s.weight[3] >= 0;
   if (inside) return;
-  keep(s, closest_on_surface(s));  // rounded out: it is at a face
+  keep(s, closest_on_surface(s));  // rounding puts the origin at a face
   normalize_weights(s);
 }
 

@@ -25,12 +25,12 @@ struct Simplex {
 
 ClosestPoint closest_point(const Simplex& simplex);
 
-// Weights of the origin in a tetrahedron that encloses it, however thin. One that rounding cannot tell
-// from its faces loses the vertices that carry nothing.
+// Weights of the origin in a tetrahedron that encloses it, even a thin one. If the origin is on a face up to rounding,
+// vertices of weight 0 are dropped.
 void weigh_enclosed_origin(Simplex& simplex);
 
-// Keeps only the vertices that carry the closest point; their weights are shares still. Without a branch: which
-// carry it is anybody's guess.
+// Keeps only the vertices that carry the closest point. Their weights are still shares. Without a branch, because a
+// branch would be unpredictable.
 SATCHECK_INLINE void keep(Simplex& s, const ClosestPoint& closest) {
   int count = 0;
   for (int i = 0; i < 4; ++i) {
@@ -41,7 +41,7 @@ SATCHECK_INLINE void keep(Simplex& s, const ClosestPoint& closest) {
   s.count = count;
 }
 
-// Makes weights of shares.
+// Turns shares into weights of sum 1.
 inline void normalize_weights(Simplex& s) {
   double sum = 0;
   for (int i = 0; i < s.count; ++i) sum += s.weight[i];

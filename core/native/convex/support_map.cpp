@@ -12,16 +12,17 @@ constexpr std::size_t kLanes = VertexLanes::kLanes;
 
 // With fewer vertices a scan is as fast.
 constexpr std::size_t kFewestVertices = 64;
-// Queries that gain about what the map costs.
+// The number of queries that save about the cost of the map.
 constexpr int kQueriesToPay = 256;
 
-// A cell is beaten by more than this fraction of the extent. For a direction of sum |x| + |y| + |z| = 1: its
-// place on the unfolded octahedron is off by 8 roundoffs a coordinate, the direction by 32 in sum, two heights
-// along it by twice 32; each height carries 3 roundings where it is looked up and 3 here, the limit 1: 77.
+// A vertex is excluded from a cell only if another one is higher by more than this fraction of the extent. For a
+// direction with |x| + |y| + |z| = 1, the place on the unfolded octahedron has an error of 8 roundoffs for each
+// coordinate, the direction 32 in sum, and two heights along it twice 32. Each height has 3 roundings in a query and 3
+// here, and the limit has 1. The sum is 77.
 constexpr double kBeaten = 128 * kUnitRoundoff;
 
-// Vertices that can be farthest, in the order of their indices. From `count` to `padded`, a multiple of kLanes,
-// there are copies of the first.
+// Vertices that can be farthest, in the order of their indices. Entries from `count` to `padded`, a multiple of kLanes,
+// are copies of the first.
 struct Candidates {
   std::vector<double> x, y, z;
   std::vector<std::uint32_t> index, kept;
@@ -40,13 +41,14 @@ struct Candidates {
   }
 };
 
-// The direction at a place of the unfolded octahedron, u and v from -1 to 1. Without rounding on a grid.
+// The direction at a place of the unfolded octahedron, u and v from -1 to 1. Exact at grid points.
 Vec3 folded(double u, double v) {
   const double across_u = 1 - std::fabs(v), across_v = 1 - std::fabs(u), z = across_v - std::fabs(v);
   return z >= 0 ? Vec3{u, v, z} : Vec3{std::copysign(across_u, u), std::copysign(across_v, v), z};
 }
 
-// Of `from` those that the one farthest along `middle` does not beat by more than `margin` at all corners.
+// The candidates in `from`, except those that the one farthest along `middle` exceeds by more than `margin` at all
+// corners.
 SATCHECK_WIDE void keep_unbeaten(const Candidates& from, Vec3 middle, const Vec3 corner[4], double margin,
                                  Candidates& to) {
   const double *x = from.x.data(), *y = from.y.data(), *z = from.z.data();
@@ -60,7 +62,7 @@ SATCHECK_WIDE void keep_unbeaten(const Candidates& from, Vec3 middle, const Vec3
     const LaneMask beaten = (d0.heights(x + i, y + i, z + i) < limit0) & (d1.heights(x + i, y + i, z + i) < limit1) &
                             (d2.heights(x + i, y + i, z + i) < limit2) & (d3.heights(x + i, y + i, z + i) < limit3);
     const int bits = ~bits_of(beaten);
-    for (std::size_t l = 0; l < 4; ++l) {  // without a branch: which are beaten is hard to foresee
+    for (std::size_t l = 0; l < 4; ++l) {  // without a branch, which would be unpredictable
       kept[count] = static_cast<std::uint32_t>(i + l);
       count += bits >> l & 1;
     }
@@ -73,7 +75,7 @@ SATCHECK_WIDE void keep_unbeaten(const Candidates& from, Vec3 middle, const Vec3
 
 }  // namespace
 
-// Quarters of squares, down to the cells: the candidates of each are sought among those of the whole.
+// Divides squares into quarters, down to the cells. The candidates of a quarter are among those of its square.
 class SupportMap::Builder {
  public:
   Builder(SupportMap& map, const std::vector<Vec3>& points) : map_(map) {
@@ -119,7 +121,7 @@ class SupportMap::Builder {
 };
 
 SupportMap::SupportMap(const std::vector<Vec3>& points) : points_(points) {
-  // So many cells that most hold one block.
+  // Enough cells that most have one block.
   while (log_side_ < 6 && std::size_t{1} << 2 * log_side_ < 2 * points.size()) ++log_side_;
   side_ = 1 << log_side_;
   cells_.resize(std::size_t{1} << 2 * log_side_);

@@ -1,11 +1,11 @@
-// By direction, the few vertices of a convex hull that can be farthest along it: what a scan over all of them
-// finds, without looking at most of them.
+// For each direction, the few vertices of a convex hull that can be farthest along it. The result equals that of a scan
+// over all vertices, but most vertices are not visited.
 //
 // The directions are cut into cells, squares on an octahedron around the origin that is unfolded to a square
-// (E. Praun, H. Hoppe, "Spherical Parametrization and Remeshing", 2003). A cell knows the vertices that no
-// single other one beats over all of it, which is sure where that is higher at the four corners: the directions
-// in between are sums of them. It is higher by more than all rounding, so that the scan of a cell and the scan
-// of all vertices have the same result, bit by bit.
+// (E. Praun, H. Hoppe, "Spherical Parametrization and Remeshing", 2003). A cell stores all vertices, except those for
+// which another vertex is higher at the four corners of the cell. That vertex is then higher in the whole cell, because
+// the directions of a cell are sums of its corner directions. It is higher by more than all rounding, so the scan of a
+// cell and the scan of all vertices give the same result, bit by bit.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ class SupportMap {
   // Finite points, at least one.
   explicit SupportMap(const std::vector<Vec3>& points);
 
-  // The point that support_index() finds among all. Any direction, but for 0 any point.
+  // The same point as support_index() over all points. For direction 0, any point.
   SATCHECK_INLINE CorePoint support(Vec3 direction) const {
     const Cell cell = cells_[cell_of(direction)];
     const std::uint32_t* places = places_.data() + cell.first;
@@ -76,7 +76,7 @@ class SupportMap {
   std::vector<Vec3> points_;
 };
 
-// The map of a shape, made when enough queries have used the shape that it pays. Copies share it.
+// The map of a shape. It is made after enough queries to pay off. Copies share it.
 class LazySupportMap {
  public:
   LazySupportMap() = default;  // never made

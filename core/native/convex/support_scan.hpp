@@ -9,7 +9,7 @@
 
 namespace satcheck {
 
-// A support point, and its index where the shape has vertices.
+// A support point, and its index if the shape has vertices.
 struct CorePoint {
   Vec3 point;
   std::uint32_t index;
@@ -38,7 +38,7 @@ struct LaneDirection {
   }
 };
 
-// A value a lane, and the index where it stood, kept as float64 so that one mask selects both.
+// A value for each lane, and its index, stored as float64 so that one mask selects both.
 struct LaneBest {
   Lanes value, index;
 };
@@ -49,21 +49,21 @@ SATCHECK_INLINE LaneBest larger(LaneBest a, LaneBest b) {
   return {select(takes_b, b.value, a.value), select(takes_b, b.index, a.index)};
 }
 
-// Over all lanes.
+// The index of the largest over all lanes.
 SATCHECK_INLINE std::uint32_t index_of_largest(LaneBest best) {
   best = larger(best, {shuffle<2, 3, 0, 1>(best.value), shuffle<2, 3, 0, 1>(best.index)});
   best = larger(best, {shuffle<1, 0, 3, 2>(best.value), shuffle<1, 0, 3, 2>(best.index)});
   return static_cast<std::uint32_t>(best.index[0]);
 }
 
-// Over all lanes, in each of them.
+// The largest over all lanes, in each lane.
 SATCHECK_INLINE Lanes largest_in_all(Lanes v) {
   v = larger(v, shuffle<2, 3, 0, 1>(v));
   return larger(v, shuffle<1, 0, 3, 2>(v));
 }
 
-// First the largest height, then where it stands. A count of vectors that is known when this is compiled keeps the
-// heights of up to 32 points in registers.
+// Finds the largest height, then its index. With a compile-time count of vectors, the heights of up to 32 points stay
+// in registers.
 SATCHECK_INLINE std::uint32_t support_index_of_few(const double* x, const double* y, const double* z, int vectors,
                                                    Vec3 direction) {
   const LaneDirection d(direction);
@@ -75,7 +75,7 @@ SATCHECK_INLINE std::uint32_t support_index_of_few(const double* x, const double
   best = largest_in_all(best);
   ManyLaneBits places;
   for (int k = 0; k < vectors; ++k) places.add(height[k] == best, k);
-  // Where a height is no number there may be no bit: then any point.
+  // If a height is nan, there may be no bit. Then any point is returned.
   return static_cast<std::uint32_t>(std::countr_zero(places.bits() | 1ull << (4 * vectors - 1)));
 }
 

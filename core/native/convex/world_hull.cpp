@@ -1,4 +1,4 @@
-// A hull that is not moved is its own world hull. Any other is computed again, because rounding bends its faces.
+// A hull that is not moved is its own world hull. Other hulls are computed again, because rounding bends their faces.
 #include "convex/convex_hull.hpp"
 #include "convex/world_hull.hpp"
 

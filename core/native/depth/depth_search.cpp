@@ -1,7 +1,7 @@
-// Method: branch and bound over boxes in the space of translations, least norm first. A box is dropped when
-// one convex set of translations that are proven to leave an overlap (overlap_proof.hpp) holds all of it,
-// or all that is short enough to matter. Where no set holds a point near the box's nearest one, the search tests
-// the meshes there: if they are free, that is an upper bound; if they overlap, that proves one more set.
+// Method: branch and bound over boxes in the space of translations, least norm first. A forbidden set is a convex set
+// of translations that are proven to leave an overlap (overlap_proof.hpp). A box is dropped when one set contains all
+// of it, or all of it that is short enough to matter. If no set contains a point near the box's nearest point, the
+// search tests the meshes there: if they are free, this is an upper bound; if they overlap, this proves a new set.
 #include "depth/depth_search.hpp"
 
 #include <algorithm>
@@ -31,26 +31,26 @@ constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
 constexpr std::size_t kMostWalls = 24;
-// How far beyond the boundary of a set a step leads, so that rounding does not leave it inside: a share of
-// the known way out.
+// A step goes this far beyond the boundary of a set, so that rounding does not leave it inside. A share of the known
+// way out.
 constexpr double kBeyond = 1e-10;
 // From this many sets on, each is made where the bodies overlap the most.
 constexpr std::size_t kManySets = 40;
-// A new set on a seam is kept if it holds the point this many times deeper than the others.
+// A new set on a seam is kept if the point is this many times deeper in it than in the others.
 constexpr double kDeeper = 2;
-// A way out that ends at a face is shortened to that face where the two agree to this share of it.
+// A way out that ends near a face is changed to end on the face if the lengths agree to this share.
 constexpr double kSnap = 1e-6;
-// Boxes below this share of the known way out lie on a seam of two sets, if no set holds them.
+// Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After this part of the work, spheres from this part of the known way out on are scanned for a shorter one.
+// After 1 / kScanAfter of the work, spheres from 1 / kScanAfter of the known way out on are scanned for a shorter one.
 constexpr std::uint64_t kScanAfter = 8;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // Rounding of the norm of a point.
 constexpr double kNormError = 4 * kUnitRoundoff;
 
-// Unit vectors all round: towards the points of a lattice on the surface of a cube.
+// Unit vectors in all directions, towards the points of a lattice on the surface of a cube.
 std::vector<Vec3> ways() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
@@ -64,7 +64,7 @@ std::vector<Vec3> ways() {
   return directions;
 }
 
-// Whether x + y, rounded to `sum`, was a float64.
+// Whether x + y was exact. sum: x + y, rounded.
 bool is_sum(double sum, double x, double y) {
   const double part = sum - x;
   return (x - (sum - part)) + (y - part) == 0;
@@ -119,12 +119,12 @@ class Search {
   }
 
  private:
-  // Where translations lie in a plane, the boxes are flat, and so is whatever points at them.
+  // If translations lie in a plane, boxes and directions are flat.
   Vec3 in_plane(Vec3 t) const { return satcheck::in_plane(t, goal_.across); }
 
   std::uint64_t work() const { return work_done - start_; }
 
-  // Translations that are longer need not be forbidden.
+  // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
   void push(Vec3 centre, Vec3 half, std::vector<std::uint32_t> sets, std::uint32_t seen) {
@@ -150,7 +150,7 @@ class Search {
     return is_dropped(sets_.covered_by_one(box, enough(), result_.upper));
   }
 
-  // Of a box in which all translations up to a length are forbidden: whether that is long enough.
+  // Whether a box can be dropped. covered: all translations in it up to this length are forbidden.
   bool is_dropped(double covered) {
     if (covered < enough()) return false;
     covered_to_ = std::fmin(covered_to_, covered);
@@ -183,8 +183,8 @@ class Search {
     result_.has_way_out = true;
   }
 
-  // Settles t, a way out or one more set that holds it; then, as long as that leads to a shorter way out than
-  // is known, the nearest point to the origin beyond the walls of the sets that were met.
+  // Tests the meshes at t, which gives a way out or a new set that contains t. Then tests the nearest point to the
+  // origin beyond the walls of the sets so far, as long as it may give a shorter way out.
   void ask_meshes(Vec3 t) {
     std::vector<Wall> walls;
     for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && work() < goal_.work;) {
@@ -210,7 +210,7 @@ class Search {
     return prove_overlap(a_, moved_.at(t), b_, t, relation, overlaps);
   }
 
-  // A way out on the smallest of some spheres: nothing longer has to be searched then.
+  // Searches a way out on spheres, the smallest first. Longer translations need not be searched then.
   void scan_spheres(double radius) {
     scanned_ = true;
     for (; radius < result_.upper; radius *= kSphereRatio) {
@@ -224,8 +224,8 @@ class Search {
     if (result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
   }
 
-  // Where forbidden sets only touch, A fits between the parts of B without play: t is shifted by less than
-  // the rounding of the sets until corners lie in faces, to see whether the meshes are free there.
+  // If forbidden sets only touch, A may fit between the parts of B without clearance. t is shifted by less than the
+  // rounding of the sets until corners lie in faces, and the meshes are tested there.
   void fit(Vec3 t) {
     for (int step = 0; step < kStepsOut; ++step) {
       const MeshRelation relation = relation_at(t);
@@ -240,7 +240,7 @@ class Search {
     if (!deepen(t)) ask_meshes(t);
   }
 
-  // Adds a set that holds t deeper than all others do.
+  // Adds a set in which t is deeper than in all others.
   bool deepen(Vec3 t) {
     const double known = std::fmax(sets_.deepest_exit(t).depth, 0.0);
     ForbiddenSet set = proof_at(t, relation_at(t));
@@ -249,7 +249,7 @@ class Search {
     return true;
   }
 
-  // A way out along the normal of a face ends exactly where a corner leaves the plane of that face.
+  // Corrects a way out along the normal of a face to end exactly where a corner leaves the plane of that face.
   void snap() {
     if (!result_.has_way_out) return;
     const double length = norm(result_.way_out);
@@ -260,7 +260,7 @@ class Search {
     }
   }
 
-  // What rounding may add to the length of t. 0 where t is along an axis and adding it rounds no coordinate.
+  // An upper bound of the length that rounding adds to t. 0 if t is along an axis and rounds no coordinate.
   double rounding(Vec3 t) const {
     const int axes = (t.x != 0) + (t.y != 0) + (t.z != 0);
     double farthest = 0;
@@ -273,7 +273,7 @@ class Search {
     return (axes > 1 ? kNormError * norm(t) : 0) + (exact ? 0 : 2 * kUnitRoundoff * farthest);
   }
 
-  // Of the triangles at which the relation was decided.
+  // The corner planes of the triangles that decided the relation.
   std::vector<CornerPlane> met_planes(const MeshRelation& relation) const {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return {};
     return corner_planes(corners(a_.mesh, relation.triangle_a), corners(b_.mesh, relation.triangle_b));
@@ -285,7 +285,7 @@ class Search {
   DepthGoal goal_;
   std::uint64_t start_ = work_done;
   DepthInterval result_;
-  double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
+  double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
   ForbiddenUnion sets_;
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
   std::uint64_t next_number_ = 0, next_poll_ = kPollWork;

@@ -1,5 +1,5 @@
-// The depth of two meshes that are not both convex: a proven interval, narrowed until it is narrow enough or the work
-// is spent.
+// The depth of two meshes that are not both convex, as a proven interval. It is narrowed until it is narrow enough or
+// the work is spent.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,26 @@
 namespace satcheck {
 
 struct DepthGoal {
-  double upper;            // a known way out is this long
-  double lower = 0;        // known to be a lower bound of the depth
-  double width = 0.01;     // the interval may stay this wide, relative to its upper end
+  double upper;            // length of a known way out
+  double lower = 0;        // a known lower bound of the depth
+  double width = 0.01;     // wanted width of the interval, relative to its upper end
   std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
-  int across = -1;         // an axis of the world along which nothing is moved: the depth in the plane; -1: none
-  std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
+  int across = -1;         // for a depth in a plane, the world axis along which nothing is moved; -1: none
+  std::function<void()> poll = {};  // called about every twentieth of a second; an exception ends the search
 };
 
 enum class DepthStop : std::uint8_t {
-  narrow,      // the interval is as narrow as asked
-  work_spent,  // it is what was reached
+  narrow,      // the interval is as narrow as requested
+  work_spent,  // the work was spent first
 };
 
 struct DepthInterval {
   double lower = 0, upper = INFINITY;
-  // Of A: the meshes, A's coordinates rounded once, have no common interior after it. Only where `found`:
-  // when it is shorter than the way out that was known.
+  // way_out: a translation of A after which the meshes have no common interior; A's coordinates are rounded once. Only
+  // set if it is shorter than the known way out.
   bool has_way_out = false;
   Vec3 way_out;
-  // A proven upper bound of the depth: `upper` and the rounding of the moved coordinates and of that length.
+  // A proven upper bound of the depth: `upper` plus the rounding of the moved coordinates and of the length.
   double bound = INFINITY;
   DepthStop stop = DepthStop::narrow;
   std::uint64_t work = 0;

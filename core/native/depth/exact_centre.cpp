@@ -10,8 +10,8 @@ namespace {
 // Meshes farther from the origin than this many sizes are moved near it.
 constexpr double kFar = 4;
 
-// c is a multiple of a power of two g >= the size, so for every coordinate x, at least 3.5 sizes from 0 and at most 1.5
-// from c, x - c is a multiple of the last place of x, or of g, and smaller than x: a float64.
+// c is a multiple of a power of two g >= the size. Every coordinate x is at least 3.5 sizes from 0 and at most 1.5
+// sizes from c. x - c is then a multiple of the last place of x, or of g, and smaller than x, so it is a float64.
 double exact_middle(double low, double high) {
   const double size = high - low, middle = low * 0.5 + high * 0.5;
   if (!(std::fabs(middle) > kFar * size)) return 0;

@@ -8,16 +8,16 @@
 namespace satcheck {
 namespace {
 
-// A rounded facet normal is off by at most 1e-14 radians (rounded_normal) and the roundings of its
-// length, 1.1e-14 in all: a point is misjudged by that angle times its distance from the facet's corner. Within
-// the set that is at most 7 times the largest coordinate of the bodies, sqrt(3) * 4 rounded up.
+// A rounded facet normal is off by at most 1e-14 radians (rounded_normal), plus the roundings of its length: 1.1e-14 in
+// all. The error of a height is this angle times the distance of the point from the facet's corner. Within the set this
+// distance is at most 7 times the largest coordinate of the bodies (sqrt(3) * 4, rounded up).
 constexpr double kFacetError = 7 * 1.1e-14;
 // Differences of vertices, dot products and sums over a box that the set holds.
 constexpr double kSetError = 128 * kUnitRoundoff;
 
 // Measured steps of testing a part of a box against a facet.
 constexpr std::uint64_t kHeightWork = 6;
-// A facet nearly parallel to an axis bends the bound of a part far out, where rounding would count.
+// Limit of the factor. For a facet nearly parallel to an axis, the best factor would be so large that rounding matters.
 constexpr double kMostFactor = 64;
 // Roundings of the height of a part of a box, as a share of 1 + factor times the largest coordinate and offset: a sum of
 // normals 2 a coordinate, products, their sum and the difference 8, over three coordinates.
@@ -56,9 +56,9 @@ double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double le
   };
   double length = INFINITY;
   for (std::size_t k = 0; k < normal.size(); ++k) {
-    // The greatest height of that part over this facet is at most that of the box over the sum of the facet's normal
-    // and any positive multiple of the plane's, less as much of the offset. As a function of the factor that bound is
-    // convex and bends where a coordinate of the sum vanishes.
+    // An upper bound of the greatest height of that part over this facet: the height of the box over the sum of the
+    // facet's normal and any positive multiple of the plane's normal, minus the same multiple of the offset. As a
+    // function of the factor, the bound is convex, with bends where a coordinate of the sum vanishes.
     const Vec3 n = normal[k];
     bool holds = height(n) < offset[k];
     for (int axis = 0; axis < 3 && !holds; ++axis) {
@@ -101,7 +101,7 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
     result.facet.push_back(dot(hull.face_normal[f], v));
     result.offset.push_back(result.facet.back() - pad);
   }
-  // What the planes bound is then connected with the inside of the hull, and therefore inside it.
+  // The region within the planes is then connected with the inside of the hull, and therefore inside it.
   const Vec3 middle = sum * (1 / static_cast<double>(hull.vertices.size()));
   return result.exit(middle).depth > 0 ? result : ForbiddenSet{};
 }

@@ -7,8 +7,9 @@
 
 namespace satcheck {
 
-// The Minkowski difference B' - A' of two convex bodies: A' inside A, B' inside B. What is on the inner side of
-// all planes is proven to be in its interior: they lie inside its facets by the rounding.
+// The Minkowski difference B' - A' of two convex bodies: A' inside A, B' inside B. A translation on the inner side of
+// all planes is proven to be in its interior, because the planes are moved inward from the facets by the rounding
+// error.
 struct ForbiddenSet {
   std::vector<Vec3> normal;  // unit, outward
   std::vector<double> offset;
@@ -17,7 +18,7 @@ struct ForbiddenSet {
 
   bool empty() const { return normal.empty(); }
 
-  // The shortest way to the planes: positive inside, then also the radius of a ball of forbidden
+  // The shortest way to the planes. Its depth is positive inside; it is then also the radius of a ball of forbidden
   // translations about t.
   struct Exit {
     double depth = 0;
@@ -25,21 +26,21 @@ struct ForbiddenSet {
   };
   Exit exit(Vec3 t) const;
 
-  // length: the set holds all translations in the box that are shorter than this, for planes at least that
-  // far from the origin cut off longer ones only; infinite where it holds the whole box, -infinite where
-  // they do not meet.
+  // length: the set contains all translations in the box that are shorter than this, because planes at least this far
+  // from the origin cut off only longer ones. Infinite if the set contains the whole box, -infinite if they do not
+  // meet.
   struct Reach {
     double length;
     bool meets;
   };
   Reach reach(Vec3 centre, Vec3 half) const;
 
-  // The same length for the part of the box beyond a plane: normal . t >= offset, `normal` unit. Where that is less
-  // than `least`, any number below `least`.
+  // The same length for the part of the box beyond a plane: normal . t >= offset, `normal` unit. If it is less than
+  // `least`, any number below `least`.
   double reach_beyond(Vec3 centre, Vec3 half, Vec3 normal, double offset, double least) const;
 };
 
-// Convex hulls of points; none where the difference has no volume.
+// The forbidden set of two convex hulls of points; empty if the difference has no volume.
 ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b);
 
 }  // namespace satcheck

@@ -10,16 +10,16 @@ namespace {
 
 // Measured steps of one plane of a set.
 constexpr std::uint64_t kPlaneWork = 2;
-// Facets of a set that may cut a box of which other sets cover the rest.
+// At most this many facets of a set may cut a box whose rest is covered by other sets.
 constexpr std::size_t kMostCuts = 4;
-// Sets that a point may be moved out of within its box.
+// At most this many times a point is moved out of a set within its box.
 constexpr std::size_t kSetsLeft = 24;
-// How far into the open a point is moved, in halves of the box.
+// How far a point is moved beyond a set, in half sizes of the box.
 constexpr double kIntoTheOpen = 1.0 / 16;
 
 std::uint64_t work_of(const ForbiddenSet& set) { return kPlaneWork * set.normal.size(); }
 
-// How far the box reaches from its centre along a direction.
+// The reach of the box from its centre along a direction.
 double spread(const TranslationBox& box, Vec3 n) {
   return std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
 }

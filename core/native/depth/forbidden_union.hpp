@@ -1,4 +1,4 @@
-// All forbidden sets that a search has found so far, and what they say of a box or a point together.
+// All forbidden sets that a search has found so far, with queries about a box or a point against all of them.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ class ForbiddenUnion {
   void add(ForbiddenSet set) { sets_.push_back(std::move(set)); }
   std::size_t size() const { return sets_.size(); }
 
-  // A length up to which one set holds all translations in the box; -infinite where that is less than `least`. The
-  // search for a longer one ends at `most`. Notes in box.sets which sets may hold a part of it.
+  // A length up to which a single set contains all translations in the box; -infinite if it is less than `least`. The
+  // search for a longer one ends at `most`. Stores in box.sets which sets may contain a part of the box.
   double covered_by_one(TranslationBox& box, double least, double most) const;
 
-  // The same by one set and, for each part of the box beyond a facet of that set, one more. So two sets that overlap
-  // only a little cover the seam between them in few boxes.
+  // The same by one set and, for each part of the box beyond a facet of that set, one more set. With this, two sets
+  // that overlap only a little cover their seam in few boxes.
   double covered_by_several(const TranslationBox& box, double least);
 
-  // Whether t is shorter than `most` and no set of the box holds it.
+  // Whether t is shorter than `most` and in no set of the box.
   bool is_open(const TranslationBox& box, Vec3 t, double most) const;
 
-  // The point nearest to t that no set of the box holds, if it is in the box and shorter than `most`.
+  // The point nearest to t that is in no set of the box, if it is in the box and shorter than `most`.
   std::optional<Vec3> nearest_open(const TranslationBox& box, Vec3 t, double most) const;
 
   // The box's nearest point to the origin, shifted onto the facets that cut the box.
@@ -39,7 +39,7 @@ class ForbiddenUnion {
 
   bool holds(Vec3 t) const;
 
-  // Out of the set that holds t deepest; depth 0 where none does.
+  // The exit from the set in which t is deepest; depth 0 if t is in no set.
   ForbiddenSet::Exit deepest_exit(Vec3 t) const;
 
  private:
@@ -47,7 +47,7 @@ class ForbiddenUnion {
 
   int across_;
   std::vector<ForbiddenSet> sets_;
-  std::vector<Wall> cuts_;  // of covered_with(), kept for its memory
+  std::vector<Wall> cuts_;  // buffer for covered_with()
 };
 
 }  // namespace satcheck

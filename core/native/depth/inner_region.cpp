@@ -1,12 +1,11 @@
 // Method: Robin Deits, Russ Tedrake, "Computing Large Convex Regions of Obstacle-Free Space Through
-// Semidefinite Programming" (2015): cut space by a plane at the nearest obstacle, go on with the
-// obstacles that the cuts have left. Obstacles are the triangles of the surface, visited nearest
-// first through its tree. Where we deviate: the seed stays inside, the metric comes from the spread
-// of an earlier region's vertices, and a plane is moved inward a little rather than joined by another one
-// for every triangle of a curved surface: less the nearer it is to the seed.
+// Semidefinite Programming" (2015): cut space by a plane at the nearest obstacle, and continue with the obstacles that
+// remain. Obstacles are the triangles of the surface, visited nearest first through its tree. Where we deviate: the
+// seed stays inside, and the metric comes from the spread of an earlier region's vertices. A curved surface would need
+// a plane for every triangle. Instead a plane is moved inward a little, less the nearer it is to the seed.
 //
-// Proof: every triangle lies beyond one of the planes, every vertex of the result on this side of all of
-// them, with a distance between that exceeds the rounding of both tests.
+// Proof: every triangle lies beyond one of the planes, and every vertex of the result lies on the inner side of all
+// planes. The distance between them exceeds the rounding of both tests.
 #include "convex/convex_hull.hpp"
 #include "depth/inner_region.hpp"
 
@@ -26,7 +25,7 @@ constexpr std::uint64_t kVisitWork = 60, kPlaneWork = 3;
 
 constexpr int kBoxPlanes = 6;  // the first ones, of the surface's own box
 constexpr std::size_t kMaxPlanes = 80;
-// A plane may give way by this share of its distance from the seed, twice as much with every so many planes.
+// A plane may move inward by this share of its distance from the seed. The share doubles with the number of planes.
 constexpr double kGiveWay = 1.0 / 16, kMostWay = 0.5;
 constexpr int kPlanesToDoubleIt = 12;
 // Rounding of two plane tests, as a multiple of the largest coordinate: along a unit normal, a corner's
@@ -36,7 +35,7 @@ constexpr double kPlaneError = 64 * kUnitRoundoff;
 // Least variance of a metric's ellipsoid as a share of their sum.
 constexpr double kFlattest = 1e-6;
 
-// Coordinates near zero that rounding has left are out of the range of exact predicates.
+// Tiny coordinates that are left by rounding are out of the range of exact predicates.
 constexpr double kDust = 1e-70;
 
 double without_dust(double x) { return std::fabs(x) < kDust ? 0.0 : x; }
@@ -45,7 +44,7 @@ Vec3 without_dust(Vec3 v) { return {without_dust(v.x), without_dust(v.y), withou
 struct Plane {
   Vec3 normal;     // unit
   double offset;   // of the plane from the seed, > 0
-  double nominal;  // the offset before it gave way
+  double nominal;  // the offset before it was moved inward
 };
 
 struct Candidate {
@@ -135,7 +134,7 @@ class Growth {
     return std::fmin(dot(normal, c[0] - seed_), std::fmin(dot(normal, c[1] - seed_), dot(normal, c[2] - seed_)));
   }
 
-  // Makes the triangle lie beyond some plane; false where the seed would not be left inside.
+  // Moves or adds a plane so that the triangle lies beyond it. False: the seed would not stay inside.
   bool cut_off(const Corners& c) {
     Plane* closest = nullptr;
     double closest_share = -INFINITY, closest_offset = 0;
@@ -174,7 +173,7 @@ class Growth {
       if (!(p.offset > 2 * pad_)) return std::nullopt;
       largest = std::fmax(largest, p.offset);
     }
-    // A power of two, so that sizes stay in range and scaling by powers of two changes nothing.
+    // A power of two, so that sizes stay in range and a scale by a power of two has no effect.
     const double unit = std::ldexp(1.0, std::ilogb(largest));
     for (const Plane& p : planes_) dual.push_back(p.normal * (unit / (p.offset - 2 * pad_)));
     const Polytope hull = convex_hull(dual);

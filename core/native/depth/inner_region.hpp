@@ -8,20 +8,20 @@
 
 namespace satcheck {
 
-// The convex hull of `vertices` has no point of the surface in its interior, and the winding number
-// of its interior is not 0: proven, rounding included. Frame of the surface.
+// The convex hull of `vertices` has no point of the surface in its interior, and the winding number there is not 0.
+// Both are proven, rounding included. Frame of the surface.
 struct InnerRegion {
   std::vector<Vec3> vertices;  // extreme points, at least 4
   Aabb box;
 };
 
-// What counts as near while a region grows: x is as far from the seed as metric * (x - seed) is long.
+// The metric for distances while a region grows: the distance of x from the seed is the length of metric * (x - seed).
 using Metric = Mat3;
 
-// Nothing where the seed is not strictly inside or so close to the surface that rounding decides.
+// Empty if the seed is not strictly inside, or too close to the surface to tell.
 std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric);
 
-// The metric in which the region's vertices spread evenly.
+// The metric in which the covariance of the region's vertices is that of a ball.
 Metric metric_of(const InnerRegion& region);
 
 }  // namespace satcheck

@@ -1,6 +1,6 @@
-// Two solids: convex regions inside both, grown about a common point. Any two bodies: a pair of triangles that
-// cross, for every triangle is a boundary of material, or within it, or a sheet; or a triangle of one and a region
-// inside the other. Of an open body only what is material whatever fills its holes is asked.
+// For two solids: convex regions inside both, grown about a common point. For any two bodies: a pair of triangles that
+// cross, because every triangle bounds material, lies within it, or is a sheet; or a triangle of one body and a region
+// inside the other. For an open body only material that does not depend on fills counts.
 #include "depth/overlap_proof.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr std::size_t kPockets = 8;
 // A crossing this near to a common point, in units of its depth, counts as part of the same overlap.
 constexpr double kNear = 2;
 
-// The surface, closed where it is open.
+// A body with its closed surface.
 class Body {
  public:
   explicit Body(const Surface& surface)
@@ -32,7 +32,7 @@ class Body {
   const Surface& closed() const { return closing_ ? *closing_->surface : surface_; }
   const Surface& walled() const { return closing_ ? *walled_surface(surface_, OpenParts::filled) : surface_; }
 
-  // Is the point outside of the hulls of all holes?
+  // Whether the point is outside of the hulls of all holes.
   bool is_certain_at(Vec3 p) const {
     if (!closing_) return true;
     return std::all_of(closing_->hulls.begin(), closing_->hulls.end(),
@@ -51,11 +51,12 @@ class Proof {
   bool empty() const { return set_.empty(); }
   ForbiddenSet take() { return std::move(set_); }
 
-  // Of the sets that two metrics a side give, the one that holds t the deepest.
+  // Two metrics for each body give several sets. Takes the one in which t is deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
     const Body a(a_), b(b_), moved_a(moved);
     const Surface &closed_a = moved_a.closed(), &closed_b = b.closed();
-    // Beside a crossing in a last digit no common point may be found, and yet the bodies overlap elsewhere.
+    // Near a crossing that is only a last digit deep, no common point may be found, although the bodies overlap
+    // elsewhere.
     std::optional<CommonPoint> common = common_point(closed_a, closed_b, relation);
     if (!common || overlaps == Overlaps::thickest) common = thickest(common, closed_a, closed_b, relation);
     if (common && a.is_certain_at(common->point - t_) && b.is_certain_at(common->point)) {
@@ -67,7 +68,7 @@ class Proof {
     }
   }
 
-  // A triangle of one body in the inside of the other, which is all there is of a sheet.
+  // A triangle of one body inside the other. For a sheet this is the only kind of overlap.
   void by_triangle_within(const MeshRelation& relation) {
     if ((relation.triangle_a == kNoTriangle) == (relation.triangle_b == kNoTriangle)) return;
     const bool is_of_a = relation.triangle_a != kNoTriangle;
@@ -89,7 +90,7 @@ class Proof {
   }
 
  private:
-  // The deepest common point of some: the one that the relation led to, and those beside more crossings.
+  // The deepest of several common points: the one from the relation, and those near other crossings.
   static std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved, const Surface& b,
                                              const MeshRelation& relation) {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;

@@ -1,4 +1,4 @@
-// What an overlap of the two meshes after one translation proves about the translations around it.
+// Proves from an overlap after one translation that nearby translations also leave an overlap.
 #pragma once
 
 #include "depth/forbidden_set.hpp"
@@ -7,12 +7,12 @@
 
 namespace satcheck {
 
-// Where bodies overlap in several places: the place of the relation's evidence, or the thickest of some. That takes
-// twice the time, and proves more where sets are many.
+// If bodies overlap in several places: use the place of the relation's evidence (first), or the thickest of several
+// (thickest). The latter takes twice the time, and proves more if there are many sets.
 enum class Overlaps { first, thickest };
 
-// A set that holds t: of the sets that were tried the one that holds it deepest; empty where none holds it. `relation` of `moved`, which is `a`
-// translated by t, to `b`: with a common interior.
+// The set in which t is deepest, among all sets that were tried; empty if t is in none. `moved`: `a` translated by t.
+// `relation`: of `moved` to `b`, with a common interior.
 ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
                            const MeshRelation& relation, Overlaps overlaps);
 

@@ -5,7 +5,7 @@
 namespace satcheck {
 namespace {
 
-// The first box is larger than it has to be by an odd number, so that halving it does not end at facets.
+// The first box is larger than necessary by an odd factor, so that its halves do not end exactly at facets.
 constexpr double kRootSize = 1.0309;
 constexpr int kShortDigits = 20;
 

@@ -11,7 +11,7 @@ namespace satcheck {
 struct TranslationBox {
   double key;  // distance of its nearest point from the origin
   Vec3 centre, half;
-  std::vector<std::uint32_t> sets;  // which of the first `seen` forbidden sets may hold a part of it
+  std::vector<std::uint32_t> sets;  // those of the first `seen` forbidden sets that may contain a part of it
   std::uint32_t seen;
   std::uint64_t number;
 
@@ -20,7 +20,7 @@ struct TranslationBox {
   Aabb bounds() const { return {centre - half, centre + half}; }
 };
 
-// The order of a queue whose top is the box nearest to the origin; of equals, the one with the least number.
+// The order of a queue with the box nearest to the origin on top. Among equal boxes, the one with the least number.
 struct Later {
   bool operator()(const TranslationBox& a, const TranslationBox& b) const {
     return a.key != b.key ? a.key > b.key : a.number > b.number;
@@ -30,8 +30,8 @@ struct Later {
 // The part of a translation in the plane across an axis of the world, 0, 1 or 2; all of it for -1.
 Vec3 in_plane(Vec3 t, int across);
 
-// Half the side of a cube round the origin that holds all translations of at most this length, with few enough
-// digits that the centres of its halves are exact after some 90 halvings, 30 an axis.
+// Half the side of a cube around the origin that contains all translations of at most this length. It has so few digits
+// that centres are exact after about 90 halvings, 30 for each axis.
 double root_half(double length);
 
 }  // namespace satcheck

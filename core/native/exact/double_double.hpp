@@ -1,5 +1,5 @@
-// Numbers of about 106 bits as unevaluated sums of two float64, for the few places where a difference of
-// products cancels. T. J. Dekker, "A Floating-Point Technique for Extending the Available Precision"
+// Numbers of about 106 bits as unevaluated sums of two float64, for differences of products that cancel. T. J. Dekker,
+// "A Floating-Point Technique for Extending the Available Precision"
 // (1971); D. E. Knuth's two-sum; products by fused multiply-add, which is correct with or without
 // hardware for it. Needs contraction to be off.
 #pragma once

@@ -37,7 +37,7 @@ Dyadic::Dyadic(double value) {
 
 void Dyadic::trim() {
   while (!limbs_.empty() && limbs_.back() == 0) limbs_.pop_back();
-  // Whole zero limbs at the low end carry nothing and would only make later products longer.
+  // Zero limbs at the low end are removed, because they would only make later products longer.
   const Limbs& limbs = limbs_;
   const auto low = std::find_if(limbs.begin(), limbs.end(), [](std::uint32_t l) { return l != 0; });
   if (low != limbs_.begin()) {
@@ -68,7 +68,7 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
   const bool a_is_fine = a.exponent_ <= b.exponent_;
   const Dyadic &fine = a_is_fine ? a : b, &coarse = a_is_fine ? b : a;
   const bool subtract = a.negative_ != b_is_negative;
-  // The digits of the coarse one move up by so many, and by so many bits.
+  // The digits of the coarser number move up by whole limbs and by bits.
   const std::int64_t shift = coarse.exponent_ - fine.exponent_;
   const auto whole = static_cast<std::size_t>(shift / kLimbBits);
   const int part = static_cast<int>(shift % kLimbBits);
@@ -92,7 +92,7 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
   }
   if (carry > 0) {
     result.limbs_.push_back(static_cast<std::uint32_t>(carry));
-  } else if (carry < 0) {  // the coarse one is the larger: the digits are those of 2^k less the difference
+  } else if (carry < 0) {  // the coarser number is larger: the digits are those of 2^k minus the difference
     result.negative_ = !result.negative_;
     std::uint64_t one = 1;
     for (std::size_t i = 0; i < result.limbs_.size(); ++i) {

@@ -1,4 +1,4 @@
-// Integers times powers of two, of any size: what float64 sums and products are exactly.
+// Integers times powers of two, of any size. Sums and products of float64 are such numbers.
 #pragma once
 
 #include <cstdint>

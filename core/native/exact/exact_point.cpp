@@ -100,12 +100,12 @@ bool operator==(const ExactPoint& p, const ExactPoint& q) {
 
 namespace {
 
-// A point of space or of a plane as float64 knows it.
+// A point in space or in a plane in float64, with its error.
 struct Known {
   Vec3 at, error;
 };
 
-constexpr int kOpen = 2;  // a sign that float64 cannot tell
+constexpr int kOpen = 2;  // float64 does not decide the sign
 
 // The one of orientation(a, b, c, d) in float64.
 struct Determinant {
@@ -158,8 +158,8 @@ LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, co
     const ExactPoint exact = make();
     return {exact.rounded, exact.error, make};
   }
-  // The place t = P / (P + Q) on the way from p to q, with heights P and Q of which the error is at most a quarter of
-  // the sum: |dt| <= 16/9 error / sum, and 3 roundings.
+  // The place t = P / (P + Q) on the way from p to q, with heights P and Q. If their error is at most a quarter of the
+  // sum, |dt| <= 16/9 error / sum, plus 3 roundings.
   const double t = std::fabs(at_p.value) / sum, off = kSlack * (2 * error / sum + 4 * kRoundoff);
   const auto at = [&](double from, double to) { return from + (to - from) * t; };
   const auto error_at = [&](double from, double to) {

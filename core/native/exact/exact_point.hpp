@@ -1,4 +1,4 @@
-// Points with rational coordinates, for samples that no float64 point can be.
+// Points with rational coordinates, for samples that are not float64 points.
 #pragma once
 
 #include <array>
@@ -27,16 +27,17 @@ ExactPoint weighted_point(Vec3 a, Vec3 b, Vec3 c, const Dyadic& wa, const Dyadic
 // (wp p + wq q) / (wp + wq), weights of one sign, not both zero.
 ExactPoint between(const ExactPoint& p, const ExactPoint& q, const Dyadic& wp, const Dyadic& wq);
 
-// The value whose sign is orientation(a, b, c, d).
+// The determinant whose sign is orientation(a, b, c, d).
 Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 // The same times d.w.
 Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d);
 
-// Where the line through p and q, on different sides of the plane of a, b, c, meets it; one of them may lie in it.
+// The point where the line through p and q meets the plane of a, b, c. p and q are on different sides; one may lie in
+// the plane.
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q);
 
-// A point that float64 knows to within `error` per coordinate, and that is computed exactly only for the signs
-// which this leaves open.
+// A point in float64 with an `error` for each coordinate. It is computed exactly only for signs that float64 does not
+// decide.
 class LazyPoint {
  public:
   LazyPoint(Vec3 rounded, Vec3 error, std::function<ExactPoint()> make)
@@ -54,7 +55,7 @@ class LazyPoint {
   mutable std::optional<ExactPoint> exact_;
 };
 
-// As the functions above. What they are given must outlive the point.
+// Lazy versions of the functions above. The arguments must outlive the point.
 LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle);
 LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q);
 LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq);
@@ -68,19 +69,19 @@ int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
 int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 
-// As point_in_triangle(): most triangles that are not off the point in float64 are off it seen along an axis, which
-// takes fewer digits than to know that it lies in their plane.
+// As point_in_triangle(). If float64 does not decide, most triangles miss the point when seen along an axis. This test
+// comes first, because it needs fewer digits than the test of the plane.
 bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c);
 bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c);
 
-// The value with that sign, times a positive factor that depends on a and b alone and times c.w.
+// The value of that sign, times a positive factor that depends only on a and b, and times c.w.
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 
 inline const Dyadic& coordinate(const ExactPoint& p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-// The axes that remain when one is dropped, so that the projection keeps the orientation.
+// The two axes that remain when one is dropped, in the order that keeps the orientation.
 struct PlaneAxes {
   int i, j;
 };

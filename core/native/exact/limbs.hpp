@@ -1,5 +1,5 @@
-// The digits of a big integer, base 2^32. As many as exact predicates on float64 coordinates usually need lie in the
-// object itself: a sign then costs no allocation.
+// The digits of a big integer, base 2^32. The object itself has room for the digits that exact predicates usually need,
+// so that a sign costs no allocation.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace satcheck {
 
 class Limbs {
  public:
-  Limbs() {}  // the digits in place stay as they are: only the first size() count
+  Limbs() {}  // near_ stays uninitialized: only the first size() digits count
   Limbs(std::initializer_list<std::uint32_t> limbs) { append(limbs.begin(), limbs.size()); }
   Limbs(const Limbs& other) { append(other.begin(), other.size_); }
   Limbs(Limbs&& other) noexcept { take(other); }
@@ -66,7 +66,7 @@ class Limbs {
   }
 
  private:
-  // A sample between two meeting points has coordinates of degree 8: 27 limbs where the exponents are alike.
+  // A sample between two meeting points has coordinates of degree 8: 27 limbs if the exponents are similar.
   static constexpr std::size_t kNear = 32;
 
   void take(Limbs& other) {
@@ -80,7 +80,7 @@ class Limbs {
   }
 
   std::size_t size_ = 0, capacity_ = kNear;
-  std::unique_ptr<std::uint32_t[]> far_;  // in the place of near_, where these are too few
+  std::unique_ptr<std::uint32_t[]> far_;  // used instead of near_ if that is too small
   std::uint32_t near_[kNear];
 };
 

@@ -1,4 +1,4 @@
-// Points in the plane of a triangle, rounded ones and exact ones: one set of names for both.
+// Points in the plane of a triangle. The same functions for rounded and exact points.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,7 @@ inline int projection_axis(Vec3 normal) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-// Does a point, known to be in the plane of a triangle that is not collinear, lie in the closed
-// triangle?
+// Whether a point lies in the closed triangle. It has to be in its plane, and the triangle must not be collinear.
 template <class Point>
 bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
   const int axis = projection_axis(rounded_normal(a, b, c));
@@ -30,8 +29,8 @@ bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// Is p in the closed triangle? Collinear triangles have no inside and contain nothing here: in a
-// closed mesh their edges belong to other triangles too.
+// Whether p is in the closed triangle. Collinear triangles contain no point here, because in a closed mesh their edges
+// also belong to other triangles.
 template <class Point>
 bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
   return orientation(a, b, c, p) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);

@@ -164,8 +164,8 @@ Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Ve
   return sum(sum(x, y), z);
 }
 
-// Two different doubles of at least this size differ by a multiple of 1e-97, so that the terms of an exact product of
-// three differences are multiples of 1e-291, which float64 holds. Expansions are exact for no others.
+// Two different doubles of at least this size differ by a multiple of 1e-97. The terms of an exact product of three
+// differences are then multiples of 1e-291, which float64 can hold. Expansions are exact only for such doubles.
 constexpr double kSmallestFactor = 1e-80;
 
 bool may_underflow(std::span<const Vec3> points) {
@@ -214,8 +214,8 @@ double dyadic_volume(const std::vector<Vec3>& vertices, const std::vector<Triang
   return volume == 0 && total.sign() != 0 ? std::copysign(std::numeric_limits<double>::denorm_min(), total.sign()) : volume;
 }
 
-// Is a row or a column of the matrix 0? Rounded differences are 0 only if exact ones are. The usual
-// case of axis-aligned geometry.
+// Whether a row or a column of the matrix is 0, as is usual for axis-aligned geometry. Rounded differences are 0 only
+// if exact ones are.
 bool has_zero_line(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 zero;
   return (a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
@@ -263,7 +263,7 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
 }
 
 bool collinear(Vec3 a, Vec3 b, Vec3 c) {
-  // Of most triangles a rounded component of the normal is clearly not 0.
+  // For most triangles, a rounded component of the normal is clearly not 0.
   const Vec3 u = b - a, v = c - a;
   const auto is_clear = [](double left, double right) {
     return std::fabs(left - right) > kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;

@@ -4,8 +4,8 @@
 // Geometric Predicates" (1997). A float64 filter with a static bound decides the generic case;
 // otherwise the determinant is expanded without rounding, for the sign alone.
 //
-// Range: exact for coordinates of up to 1e45 (numeric_range.hpp), which everything that calls them enforces, however
-// small some of them are: where a product may underflow, neither the filter nor the expansions are asked.
+// Range: exact for coordinates of up to 1e45 (numeric_range.hpp), which all callers enforce. Coordinates may be small:
+// if a product may underflow, neither the filter nor the expansions are used.
 #pragma once
 
 #include <cmath>
@@ -22,13 +22,13 @@ namespace satcheck {
 // triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
-// Of the magnitudes that the terms of a 3x3 determinant have in float64, how much it can be off. A term carries at
-// most 3 rounded differences, 2 products and 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u
+// The relative error of a 3x3 determinant in float64, as a share of the sum of the magnitudes of its terms. A term has
+// at most 3 rounded differences, 2 products and 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u
 // covers the roundings of the permanent and of the bound.
 inline constexpr double kDeterminantBound = 9 * kUnitRoundoff;
 
-// What underflow can add to that: a product is off by half of the smallest float64, 2.5e-324, and is multiplied once more
-// by a difference of at most 2e45; for a dozen of them, rounded up.
+// The error that underflow can add. The error of a product is half of the smallest float64, 2.5e-324, and it is
+// multiplied by a difference of at most 2e45. For a dozen products, rounded up.
 inline constexpr double kUnderflow = 1e-270;
 
 // The plane of a triangle, for the sides of many points: side(d) == orientation(a, b, c, d).
@@ -44,7 +44,7 @@ class TrianglePlane {
   }
 
   int side(Vec3 d) const {
-    // As many roundings as in determinant_sign(), with the rows in another order.
+    // The same roundings as in determinant_sign(), with the rows in another order.
     const Vec3 w = d - a;
     const double determinant = dot(normal_, w);
     const double bound = kDeterminantBound * dot(permanent_, {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)}) + kUnderflow;
@@ -68,7 +68,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
 // triangle projected along the named axis.
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
 
-// Do the three points lie on one line (or coincide)?
+// Whether the three points lie on one line (or coincide).
 bool collinear(Vec3 a, Vec3 b, Vec3 c);
 
 // (b - a) x (c - a) with a relative error below 1e-14 of its length, however thin the triangle; zero
@@ -78,17 +78,18 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
 // a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.
 double rounded_affine(Vec3 a, Vec3 b, double offset);
 
-// The same of many points: x, y and z of each by the three rows, in place.
+// The same for many points, in place: x, y and z of each by the three rows.
 void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points);
 
-// The same of a sum of up to 2^32 determinants.
+// The same for a sum of up to 2^32 determinants.
 inline constexpr double kManyUnderflows = 1e-260;
 
 // Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
 // Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
 
-// The same, a triangle after the other, for a pass over them that does more. origin: the first corner of the first one.
+// The same sum, triangle by triangle, for callers that do more in the same pass. origin: the first corner of the first
+// triangle.
 class VolumeSum {
  public:
   explicit VolumeSum(Vec3 origin) : origin_(origin) {}
@@ -105,7 +106,7 @@ class VolumeSum {
                   std::fabs(a.z) * (size_b.x * size_c.y + size_b.y * size_c.x);
   }
 
-  // Nothing where the sign of the sum is not certain.
+  // Empty if the sign of the sum is not certain.
   std::optional<double> volume() const {
     const double six_volumes = total_ + correction_;
     // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.

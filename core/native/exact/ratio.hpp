@@ -1,4 +1,4 @@
-// Quotients of dyadic numbers: places on a way, compared exactly.
+// Quotients of dyadic numbers: places on a segment, compared exactly.
 #pragma once
 
 #include <utility>
@@ -23,7 +23,7 @@ inline Ratio make_ratio(Dyadic numerator, Dyadic denominator) {
   return {std::move(numerator), std::move(denominator)};
 }
 
-// Of a way, where a linear function with these values at its ends, of different signs, is 0.
+// The place on a segment where a linear function is 0. Its values at the ends have different signs.
 inline Ratio zero_between(const Dyadic& at_start, const Dyadic& at_end) {
   return make_ratio(at_start, at_start - at_end);
 }

@@ -1,4 +1,4 @@
-// How long a translation is, including the rounding of the moved coordinates.
+// The length of a translation, including the rounding of the moved coordinates.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace satcheck {
 
-// Whether `move`, added to these points with one rounding of each coordinate, takes none of them farther than `length`.
-// Decided exactly where nothing is rounded.
+// Whether `move`, added to these points with one rounding of each coordinate, moves no point farther than `length`.
+// Exact if nothing is rounded.
 bool moves_within(std::span<const Vec3> points, Vec3 move, double length);
 
 }  // namespace satcheck

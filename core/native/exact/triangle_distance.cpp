@@ -1,7 +1,7 @@
-// Method: Christer Ericson, "Real-Time Collision Detection" (2005), 5.1.5 and 5.1.9: two disjoint
-// triangles are nearest at a corner and a face or at two edges. Where we deviate: whether they meet
-// is decided by exact signs, and where edges are so nearly parallel that the place of their nearest points
-// cancels in float64, it is computed in twice the precision: a corner may be much farther. So are all normals.
+// Method: Christer Ericson, "Real-Time Collision Detection" (2005), 5.1.5 and 5.1.9: two disjoint triangles are nearest
+// at a corner and a face or at two edges. Where we deviate: exact signs decide whether they meet. If edges are nearly
+// parallel, the place of their nearest points cancels in float64, and is computed in twice the precision, because a
+// corner may be much farther. All normals are computed in twice the precision, too.
 #include "exact/triangle_distance.hpp"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ Vec3 nearest_on_segment(Vec3 x, Vec3 p, Vec3 q) {
   return p + d * clamp01(dot(x - p, d) / dot(d, d));
 }
 
-// sin^2 of the angle of two edges below which the float64 place along them is off by more than 1e-12 of
-// their length. In twice the precision it is good to 1e-16 down to angles of 1e-8, and at 1e-12, where
-// still 1e-8 is left, moving that far along the edges changes their distance by 1e-20 of the length.
+// If sin^2 of the angle of two edges is below this, the error of the float64 place along them exceeds 1e-12 of their
+// length. In twice the precision the error is 1e-16 down to angles of 1e-8. At an angle of 1e-12 the error is 1e-8, but
+// moving that far along the edges changes their distance by only 1e-20 of the length.
 constexpr double kNearlyParallelSquared = 1e-4;
 
 struct WideVec {
@@ -32,7 +32,7 @@ WideVec wide_difference(Vec3 a, Vec3 b) { return {exact_sum(a.x, -b.x), exact_su
 
 DoubleDouble dot(const WideVec& a, const WideVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Where on the line of p1 q1 the line of p2 q2 is nearest, 0 at p1 and 1 at q1. NaN when parallel.
+// The place on the line of p1 q1 that is nearest to the line of p2 q2: 0 at p1 and 1 at q1. NaN for parallel lines.
 double nearest_place(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2) {
   const WideVec d1 = wide_difference(q1, p1), d2 = wide_difference(q2, p2), r = wide_difference(p1, p2);
   const DoubleDouble a = dot(d1, d1), e = dot(d2, d2), b = dot(d1, d2), c = dot(d1, r), f = dot(d2, r);
@@ -59,7 +59,7 @@ Vec3 nearest_on_boundary(Vec3 p, const Corners& t) {
   return best;
 }
 
-// normal: that of the triangle, good to rounding however thin it is; 0 where it is collinear.
+// normal: of the triangle, accurate to rounding even for thin triangles; 0 if it is collinear.
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t, Vec3 normal) {
   const double length_squared = norm_squared(normal);
   if (!(length_squared > 0)) return nearest_on_boundary(p, t);
@@ -69,13 +69,13 @@ Vec3 nearest_on_triangle(Vec3 p, const Corners& t, Vec3 normal) {
     const double side = normal.x * (yz - zy) + normal.y * (zx - xz) + normal.z * (xy - yx);
     const double permanent = std::fabs(normal.x) * (std::fabs(yz) + std::fabs(zy)) + std::fabs(normal.y) * (std::fabs(zx) + std::fabs(xz)) +
                              std::fabs(normal.z) * (std::fabs(xy) + std::fabs(yx));
-    // Where rounding hides on which side of an edge it is, the edge is as near as the inside.
+    // If rounding hides the side of an edge, the edge is as near as the inside.
     if (!(side > kDeterminantBound * permanent)) return nearest_on_boundary(p, t);
   }
   return p - normal * (dot(normal, p - t[0]) / length_squared);
 }
 
-// In twice the precision: of a needle the cross product of two edges is mostly rounding, and its plane far off.
+// In twice the precision, because for a needle the cross product of two edges is mostly rounding noise.
 Vec3 normal_of(const Corners& t) {
   const WideVec u = wide_difference(t[1], t[0]), v = wide_difference(t[2], t[0]);
   return {static_cast<double>(u.y * v.z - u.z * v.y), static_cast<double>(u.z * v.x - u.x * v.z),

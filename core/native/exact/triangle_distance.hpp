@@ -5,7 +5,7 @@
 
 namespace satcheck {
 
-// The point of a closed triangle nearest to p. Degenerate triangles are fine.
+// The point of a closed triangle nearest to p. The triangle may be degenerate.
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t);
 
 struct NearestPoints {
@@ -16,7 +16,7 @@ struct NearestPoints {
 // Nearest points of two closed triangles. Exactly 0 apart when they have a common point.
 NearestPoints triangle_distance(const Corners& a, const Corners& b);
 
-// A lower bound of the squared distance of anything in the two boxes, short by rounding at most.
+// A lower bound of the squared distance of points in the two boxes, exact up to rounding.
 inline double box_distance_squared(const Aabb& a, const Aabb& b) {
   const auto gap = [](double min_a, double max_a, double min_b, double max_b) {
     const double g = min_b > max_a ? min_b - max_a : min_a > max_b ? min_a - max_b : 0.0;

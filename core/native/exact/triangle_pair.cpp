@@ -1,8 +1,8 @@
 // Method: Philippe Guigue, Olivier Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
 // Orientation Predicates" (2003): two triangles that straddle each other's planes meet when their
 // intervals on the common line do, and the ends of the intervals compare by one orientation each.
-// Where we deviate: the comparison is derived for any signs including zeros, strict overlap is told
-// from contact, and coplanar or collinear triangles go to exact segment tests.
+// Where we deviate: the comparison is derived for any signs including zeros, strict overlap is distinguished from
+// contact, and exact segment tests decide about coplanar or collinear triangles.
 #include "exact/triangle_pair.hpp"
 
 #include <utility>
@@ -76,8 +76,8 @@ bool straddles(const std::array<int, 3>& s) {
   return (s[0] > 0 || s[1] > 0 || s[2] > 0) && (s[0] < 0 || s[1] < 0 || s[2] < 0);
 }
 
-// The triangle from its lone corner: the one strictly higher (`direction` +1) or strictly lower (-1)
-// than both others, by sign. The two edges at it cross, or reach, the other plane.
+// A triangle, starting at its lone corner. This corner is strictly higher (`direction` +1) or strictly lower (-1) than
+// both others, by sign. Its two edges cross or reach the other plane.
 struct Lone {
   Vec3 p, q, r;
   int direction;
@@ -98,7 +98,7 @@ int compare_along_line(const Lone& a, Vec3 ax, const Lone& b, Vec3 by) {
   return a.direction * b.direction * orientation(a.p, ax, b.p, by);
 }
 
-// The ends of an interval along d, as the far ends of the edges that make them.
+// The ends of an interval along d, as the far ends of the edges that define them.
 struct Interval {
   Vec3 low, high;
 };
@@ -190,7 +190,7 @@ CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
   const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
   const int turn_a = orientation_2d(a[0], a[1], a[2], axis);
   const int turn_b = orientation_2d(b[0], b[1], b[2], axis);
-  // Convex sets have no common area when a line along an edge of one parts them.
+  // Convex sets have no common area if a line along an edge of one separates them.
   const auto edge_parts = [&](const Corners& t, int turn, const Corners& other) {
     for (int i = 0; i < 3; ++i) {
       bool outside = true;
@@ -227,7 +227,7 @@ Vec3 contact_point(const Corners& a, const Corners& b) {
   for (const Vec3& p : b) {
     if (segment_meets_triangle(p, p, a)) return p;
   }
-  // No corner lies in the other triangle: an edge goes through it, or two edges meet.
+  // No corner lies in the other triangle. An edge passes through it, or two edges meet.
   const Corners* sheets[2] = {&a, &b};
   for (int s = 0; s < 2; ++s) {
     const Corners &edges = *sheets[s], &sheet = *sheets[1 - s];

@@ -1,4 +1,4 @@
-// How two closed triangles lie to each other, decided by exact orientation signs.
+// The contact of two closed triangles, decided by exact orientation signs.
 #pragma once
 
 #include <array>
@@ -26,13 +26,13 @@ enum class CoplanarOverlap {
   opposing,  // common area, normals in opposite directions
 };
 
-// Do two triangles lie in one plane and share a patch of positive area?
+// Whether two triangles lie in one plane and share a patch of positive area.
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
 
 // Closed segment p q against a closed triangle, either of which may be degenerate.
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t);
 
-// Where the way from p to q meets a plane, which p is not in.
+// Where the segment p q meets a plane. p is not in the plane.
 struct PlaneMeeting {
   Corners plane;
   Vec3 p, q;

@@ -55,11 +55,11 @@ class BoundaryEdges {
 
 }  // namespace
 
-// A walk along the boundary; a vertex that it meets again closes a loop, which is taken out of the walk.
+// Walks along the boundary. A vertex that is met again closes a loop, which is removed from the walk.
 std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& edges) {
   BoundaryEdges left(welded, edges);
   std::vector<BoundaryLoop> loops;
-  std::map<std::uint32_t, std::size_t> place;  // of a vertex on the walk
+  std::map<std::uint32_t, std::size_t> place;  // position of a vertex on the walk
   for (const std::uint32_t start : left.starts()) {
     std::vector<std::uint32_t> walk{start};
     place = {{start, 0}};

@@ -1,6 +1,6 @@
-// Where a surface ends: its boundary, taken apart into simple loops.
+// The boundary of a surface, split into simple loops.
 //
-// Count how often triangles run an edge in each direction: the surplus of one direction belongs to the boundary.
+// Triangles run an edge in two directions. The surplus of one direction belongs to the boundary.
 // So the boundary includes the rims of holes, and the edges of a surplus copy of a triangle or of a triangle with
 // the wrong winding. At every vertex as many boundary edges start as end, so the boundary is a set of loops.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace satcheck {
 
-// Vertices in the direction of the surface; none comes twice. The last one leads back to the first.
+// Vertices in the direction of the surface, each once. The last one is connected to the first.
 using BoundaryLoop = std::vector<std::uint32_t>;
 
 // Their order depends only on the order of vertices and triangles.
@@ -21,7 +21,7 @@ std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& ed
 // Triangles that close the loop: a fan about its first vertex, against the direction of the loop.
 std::vector<Triangle> fan(const BoundaryLoop& loop);
 
-// Loops that share a vertex are one hole: they can be taken apart in several ways, and one fill may close them all.
+// Loops that share a vertex are one hole, because they can be split in several ways, and one fill may close them all.
 struct Hole {
   std::vector<BoundaryLoop> loops;
   Aabb box;
@@ -30,14 +30,14 @@ struct Hole {
   Vec3 centre() const { return (box.min + box.max) * 0.5; }
 };
 
-// The triangles of parts that are open and lie in one plane. These are sheets: in the plane no other fill of their
-// boundary exists. Parts are connected through vertices.
+// The triangles of open parts that lie in one plane. They are sheets, because their boundary has no other fill in the
+// plane. Parts are connected through vertices.
 std::vector<std::uint32_t> flat_parts(const Mesh& welded);
 
-// The triangles of flaps (base/patches.hpp), and of flat parts: sheets, where what is open is meant to be open.
+// The triangles of flaps (base/patches.hpp) and of flat parts. They are sheets if open parts are intended.
 std::vector<std::uint32_t> open_parts(const Mesh& welded);
 
-// Makes sheets of these triangles: they come in both windings then.
+// Turns these triangles into sheets by adding them in the opposite winding.
 void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 // The largest first. Flat parts are holes too, unless they are doubled.

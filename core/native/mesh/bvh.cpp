@@ -1,8 +1,8 @@
 // Method: Christian Lauterbach and others, "Fast BVH Construction on GPUs" (2009): triangles are sorted
 // along a Morton curve through their centres, and a range is cut where the highest bit of its codes
-// changes. Splits by surface area take three times as long and save a seventh of the box tests. Where we
-// deviate: long ranges are tasks of their own, cut and put together in an order that only the
-// coordinates and the triangle order decide, so that the number of threads changes nothing.
+// changes. Splits by surface area take three times as long and save a seventh of the box tests. Where we deviate: long
+// ranges are separate tasks. They are split and joined in an order that depends only on the coordinates and the order
+// of triangles, so the number of threads has no effect.
 #include "mesh/bvh.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 6;     // triangles that are not worth a split
+constexpr std::uint32_t kLeafSize = 6;     // a leaf has at most this many triangles
 constexpr std::uint32_t kTaskSize = 8192;  // triangles that one thread handles at a time
 constexpr int kAxisBits = 21;              // of a Morton code: three of them fit into 64 bits
 
@@ -109,7 +109,7 @@ void fit_boxes(std::vector<BvhNode>& nodes, std::size_t count, const std::vector
   }
 }
 
-// Puts each branch in the place of a leaf of the trunk; their nodes follow those of the trunk.
+// Replaces leaves of the trunk by branches. The nodes of the branches follow those of the trunk.
 std::vector<BvhNode> graft(const Subtree& trunk, std::vector<Subtree>& branches) {
   std::vector<BvhNode> nodes = trunk.nodes;
   std::size_t total = nodes.size();
@@ -156,7 +156,7 @@ Vec3 centre(const Aabb& box) { return box.min * 0.5 + box.max * 0.5; }
 using Sides = std::uint8_t;
 constexpr std::size_t kSides = 6;
 
-// Those that each point lies beyond. A triangle is beyond the sides that its corners are beyond.
+// The sides that each point lies beyond. A triangle is beyond a side if all its corners are.
 std::vector<Sides> sides_beyond(const Aabb& region, const std::vector<Vec3>& points) {
   std::vector<Sides> sides;
   sides.reserve(points.size());
@@ -176,7 +176,7 @@ Vec3 clamped(Vec3 p, const Aabb& box) {
   return {within(p.x, box.min.x, box.max.x), within(p.y, box.min.y, box.max.y), within(p.z, box.min.z, box.max.z)};
 }
 
-// One tree of a tree, which may be empty, and leaves.
+// One tree from a tree, which may be empty, and additional leaves.
 std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<BvhNode>& leaves) {
   if (leaves.empty()) return tree;
   std::vector<BvhNode> parts;  // roots
@@ -244,7 +244,7 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
   const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
   const MortonCurve curve(region);
   const std::vector<Sides> sides = sides_beyond(region, mesh.vertices);
-  std::vector<Sides> member(mesh.vertices.size());  // of which leaves a vertex is
+  std::vector<Sides> member(mesh.vertices.size());  // the leaves that a vertex belongs to
   std::vector<Keyed> items;
   std::array<std::vector<std::uint32_t>, kSides> beyond;
   for (std::uint32_t t = 0; t < count; ++t) {

@@ -10,7 +10,7 @@ namespace satcheck {
 
 struct BvhNode {
   Aabb box;
-  std::uint32_t first = 0;  // leaf: place in `order`; inner: the left child, the right one follows
+  std::uint32_t first = 0;  // leaf: place in `order`; inner: the left child; the right child follows
   std::uint32_t count = 0;  // triangles of a leaf, 0 for an inner node
 
   bool is_leaf() const { return count != 0; }
@@ -19,27 +19,26 @@ struct BvhNode {
 struct Bvh {
   std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for an empty mesh
   std::vector<std::uint32_t> order;  // triangle numbers, leaves hold ranges of them
-  std::vector<Aabb> boxes;           // of these triangles; of the last ones they may be left out
+  std::vector<Aabb> boxes;           // of these triangles; may be missing for the last ones
 };
 
-// The same tree whatever the number of threads; 0 takes one per core.
+// The tree does not depend on the number of threads; 0: one for each core.
 Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 
-// The same, refined only where boxes of triangles meet `region`. All others lie in six leaves at most, each of which
-// is beyond one side of it: no query within the region looks into them, and any other looks into few. Of their
-// triangles no boxes are kept.
+// The same, refined only where boxes of triangles meet `region`. All other triangles lie in at most six leaves, each
+// beyond one side of the region, without boxes. A query within the region does not visit these leaves.
 Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads = 0);
 
-// Over boxes of any sizes, in the place of those of triangles. Long and flat ones go into subtrees of
-// their own, one for each direction: beams along x and along y that cross would else share the leaves,
-// whose boxes would be as large as the scaffold.
+// A tree over boxes of any size instead of triangles. Long and flat boxes go into separate subtrees, one for each
+// direction. Otherwise crossing beams along x and y would share leaves, and the boxes of these leaves would be as large
+// as the whole scaffold.
 Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads = 0);
 
 // The numbers of the boxes along a curve on which neighbours are close to each other.
 std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes);
 
-// Fits the boxes to the triangles where they are now, in linear time. The tree keeps its form, which is as
-// good as a new one while neighbours stay neighbours, as under an affine map.
+// Fits the boxes to moved triangles, in linear time. The tree keeps its structure. It is as good as a new one if
+// neighbours stay neighbours, as under an affine map.
 void refit(Bvh& bvh, const Mesh& mesh);
 
 inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
@@ -50,7 +49,7 @@ inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   return box;
 }
 
-// Of the triangle at a place in `order`.
+// The box of the triangle at a place in `order`.
 inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {
   return place < bvh.boxes.size() ? bvh.boxes[place] : triangle_box(mesh, bvh.order[place]);
 }
@@ -81,7 +80,7 @@ bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit)
   return true;
 }
 
-// Of a tree that keeps all boxes.
+// The same for a tree that has all boxes.
 template <class Visit>
 bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
   return visit_box(bvh, Mesh{}, query, visit);

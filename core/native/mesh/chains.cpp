@@ -19,7 +19,7 @@ class Graph {
 
   bool branches(std::uint32_t node) const { return at_[node].size() != 2; }
 
-  // From a node over its first unused segment, on through nodes that do not branch.
+  // Follows a chain from a node over its first unused segment, through nodes that do not branch.
   Chain follow(std::uint32_t start) {
     Chain chain{{start}, false};
     for (std::uint32_t node = start;;) {

@@ -14,11 +14,11 @@ struct Chain {
   bool closed = false;
 };
 
-// Undirected segments, none twice. A chain ends where not exactly two segments meet.
+// Joins undirected segments, each given once. A chain ends at a node where the number of segments is not two.
 std::vector<Chain> join_chains(const std::vector<NodePair>& segments, std::size_t node_count);
 
-// Directed segments of which as many enter a node as leave it; no loop passes a node twice. Throws
-// std::logic_error when they do not close.
+// Joins directed segments into loops. At each node as many enter as leave. No loop passes a node twice. Throws
+// std::logic_error if they do not close.
 std::vector<std::vector<std::uint32_t>> join_loops(std::vector<NodePair> segments);
 
 }  // namespace satcheck

@@ -11,7 +11,7 @@
 namespace satcheck {
 namespace {
 
-// For each point of a rim.
+// Measured steps for each point of a rim.
 constexpr std::uint64_t kHullWork = 100;
 
 Closing fill_holes(const Surface& open) {
@@ -30,8 +30,8 @@ Closing fill_holes(const Surface& open) {
   return closing;
 }
 
-// A triangle and its reverse have no winding number: the open parts become sheets. Of a part that is connected
-// through edges, patches that are closed by themselves stay solid.
+// A triangle and its reverse cancel in winding numbers, so the open parts become sheets. Closed patches within an
+// edge-connected part stay solid.
 Closing double_open_parts(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   const Labels parts = label_components(welded, edges), patches = label_manifold_patches(welded, edges);

@@ -1,8 +1,8 @@
-// How an open surface is closed, so that every point has a winding number.
+// Closes an open surface, so that every point has a winding number.
 //
-// A surface ends at the loops of its boundary (mesh/boundary.hpp). Whatever fills a loop adds the same winding
-// numbers everywhere but within the fill. So if a fill stays within the convex hull of its loop, inside and
-// outside are the same for every fill at all points outside of these hulls.
+// A surface ends at the loops of its boundary (mesh/boundary.hpp). Two fills of a loop give the same winding numbers,
+// except at points between them. If fills stay within the convex hull of their loop, all fills agree about inside and
+// outside at all points outside of these hulls.
 #pragma once
 
 #include <memory>

@@ -8,8 +8,8 @@
 // d > 0: no triangle reaches the core, the points deeper than d below all planes. The core is convex,
 // so it is material as a whole if one of its points is. For a point c of depth D > d, the depth along
 // the way from a corner v to c grows at least linearly, so the core begins within |c - v| d / D of v.
-// By convexity the greatest of these over the corners bounds the way from the hull to the core. Flat
-// bodies show why d alone does not do: every triangle of a thin plate is near the plane of its top.
+// By convexity, the greatest of these distances over the corners bounds the distance from the hull to the core. d alone
+// is not enough: every triangle of a thin plate is near the plane of its top.
 #include "convex/convex_hull.hpp"
 #include "mesh/convexity.hpp"
 
@@ -31,8 +31,8 @@ namespace {
 // dot product, in units of the hull's extent.
 constexpr double kDepthError = 4e-14;
 
-// Points tried on the way inward from a corner, each at half the distance of the one before, and the
-// ratio of distance to depth that is good enough: a corner of a cube has 1.7.
+// The number of points tried on the way inward from a corner, each at half the distance of the last one, and the ratio
+// of distance to depth that is good enough. A corner of a cube has 1.7.
 constexpr int kInwardSteps = 24;
 constexpr double kGoodRatio = 4;
 
@@ -69,15 +69,15 @@ class Defect {
     return below ? nearest.distance - depth_error_ : 0;
   }
 
-  // A bound of the way from any point of the hull to the core of the given depth, infinite beyond
-  // the limit. `centre` is a point of the core.
+  // A bound of the distance from any point of the hull to the core of the given depth; infinite beyond the limit.
+  // `centre`: a point of the core.
   double reach(double depth, Vec3 centre, double limit) const {
     const double centre_depth = point_depth(centre);
     double farthest = 0;
     for (std::uint32_t v = 0; v < hull_.vertices.size(); ++v) {
       const Vec3 corner = hull_.vertices[v];
       double ratio = norm(centre - corner) / centre_depth;
-      // Slender bodies: a point near the corner may be nearly as deep and much less far.
+      // In slender bodies, a point near the corner may be nearly as deep and much nearer.
       const Vec3 inward = inward_direction(v);
       double step = norm(centre - corner) / 2;
       for (int k = 0; k < kInwardSteps && ratio > kGoodRatio && step > depth; ++k, step /= 2) {
@@ -164,8 +164,8 @@ Vec3 mean(const std::vector<Vec3>& points) {
   return sum;
 }
 
-// Are there corners on both sides of the plane of some triangle? Then the triangle is not in the boundary of
-// the hull. Only a few planes are tried: where it is so at all, a few of its triangles usually show it.
+// Whether corners lie on both sides of the plane of a triangle, so that the triangle is not in the boundary of the
+// hull. Only a few planes are tried: if the mesh is dented, a few triangles usually show it.
 bool is_dented(const Mesh& mesh) {
   constexpr std::size_t kPlanes = 32;
   const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / kPlanes);
@@ -183,7 +183,7 @@ bool is_dented(const Mesh& mesh) {
   return false;
 }
 
-// Does an edge of two triangles bend inwards? Then the surface is not its hull's.
+// Whether an edge of two triangles bends inward, so that the surface is not its hull.
 bool has_reflex_edge(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -12,7 +12,8 @@
 namespace satcheck {
 namespace {
 
-// Of the size of a mesh: cracks that may be wider than this are not closed, as rounding has left nothing of its shape.
+// A share of the size of a mesh. Wider cracks are not closed, because such coarse coordinates no longer describe a
+// shape.
 constexpr double kThinBeside = 0x1p-10;
 
 std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
@@ -28,7 +29,7 @@ double distance_to_segment(Vec3 x, Vec3 p, Vec3 q) {
   return distance(x, p + along * share);
 }
 
-// Do all vertices of the loop lie within `width` of one segment?
+// Whether all vertices of the loop lie within `width` of one segment.
 bool bounds_no_area(const Mesh& mesh, const BoundaryLoop& loop, double width) {
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
   const auto farthest_from = [&](Vec3 p) {

@@ -1,8 +1,8 @@
-// Cracks: places where neighbouring faces miss each other by the rounding of their file, and no more.
+// Cracks: gaps between neighbouring faces that are no wider than the precision of their file.
 //
-// T-junctions (a vertex of one face on the edge of another) and seams whose two copies of a vertex differ
-// in the last digit. They leave a boundary that bounds no area. Triangles no wider than the crack close it;
-// vertices and triangles of the mesh stay as they are.
+// Cracks are T-junctions (a vertex of one face on the edge of another) and seams with two copies of a vertex that
+// differ in the last digit. Their boundary bounds no area. Triangles no wider than the crack close it. Vertices and
+// triangles of the mesh do not change.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@
 namespace satcheck {
 namespace {
 
-// Of a rounded ratio or a rounded sum of two products, beside the error of what goes in.
+// The rounding error of a ratio or a sum of two products, in addition to the error of the inputs.
 constexpr double kRoundingError = 8 * std::numeric_limits<double>::epsilon();
 
 // Below this a rounded fraction may have lost digits.
@@ -71,7 +71,7 @@ class Pieces {
     return orientation_2d_at(s.p, s.q, p, axis_);
   }
 
-  // False for segments that stay beyond the line of one triangle edge, or on it.
+  // False: the segment is completely beyond the line of a triangle edge, or on it.
   bool reaches(const PlaneSegment& s, Touching touching) const {
     const int least = touching == Touching::kept ? 0 : 1;
     for (int k = 0; k < 3; ++k) {
@@ -80,14 +80,14 @@ class Pieces {
     return true;
   }
 
-  // Where the line o meets the way from `from` to `to`, its ends being on different sides of it.
+  // The place where the line o meets the segment from `from` to `to`. Its ends are on different sides of o.
   Ratio meeting(const PlaneSegment& o, const ExactPoint& from, const ExactPoint& to) const {
     const Dyadic near = area_value(o.p, o.q, from, axis_) * to.w;
     const Dyadic far = area_value(o.p, o.q, to, axis_) * from.w;
     return zero_between(near, far);
   }
 
-  // The position of v on the way from `from` to `to`, on whose line it lies.
+  // The position of v on the segment from `from` to `to`. v lies on its line.
   Ratio position(const ExactPoint& from, const ExactPoint& to, const ExactPoint& v) const {
     const auto step = [&](const ExactPoint& p, int axis) {
       return coordinate(p, axis) * from.w - coordinate(from, axis) * p.w;
@@ -105,7 +105,7 @@ class Pieces {
     });
   }
 
-  // Where other segments meet s, and its ends, in order.
+  // The places where other segments meet s, and its ends, in order.
   std::vector<Ratio> find_stops(const PlaneSegment& s) const {
     const Ratio start{0.0, 1.0}, end{1.0, 1.0};
     std::vector<Ratio> stops{start, end};
@@ -170,8 +170,8 @@ class Pieces {
     return between(m, v, clear.denominator * parts - clear.numerator, clear.numerator);
   }
 
-  // How far the way from m to v is clear: to the first segment that is met, and not much farther
-  // than `length`, so that few segments are near.
+  // The clear part of the segment from m to v, up to the first segment that it meets. It is not much longer than
+  // `length`, so that few segments are near.
   Ratio clear_way(const ExactPoint& m, const ExactPoint& v, double length) const {
     const double whole = norm(v.rounded - m.rounded);
     const double limit = length > 0 && length < whole ? length / whole : 1.0;

@@ -27,9 +27,9 @@ enum class Touching { left_out, kept };
 // were visited. With Touching::kept every point in which a segment meets the closed triangle is an end
 // of each piece around it.
 //
-// Every piece borders on a stretch of a segment or of a triangle edge between two neighbouring
-// intersections. From the middle of each such stretch a way into the triangle is followed part of the
-// way to the first segment it meets: that point is inside the piece.
+// Every piece borders on a stretch of a segment or of a triangle edge, between two neighbouring intersections. A line
+// leads from the middle of each stretch into the triangle, up to the first segment it meets. A point on this line is
+// inside the piece.
 bool visit_pieces(const std::array<Vec3, 3>& triangle, const std::vector<PlaneSegment>& cuts,
                   Touching touching, const std::function<bool(const Piece&)>& visit);
 

@@ -13,9 +13,9 @@
 namespace satcheck {
 namespace {
 
-// Of the hull's largest extent: far more than rounding, far less than what meshes are detailed in.
+// A share of the hull's largest extent: far more than rounding, far less than the details of meshes.
 constexpr double kDepth = 0x1p-20;
-// Planes against vertices, at most: a hundredth of a second. Vertices that are not reached stay in.
+// Limit on tests of planes against vertices: a hundredth of a second. Vertices beyond the limit are kept.
 constexpr std::size_t kMostTests = 20'000'000;
 
 // The planes of a hull's faces, four at a time; padded with the first one.

@@ -12,11 +12,11 @@
 namespace satcheck {
 namespace {
 
-// Where a point is in a triangle: a corner 0, 1, 2, the edge 3 + i behind corner i, or:
+// The place of a point in a triangle: a corner 0, 1, 2, the edge 3 + i that starts at corner i, or:
 constexpr int kFace = 6;
 constexpr int kOutside = -1;
 
-// From the sides of the three edges on which it is; mixed sides are outside.
+// The place by the sides of the three edges; mixed sides mean outside.
 int place_in_triangle(const int (&side)[3]) {
   bool positive = false, negative = false;
   int zeros = 0, zero = 0;
@@ -34,7 +34,7 @@ int place_in_triangle(const int (&side)[3]) {
   return side[0] == 0 && side[1] == 0 ? 1 : side[1] == 0 && side[2] == 0 ? 2 : 0;
 }
 
-// A triangle with its corners by number and by place.
+// A triangle with numbers and coordinates of its corners.
 struct Facet {
   Facet(const Mesh& mesh, std::uint32_t t)
       : number(t), vertex(mesh.triangles[t]), corner(corners(mesh, t)) {
@@ -56,8 +56,8 @@ struct Facet {
   int axis;
 };
 
-// What a closed edge and a closed triangle share: nothing, a point, or a segment in the order of the
-// edge. Ranks tell the order of points on the edge.
+// The common part of a closed edge and a closed triangle: nothing, a point, or a segment in the order of the edge.
+// Ranks give the order of points on the edge.
 class EdgeMeeting {
  public:
   EdgeMeeting(const Facet& of, int edge, const Facet& triangle, bool edge_is_of_a)
@@ -216,7 +216,7 @@ double nearest_float(const Dyadic& numerator, const Dyadic& denominator) {
   return value;
 }
 
-// The point that divides p q as the signed heights of p and q over it say.
+// The point that divides p q in the ratio of the signed heights of p and q.
 ExactPoint divide(Vec3 p, Vec3 q, const Dyadic& height_p, const Dyadic& height_q) {
   ExactPoint x;
   x.w = height_p - height_q;
@@ -301,7 +301,7 @@ ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b) {
 }
 
 bool straight(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r) {
-  constexpr double kBent = 1e-6;  // spares exact work only: what is straight is not this bent
+  constexpr double kBent = 1e-6;  // only avoids exact work: a straight line is never this bent
   const Vec3 u = q.rounded - p.rounded, v = r.rounded - q.rounded;
   if (dot(u, v) <= 0 || norm(cross(u, v)) > kBent * norm(u) * norm(v)) return false;
   const Dyadic ux = q.x * p.w - p.x * q.w, uy = q.y * p.w - p.y * q.w, uz = q.z * p.w - p.z * q.w;

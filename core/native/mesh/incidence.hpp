@@ -56,7 +56,7 @@ TriangleMeeting meet_triangles(const Mesh& a, std::uint32_t triangle_a, const Me
 // The point itself; `rounded` is its coordinates rounded to nearest, ties to even, whatever the names.
 ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b);
 
-// Are three different points on one line, the second between the others?
+// Whether three different points are on one line, the second between the others.
 bool straight(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r);
 
 }  // namespace satcheck

@@ -1,4 +1,4 @@
-// The first look at a mesh: it is welded, sorted, oriented on request, and measured.
+// The inspection of a mesh: it is welded, sorted, oriented on request, and measured.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ struct Patch {
   std::vector<std::uint32_t> triangles, on_rim;
   bool shell = false;  // closed and consistently wound by itself
   bool alone = true;   // shares no edge with another patch, so that it can be turned by itself
-  double volume = 0;   // signed; of an open patch that is closed by a cone over its boundary
+  double volume = 0;   // signed; of an open patch, closed by a cone over its boundary
   Aabb box, rim;
 };
 
@@ -41,7 +41,7 @@ struct Neighbour {
 
 using Neighbours = std::array<Neighbour, 3>;  // across edge 0, 1, 2
 
-// By two triangles that are no copies of each other: these agree.
+// Whether two triangles that are not copies of each other run the edge in the same direction.
 bool is_run_twice_the_same_way(const Mesh& mesh, const EdgeTable& edges, std::size_t edge) {
   const auto h = edges.half_edges(edge);
   const auto across = [&](std::uint32_t half_edge) { return mesh.triangles[half_edge / 3][(half_edge % 3 + 2) % 3]; };
@@ -67,8 +67,8 @@ std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges
   return neighbours;
 }
 
-// Makes the patches with mixed winding consistent, keeping the winding of the majority. A patch that
-// is not orientable stays as it is. Returns whether anything was turned: half-edges are others then.
+// Makes patches with mixed winding consistent, with the winding of the majority. A patch that is not orientable does
+// not change. Returns whether any triangle was turned, which changes the half-edges.
 bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
   if (!has_mixed_winding(mesh, edges)) return false;
   bool repaired = false;
@@ -159,8 +159,8 @@ class Nesting {
     }
   }
 
-  // Is the patch inside, or on the surface of, the other shells? The box test spares the tree where
-  // no other shell can hold it.
+  // Whether the patch is inside, or on the surface of, other shells. The box test avoids building the tree if no other
+  // shell can contain the patch.
   bool is_nested(std::uint32_t patch) {
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
       return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
@@ -173,7 +173,7 @@ class Nesting {
     return winding != 0 && !crosses_another(patch);
   }
 
-  // Does another patch end where this one does, by the boxes of the triangles there? Then both may be pieces of one
+  // Whether another patch ends near the boundary of this one, by the boxes of triangles. Both may then be pieces of one
   // surface.
   bool ends_near_another(std::uint32_t patch) {
     const auto& ends = patches_[patch].on_rim;
@@ -211,8 +211,8 @@ class Nesting {
   Bvh bvh_;
 };
 
-// Where a patch that faces inward crosses others, winding numbers would cancel: what both enclose would not be
-// material. An open one is turned only then, and only where it is no piece of a larger surface.
+// If a patch that faces inward crosses others, winding numbers cancel, and the volume inside both would not be
+// material. An open patch is turned only in this case, and only if it is not a piece of a larger surface.
 bool has_to_turn(const Mesh& mesh, const std::vector<Patch>& patches, std::uint32_t p, Nesting& nesting) {
   const Patch& patch = patches[p];
   if (!(patch.volume < 0)) return false;
@@ -256,7 +256,7 @@ std::vector<Triangle> without_copies(const std::vector<Triangle>& triangles) {
   return result;
 }
 
-// Drops the repeated copies of triangles where the surface is closed without them only.
+// Drops repeated copies of triangles if the surface is closed only without them.
 void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
   if (is_closed(*edges)) return;
   std::vector<Triangle> single = without_copies(welded.triangles);

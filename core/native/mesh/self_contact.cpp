@@ -1,6 +1,6 @@
-// Beside two triangles at an edge that no other triangle meets the winding numbers are the same: around
-// a generic point of that edge there is nothing else. So one piece stands for all triangles that are
-// connected through such edges.
+// If no other triangle meets an edge of two triangles, the winding numbers beside both triangles are the same, because
+// nothing else is near a generic point of that edge. One piece therefore represents all triangles that are connected
+// through such edges.
 #include "mesh/self_contact.hpp"
 
 #include <algorithm>
@@ -33,14 +33,14 @@ struct SharedFirst {
   }
 };
 
-// A triangle that many others are held against.
+// A triangle that is compared with many others.
 class Beheld {
  public:
   Beheld(const Mesh& mesh, std::uint32_t t)
       : mesh_(mesh), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
         axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2]))) {}
 
-  // More than shared corners and edges.
+  // Whether they have more in common than shared corners and edges.
   bool has_more_in_common_with(std::uint32_t other) const {
     const Triangle& u = mesh_.triangles[other];
     const SharedFirst mine(t_, u), theirs(u, t_);
@@ -57,19 +57,19 @@ class Beheld {
   Vec3 at(std::uint32_t v) const { return mesh_.vertices[v]; }
   int turn(Vec3 p, Vec3 q, Vec3 r) const { return orientation_2d(p, q, r, axis_); }
 
-  // Of a triangle across the edge p q: is its corner s in the plane, on the side of r? Neighbours in one plane
-  // usually lie on both sides of the edge, which is quickly seen.
+  // Whether the corner s of a triangle across the edge p q is in the plane, on the side of r. Coplanar neighbours
+  // usually lie on both sides of the edge, which is a quick test.
   bool folds_onto(Vec3 p, Vec3 q, Vec3 r, Vec3 s) const { return turn(p, q, r) == turn(p, q, s) && plane_.side(s) == 0; }
 
-  // This one is p, q, r and the other p, s, t.
+  // This triangle is p, q, r, and the other one is p, s, t.
   bool goes_on_from(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 t) const {
     if (parts(p, q, r, s, t) || parts(p, r, q, s, t)) return false;
     if (plane_.side(s) * plane_.side(t) > 0) return false;
-    // What they have in common is convex: beyond the corner it ends on an edge across from it.
+    // Their common part is convex. If it goes beyond the corner p, it ends on an edge opposite to p.
     return segment_meets_triangle(q, r, {p, s, t}) || segment_meets_triangle(s, t, c_);
   }
 
-  // Does the line p q, seen along the axis, have r on one side or on it, and s and t beyond it?
+  // Whether the line p q, seen along the axis, has r on one side or on it, and s and t strictly on the other side.
   bool parts(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 t) const {
     const int beyond = turn(p, q, s);
     return beyond != 0 && beyond == turn(p, q, t) && beyond != turn(p, q, r);
@@ -82,7 +82,7 @@ class Beheld {
   int axis_;
 };
 
-// Calls visit(other) -> bool until it returns false; returns whether it never did.
+// Calls visit(other) -> bool until it returns false. Returns whether it never returned false.
 template <class Visit>
 bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit visit) {
   const Mesh& mesh = surface.mesh;
@@ -92,7 +92,7 @@ bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit vis
   });
 }
 
-// Across each edge of a triangle the one neighbour there, if there is exactly one.
+// The neighbour across each edge of a triangle, if there is exactly one.
 class Neighbours {
  public:
   explicit Neighbours(const Mesh& mesh) : across_(mesh.triangles.size() * 3, kNone) {

@@ -1,4 +1,4 @@
-// Where a surface meets itself.
+// Contacts of a surface with itself.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,9 @@ namespace satcheck {
 std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t);
 bool has_irregular_partners(const Surface& surface, std::uint32_t t);
 
-// Calls visit(triangle, piece, others) -> bool until it returns false, for pieces of the triangles that
-// wanted(t) accepts: the winding numbers beside every point of them are those beside one of the
-// pieces visited. Pieces end where the surface meets itself; others: how many irregular partners the
-// triangle has.
+// Calls visit(triangle, piece, others) -> bool until it returns false, for pieces of the triangles that wanted(t)
+// accepts. The winding numbers beside any point of these triangles occur beside one of the visited pieces. Pieces end
+// where the surface meets itself. others: the number of irregular partners of the triangle.
 void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::uint32_t)>& wanted,
                           const std::function<bool(std::uint32_t, const Piece&, std::size_t)>& visit);
 

@@ -11,7 +11,7 @@
 namespace satcheck {
 namespace {
 
-// Slivers beside slivers may take more than one turn each; a few are enough for all that occur.
+// Neighbouring slivers may need several rounds. A few are enough in practice.
 constexpr std::size_t kTurns = 16;
 
 class Slivers {

@@ -1,4 +1,4 @@
-// The same surface without triangles that are collinear.
+// Removes collinear triangles from a surface.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 namespace satcheck {
 
 struct Sliverless {
-  Mesh mesh;                          // as many triangles; those that went repeat a corner
-  std::vector<std::uint32_t> source;  // of which triangle of the given mesh each is a part
+  Mesh mesh;                          // same number of triangles; removed ones repeat a corner
+  std::vector<std::uint32_t> source;  // for each, the triangle of the given mesh that contains it
   bool changed = false;
 };
 
-// A collinear triangle closes the gap between an edge and a vertex that lies on it. Split at that
-// vertex, the triangle across the edge closes it too: no point of the surface moves. A collinear
-// triangle stays where its long edge does not belong to exactly one other triangle.
+// A collinear triangle closes the gap between an edge and a vertex on that edge. If the triangle across the edge is
+// split at that vertex, it closes the gap itself, and no point of the surface moves. A collinear triangle is kept if
+// its long edge does not belong to exactly one other triangle.
 Sliverless without_slivers(const Mesh& welded);
 
 }  // namespace satcheck

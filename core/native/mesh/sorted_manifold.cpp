@@ -1,5 +1,5 @@
-// Edges are listed at their lower corner. Of a triangle two edges start or end at its lowest corner, and the triangles
-// of a corner follow each other: only the third edges have to be distributed.
+// Edges are listed at their lower corner. Two edges of a triangle start or end at its lowest corner, and triangles are
+// sorted by that corner. Only the third edges have to be distributed.
 #include "mesh/sorted_manifold.hpp"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ struct Side {
   std::uint32_t upper, triangle;
 };
 
-// The sides across from the lowest corners, those that ascend from a vertex apart from those that descend to it.
+// The edges opposite to the lowest corners. Edges that ascend from a vertex are stored separately from those that
+// descend to it.
 class ThirdSides {
  public:
   ThirdSides(std::size_t vertex_count, const std::vector<Triangle>& triangles)
@@ -46,13 +47,13 @@ class ThirdSides {
   std::unique_ptr<Side[]> sides_;
 };
 
-// Finds the two triangles of each edge of a vertex after the other, and unites them.
+// Finds the two triangles of each edge, vertex by vertex, and unites them.
 class Pairing {
  public:
   Pairing(std::size_t vertex_count, const std::vector<Triangle>& triangles)
       : triangles_(triangles), open_(zeroed<Open>(vertex_count)), sets_(triangles.size()), parts_(triangles.size()) {}
 
-  // Up from this vertex; false where another one does.
+  // Starts an edge that ascends from this vertex. False: another one does the same.
   bool begin(std::uint32_t vertex, Side ascending) {
     Open& open = open_[ascending.upper];
     if (open.behind == vertex + 1) return false;
@@ -61,7 +62,8 @@ class Pairing {
     return true;
   }
 
-  // Down to this vertex; false where no side that waits runs the other way, or that of a copy of the triangle.
+  // Ends an edge that descends to this vertex. False: no waiting edge runs the other way, or it belongs to a copy of
+  // the triangle.
   bool end(std::uint32_t vertex, Side descending) {
     Open& open = open_[descending.upper];
     if (open.behind != vertex + 1) return false;
@@ -80,7 +82,7 @@ class Pairing {
   std::size_t parts() const { return parts_; }
 
  private:
-  // The side that waits at its upper corner for one that runs the other way.
+  // The edge that waits at its upper corner for its opposite edge.
   struct Open {
     std::uint32_t behind;  // the number after that of its lower corner; 0: none waits
     std::uint32_t triangle;
@@ -92,7 +94,7 @@ class Pairing {
   std::size_t waiting_ = 0, parts_;
 };
 
-// How many parts the triangles make; nothing where an edge has not two that fit.
+// The number of connected parts; empty if an edge has not exactly two matching triangles.
 std::optional<std::size_t> count_parts(std::size_t vertex_count, const std::vector<Triangle>& triangles) {
   const ThirdSides thirds(vertex_count, triangles);
   Pairing pairing(vertex_count, triangles);

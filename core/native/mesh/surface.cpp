@@ -17,9 +17,9 @@
 namespace satcheck {
 namespace {
 
-constexpr std::size_t kFewTriangles = 8192;  // that are not worth a second thread
+constexpr std::size_t kFewTriangles = 8192;  // too few for a second thread
 
-// Does every edge run equally often in both directions?
+// Whether triangles run every edge equally often in both directions.
 bool is_closed(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> find_parts(const Mesh& welded) {
   return parts;
 }
 
-// Whether both have the same triangles, or one the other's turned over as transform() does it.
+// Whether both have the same triangles, perhaps turned over as in transform().
 bool has_triangles_of(const Mesh& a, const Mesh& b) {
   if (a.vertices.size() != b.vertices.size()) return false;
   if (a.triangles.size() != b.triangles.size()) return false;

@@ -28,12 +28,12 @@ std::uint64_t hash_coordinates(Vec3 p) {
   return h;
 }
 
-// A table of points, for the first one with the coordinates of another.
+// A table of points. For a point it finds the first point with the same coordinates.
 class FirstOfEqual {
  public:
   explicit FirstOfEqual(std::size_t count) : slot_(std::bit_ceil(count * 2 + 1), none) {}
 
-  // Of those asked about so far, this one included.
+  // The first equal point among the queried points, including this one.
   std::uint32_t of(const std::vector<Vec3>& points, std::uint32_t i) {
     const Vec3 p = points[i] + Vec3{};  // -0.0 + 0.0 == +0.0
     std::size_t at = hash_coordinates(p) & (slot_.size() - 1);
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
   return first;
 }
 
-// As -0.0 == 0.0, points of equal coordinates are then equal bit for bit.
+// Points with equal coordinates are then equal bit for bit, because -0.0 == 0.0.
 std::vector<Vec3> without_negative_zeros(std::vector<Vec3> points) {
   for (Vec3& p : points) p = p + Vec3{};  // -0.0 + 0.0 == +0.0
   return points;
@@ -64,7 +64,7 @@ struct Welding {
   std::size_t duplicate_vertices = 0, unreferenced_vertices = 0;
 };
 
-// 0 or 1 of each vertex; bytes, as of a bit its neighbours would have to be read.
+// 0 or 1 for each vertex. Bytes, because setting a bit would have to read its neighbours.
 std::vector<unsigned char> find_referenced(MeshView mesh) {
   std::vector<unsigned char> referenced(mesh.vertices.size(), 0);
   for (const Triangle& t : mesh.triangles) {
@@ -121,7 +121,7 @@ void count_edges(Topology& topology, const EdgeTable& edges) {
   topology.oriented = topology.misoriented_edges == 0;
 }
 
-// Copies of a triangle have their edges and the corner across from each in common.
+// Copies of a triangle share their edges and the corner opposite to each.
 bool may_have_copies(const Mesh& welded, const EdgeTable& edges) {
   const auto across = [&](std::uint32_t h) { return welded.triangles[h / 3][(h % 3 + 2) % 3]; };
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -132,7 +132,7 @@ bool may_have_copies(const Mesh& welded, const EdgeTable& edges) {
 }
 
 void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& edges) {
-  std::size_t pointed = 0;  // that name a corner twice: they have no edges
+  std::size_t pointed = 0;  // triangles that name a corner twice: they have no edges
   for (const Triangle& t : welded.triangles) {
     if (repeats_a_corner(t)) {
       ++pointed;
@@ -150,13 +150,13 @@ void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& ed
   }
 }
 
-// With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
+// Renumbers vertex v to place[v], starts each triangle at its lowest corner, and sorts the triangles.
 std::vector<Triangle> sorted_triangles(std::span<const Triangle> triangles, const std::uint32_t* place,
                                        std::size_t vertex_count) {
   std::vector<Triangle> result = with_room<Triangle>(triangles.size());
   for (const Triangle& t : triangles) {
     const std::uint32_t a = place[t[0]], b = place[t[1]], c = place[t[2]];
-    // Without jumps, which would be mispredicted as often as not.
+    // Without branches, which would often be mispredicted.
     const std::uint32_t round[] = {a, b, c, a, b};
     const std::size_t lowest = static_cast<std::size_t>((b < a) | (c < a)) << static_cast<unsigned>(c < b);
     result.push_back({round[lowest], round[lowest + 1], round[lowest + 2]});

@@ -1,4 +1,4 @@
-// What a triangle soup is: closed, manifold, consistently wound, and its vertices welded and sorted.
+// Topology of a triangle soup: closed, manifold, consistently wound. Also welds and sorts vertices.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace satcheck {
 
-// Edges are counted on the welded mesh; triangles that name a corner twice have no say in them.
+// Edges are counted on the welded mesh. Triangles that name a corner twice do not count.
 struct Topology {
   std::size_t vertices = 0;   // of the mesh as given
   std::size_t triangles = 0;  // of the mesh as given
@@ -42,11 +42,11 @@ Mesh weld(const Mesh& mesh);
 // No two vertices have equal coordinates.
 bool is_welded(const Mesh& mesh);
 
-// The same triangles in an order that depends on nothing but their coordinates: vertices ascending,
-// each triangle from its lowest one on, triangles ascending. Copies of a vertex stay apart.
+// The same triangles in an order that depends only on their coordinates: vertices ascending, each triangle starting at
+// its lowest vertex, triangles ascending. Copies of a vertex are not merged.
 Mesh sort(const Mesh& mesh);
 
-// sort(weld(mesh)), for less.
+// sort(weld(mesh)), but faster.
 Mesh weld_and_sort(MeshView mesh);
 
 // The parts connected through shared edges of the welded mesh, in order of their first triangle. Edges on

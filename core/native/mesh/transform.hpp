@@ -1,4 +1,4 @@
-// Meshes in world coordinates: the one place where a placement moves vertices.
+// Meshes in world coordinates. Only this function applies a placement to vertices.
 #pragma once
 
 #include <array>

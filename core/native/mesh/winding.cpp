@@ -10,7 +10,7 @@ namespace {
 // Quasirandom Sequences" (2018): powers of 1 / the plastic number.
 constexpr double kStep1 = 0.7548776662466927, kStep2 = 0.5698402909980532;
 
-// Slopes grow over the attempts from nearly axis-parallel (few boxes on the way) to steep.
+// Slopes increase with the attempts, from nearly axis-parallel (few boxes on the way) to steep.
 constexpr double kFirstSlope = 1.0 / 64, kSlopeGrowth = 1.03;
 
 double fraction(double x) { return x - std::floor(x); }
@@ -38,7 +38,7 @@ Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt) {
   const double slope = kFirstSlope * std::pow(kSlopeGrowth, attempt);
   const double s = slope * (2 * fraction(0.5 + kStep1 * (attempt + 1)) - 1);
   const double t = slope * (2 * fraction(0.5 + kStep2 * (attempt + 1)) - 1);
-  // Past the wall by half the size, so that `far` is outside the box whatever the rounding.
+  // Beyond the wall by half the size, so that `far` is outside the box in spite of rounding.
   const double wall = upward ? box.max[axis] + size / 2 : box.min[axis] - size / 2;
   const double reach = std::fabs(wall - from[axis]);
   switch (axis) {

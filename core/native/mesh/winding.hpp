@@ -1,8 +1,8 @@
 // Exact winding numbers of points with respect to closed triangle meshes.
 //
-// Method: signed crossings of a segment from the point to a point outside the mesh. Every crossing
-// is decided by exact orientation signs; a segment that meets an edge or a vertex is dropped and
-// another one of a fixed sequence is tried, so the answer is exact and does not depend on chance.
+// Method: signed crossings of a segment from the point to a point outside the mesh. Exact orientation signs decide
+// every crossing. If a segment meets an edge or a vertex, the next one of a fixed sequence is tried. The answer is
+// therefore exact and deterministic.
 #pragma once
 
 #include <algorithm>
@@ -14,21 +14,21 @@
 
 namespace satcheck {
 
-// Which way to look first: along `axis`, up or down.
+// The first direction to try: along `axis`, up or down.
 struct Heading {
   int axis = 0;
   bool upward = true;
 };
 
-// Towards the nearest wall of the box, where the fewest triangles are likely to be in the way.
+// Towards the nearest wall of the box, where the segment probably meets the fewest triangles.
 Heading nearest_wall(const Aabb& box, Vec3 from);
 
 // The far end of the attempt-th segment: outside `box`, in a direction of a fixed sequence that
 // starts with the heading.
 Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt);
 
-// A fixed sequence that would be exhausted only by a mesh with triangles in hundreds of directions
-// through one point; then there is no answer.
+// The length of the fixed sequence. Only a mesh with triangles in hundreds of directions through one point would
+// exhaust it; then there is no answer.
 inline constexpr int kMaxSegments = 512;
 
 // +1 or -1 for a segment p -> far that leaves through the front or enters through the front of the
@@ -36,8 +36,8 @@ inline constexpr int kMaxSegments = 512;
 // p must not lie in the triangle, and `far` outside the mesh's box.
 template <class Point>
 std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c) {
-  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation. These come first,
-  // for where p lies in the plane of many triangles only the side of that plane is costly.
+  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation. These signs come first: if p lies in
+  // the plane of many triangles, only the sign of that plane is costly.
   const int ab = orientation(far, a, b, p);
   const int bc = orientation(far, b, c, p);
   if (ab * bc < 0) return 0;
@@ -74,7 +74,7 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
   return winding;
 }
 
-// The triangles that contain p; of `known` that is not asked.
+// The triangles that contain p. `known` contains p and is not tested.
 template <class Point>
 std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p,
                                         std::optional<std::uint32_t> known = {}) {
@@ -116,15 +116,15 @@ struct Beside {
   int front = 0, back = 0;
   bool on_surface = false;  // the point lies on the mesh itself
 
-  // Does the body end here: is there no material on one side at least?
+  // Whether the body ends here: at least one side has no material.
   bool is_boundary() const { return on_surface && (front == 0 || back == 0); }
   // A wall of no thickness: no material on either side.
   bool is_sheet() const { return on_surface && front == 0 && back == 0; }
 };
 
-// Of a mesh, just beside the point p of the triangle a, b, c, which need not belong to it. Nothing when p
-// lies on a triangle of the mesh that is in another plane. known: the triangle a, b, c, where it is one of the mesh and
-// has p in its inside.
+// The winding numbers of a mesh just beside the point p of the triangle a, b, c, which need not belong to the mesh.
+// Empty if p lies on a triangle of the mesh in another plane. known: the number of a, b, c if it belongs to the mesh
+// and p is inside it.
 template <class Point>
 std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
                                      Vec3 c, std::optional<std::uint32_t> known = {}) {
@@ -169,9 +169,9 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
   return std::nullopt;
 }
 
-// The winding number of some triangles, also of open ones, about a point on none of them: their solid angle over
-// 4 pi, in float64. Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
-// Numbers" (2013); a triangle by van Oosterom, Strackee, "The Solid Angle of a Plane Triangle" (1983).
+// The winding number of triangles, which may be an open surface, about a point on none of them: their solid angle
+// divided by 4 pi, in float64. Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized
+// Winding Numbers" (2013); a triangle by van Oosterom, Strackee, "The Solid Angle of a Plane Triangle" (1983).
 double generalized_winding_number(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, Vec3 point);
 
 }  // namespace satcheck

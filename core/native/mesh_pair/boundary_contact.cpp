@@ -1,9 +1,9 @@
-// A triangle that meets no other of its own mesh is boundary all over or nowhere, and one sample tells.
+// A triangle that meets no other triangle of its own mesh is either all boundary or none. One sample decides.
 //
-// Other triangles are boundary in some of the pieces into which both meshes cut them. The common part of
-// the boundaries in the triangles t of A and u of B is closed and, the pieces being cut by both meshes,
-// made of corners, stretches and pieces that both cut alike. So if it is not empty it contains a corner
-// of a boundary piece of t, and that corner is one of a boundary piece of a triangle of B as well.
+// Other triangles are boundary in some of the pieces into which both meshes cut them. The common part of the boundaries
+// in the triangles t of A and u of B is closed. It consists of corners, stretches and pieces, which are the same in t
+// and u because both meshes cut the pieces. If the common part is not empty, it therefore contains a corner of a
+// boundary piece of t that is also a corner of a boundary piece of a triangle of B.
 #include "mesh_pair/boundary_contact.hpp"
 
 #include <algorithm>
@@ -23,21 +23,21 @@ class Boundary {
  public:
   explicit Boundary(const Surface& surface) : surface_(surface) {}
 
-  // Is the whole triangle boundary?
+  // Whether the whole triangle is boundary.
   bool is_plain(std::uint32_t t) {
     const auto [entry, is_new] = plain_.try_emplace(t, false);
     if (is_new) entry->second = is_plain_boundary(surface_, t);
     return entry->second;
   }
 
-  // Is a point of the mesh in the closure of a boundary piece?
+  // Whether a point of the mesh is in the closure of a boundary piece.
   bool contains(const ExactPoint& x) const {
     const auto here = triangles_at(surface_.mesh, surface_.bvh, x);
     return std::any_of(here.begin(), here.end(), [&](std::uint32_t t) { return reaches(t, x); });
   }
 
  private:
-  // Does a boundary piece of triangle t end at its point x?
+  // Whether a boundary piece of triangle t ends at its point x.
   bool reaches(std::uint32_t t, const ExactPoint& x) const {
     const Corners c = corners(surface_.mesh, t);
     const auto partners = irregular_partners(surface_, t);

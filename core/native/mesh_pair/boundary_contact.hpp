@@ -1,4 +1,4 @@
-// Do the boundaries of two bodies meet?
+// Decides whether the boundaries of two bodies meet.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace satcheck {
 
-// Does the closed body end everywhere on triangle t? False also where that takes more than one sample to tell.
+// Whether the closed body ends everywhere on triangle t. Also false if more than one sample is needed to decide.
 bool is_plain_boundary(const Surface& surface, std::uint32_t t);
 
-// By two triangles that meet and are boundary all over. Usually finds a pair, but not always.
+// Searches two triangles that meet and are all boundary. Usually finds a pair, but not always.
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                         Samples& samples);
 
-// By every corner of every piece; settles whether there is contact.
+// Tests every corner of every piece. Decides whether there is contact.
 void find_any_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                       Samples& samples);
 

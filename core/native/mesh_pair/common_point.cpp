@@ -11,9 +11,9 @@
 namespace satcheck {
 namespace {
 
-// From the surface inward, in halves of the longest edge at hand.
+// The number of halvings of the longest edge on the way from the surface inward.
 constexpr int kHalvings = 40;
-// Steps of the climb, and the share of the free ball that the first try of each takes.
+// The number of steps of the climb, and the share of the free ball for the first try of each step.
 constexpr int kClimbSteps = 24;
 constexpr double kStride = 0.9;
 constexpr int kStrideHalvings = 3;
@@ -39,8 +39,8 @@ double longest_edge(const Surface& s, std::uint32_t triangle) {
   return std::fmax(norm(c[1] - c[0]), std::fmax(norm(c[2] - c[1]), norm(c[0] - c[2])));
 }
 
-// Where triangles meet, a point of both; else the middle of the triangle that lies inside the other body,
-// for from its corner the way inward may run along an edge.
+// If triangles meet, a common point of both. Else the middle of the triangle that lies inside the other body, because
+// the way inward from a corner may run along an edge.
 Vec3 starting_point(const Surface& a, const Surface& b, const MeshRelation& r) {
   if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) return *r.point;
   const bool inner_is_a = r.triangle_a != kNoTriangle;
@@ -70,7 +70,7 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
                                         double enough) {
   const std::optional<Vec3> start = first_inside(a, b, relation);
   if (!start) return std::nullopt;
-  // Within the ball that reaches to the nearer surface no surface is crossed.
+  // No surface is within the ball that reaches to the nearer surface.
   Vec3 p = *start;
   NearestPoint on_a = nearest_point(a, p), on_b = nearest_point(b, p);
   for (int step = 0; step < kClimbSteps; ++step) {

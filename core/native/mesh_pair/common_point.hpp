@@ -1,4 +1,4 @@
-// A point inside both of two solids, as far from both surfaces as a short climb gets.
+// A point inside both of two solids, moved away from both surfaces by a short climb.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@ struct CommonPoint {
   double depth;  // distance from the nearer surface, rounded
 };
 
-// Starts from the evidence of a relation with a common interior, and ends at a point deeper than `enough`. Nothing where
-// no point with a proven winding number was found.
+// Starts from the evidence of a relation with a common interior, and ends at a point deeper than `enough`. Empty if no
+// point with a proven winding number was found.
 std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
                                         double enough = INFINITY);
 

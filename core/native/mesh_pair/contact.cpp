@@ -1,18 +1,17 @@
-// The planes of all triangles cut space into cells; in each both winding numbers are constant, and the
-// relation of two bodies depends on which combinations of (in A?, in B?) occur, on whether the
-// boundaries meet, and on how their sheets lie. A cell is bounded by pieces of triangles, so the combinations beside one exact
-// generic point of every piece tell all of them. Not every piece needs a look:
+// The planes of all triangles cut space into cells with constant winding numbers. The relation of two bodies depends on
+// three facts: which combinations of (in A, in B) occur, whether the boundaries meet, and how their sheets lie. A cell
+// is bounded by pieces of triangles, so one exact generic point of every piece shows all combinations. Not every piece
+// needs a sample:
 //
-// * Triangles without contact: each region of them lies on one side of the other surface, so one
-//   winding number of the other solid per region tells, with those of its own solid.
-// * Triangles in contact: what cuts one into pieces are edges of the other mesh that lie in its
-//   plane, triangles that cross it, and where its own mesh meets itself, those of its own. One sample a
-//   piece tells, with the winding numbers of both meshes on both sides.
-// * When the pieces of one surface, S, are known, triangles of the other that do not meet their own mesh
-//   need no cuts by S: from one cell of the other solid, or of its outside, to the next the way leads
-//   past no piece of S, or past one that has already shown both combinations. A sheet meets its own
-//   mesh, so it is always cut.
-// * Two sheets can cross along edges alone, where winding numbers show nothing: a test of its own decides that.
+// * Triangles without contact: each connected region lies on one side of the other surface. One winding number of the
+//   other solid for each region is enough, with those of its own solid.
+// * Triangles in contact: edges of the other mesh in its plane and triangles that cross it cut a triangle into pieces.
+//   If its own mesh meets itself, that mesh cuts it too. One sample for each piece is enough, with the winding numbers
+//   of both meshes on both sides.
+// * When the pieces of one surface S are known, triangles of the other surface that do not meet their own mesh need no
+//   cuts by S. A path between neighbouring cells inside, or outside, the other solid passes either no piece of S or a
+//   piece that has already shown both combinations. A sheet meets its own mesh, so it is always cut.
+// * Two sheets can cross along edges only, where winding numbers show nothing. A separate test decides this.
 #include "mesh_pair/contact.hpp"
 
 #include <algorithm>
@@ -29,14 +28,14 @@
 namespace satcheck {
 namespace {
 
-// Other triangles may pass through points of a crossing segment; they pass through all of this many only
-// where they contain all of it.
+// Other triangles may pass through points of a crossing segment. They pass through all of these samples only if they
+// contain the whole segment.
 constexpr int kCrossingSamples = 4;
 
 struct ContactTriangle {
   std::uint32_t triangle;
   std::vector<std::uint32_t> partners;  // of the other mesh
-  std::vector<std::uint32_t> own;       // irregular ones of its own
+  std::vector<std::uint32_t> own;       // irregular partners in its own mesh
   std::vector<PlaneSegment> cuts;
 };
 
@@ -57,7 +56,7 @@ class ContactSide {
     return {side_, std::move(in_contact)};
   }
 
-  // Returns how many stretches the cut triangles are bordered by, about.
+  // Returns the approximate number of stretches that bound the cut triangles.
   std::size_t prepare_cuts() {
     const Mesh& mesh = side_.self.mesh;
     std::size_t stretches = 0;
@@ -98,8 +97,8 @@ class ContactSide {
   std::vector<ContactTriangle> contacts_;
 };
 
-// A generic point of a crossing: each body has one winding number on either side of its triangle, and the
-// triangle of the other body passes from one side to the other.
+// Notes a generic point of a crossing. Each body has one winding number on each side of its triangle, and the triangle
+// of the other body passes from one side to the other.
 bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const LazyPoint& p, Samples& samples) {
   const auto of_a = beside_inner(a, p, crossing.a), of_b = beside_inner(b, p, crossing.b);
   if (!of_a || !of_b) return false;

@@ -12,13 +12,13 @@ struct ContactPair {
   std::uint32_t a, b;  // triangles with a common point
 };
 
-// What a generic point shows at which two triangles cross. Usually that settles the relation.
+// The facts at a generic point where two triangles cross. Usually they settle the relation.
 PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing);
 
-// Do boundaries that only touch count, or only common interiors?
+// relation: boundaries that only touch count too. overlap: only common interiors count.
 enum class Wanted { relation, overlap };
 
-// Settled or complete facts, of the contact only where that is wanted. `contacts` holds every pair with a common point.
+// Settled or complete facts; facts about contact only if wanted. `contacts`: every pair with a common point.
 PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted);
 
 }  // namespace satcheck

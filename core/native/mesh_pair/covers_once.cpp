@@ -6,7 +6,7 @@
 namespace satcheck {
 namespace {
 
-// Does this hold beside every piece? Not where a sample gives no answer.
+// Whether a condition holds beside every piece. False if a sample gives no answer.
 template <class Holds>
 bool holds_beside_all(const Surface& solid, Holds holds) {
   bool all_hold = true;

@@ -1,15 +1,15 @@
-// What samples beside every piece of a solid tell: does it cover its inside once, and has it sheets?
+// Decides by samples beside every piece of a solid whether it covers its inside once, and whether it has sheets.
 #pragma once
 
 #include "mesh/surface.hpp"
 
 namespace satcheck {
 
-// Are winding numbers with respect to the solid 0 and 1 only? Told by samples beside every piece of the
-// surface; false also where one of them gives no answer.
+// Whether winding numbers with respect to the solid are 0 and 1 only, by samples beside every piece of the surface.
+// Also false if a sample gives no answer.
 bool covers_once(const Surface& solid);
 
-// Is a piece of the surface a sheet, with no inside on either side? True also where a sample gives no answer.
+// Whether a piece of the surface is a sheet, without an inside on either side. Also true if a sample gives no answer.
 bool has_sheets(const Surface& solid);
 
 }  // namespace satcheck

@@ -72,7 +72,7 @@ class Search {
     double upper = 0;
     for (const Vec3& v : c) upper = std::fmax(upper, norm(nearest_on_triangle(v, target) - v));
     upper = std::fmin(upper, nearest.distance + radius);
-    // Inside or not only matters to pieces that could raise the result.
+    // The inside test matters only for pieces that could raise the result.
     if (upper > lower_ + tolerance_) {
       if (is_inside(centre)) {
         upper = std::fmin(upper, std::fmax(0.0, radius - nearest.distance));
@@ -93,7 +93,7 @@ class Search {
     if (distance > lower_ && !is_inside(v)) lower_ = distance;
   }
 
-  // On the surface counts as inside: the distance is 0 either way.
+  // A point on the surface counts as inside. The distance is 0 in both cases.
   bool is_inside(Vec3 p) const { return solid_.solid && winding_number(solid_, p) != 0; }
 
   struct LowerFirst {

@@ -7,19 +7,19 @@
 
 namespace satcheck {
 
-// Regions of triangles without contact, connected through common corners: each is all inside or all
-// outside of the other solid.
+// Regions of triangles without contact, connected through common corners. Each region is completely inside or outside
+// of the other solid.
 class FreeRegions {
  public:
   // in_contact: by triangle of side.self; empty when there is no contact at all.
   FreeRegions(const Side& side, std::vector<bool> in_contact);
 
-  // Is any of them inside the other solid?
+  // Whether any region is inside the other solid.
   bool any_inside() const;
 
-  // What one sample a region tells, which is all of a clean surface.
+  // Notes the facts of one sample for each region. For a clean surface these are all facts.
   void sample_first(Samples& samples) const;
-  // Completes what they can tell.
+  // Notes the remaining facts.
   void sample_rest(Samples& samples) const;
 
  private:
@@ -36,7 +36,7 @@ class FreeRegions {
   Side side_;
   std::vector<bool> in_contact_;
   std::vector<Region> regions_;
-  bool known_ = true;  // every winding number could be told
+  bool known_ = true;  // every winding number was decided
 };
 
 }  // namespace satcheck

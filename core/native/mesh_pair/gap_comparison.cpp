@@ -1,5 +1,4 @@
-// Float64 distances leave the few pairs of triangles that are about as far apart as the length; exact signs decide
-// those.
+// Float64 distances leave a few pairs of triangles whose distance is about the length. Exact signs decide these.
 #include "convex/convex_hull.hpp"
 #include "mesh_pair/gap_comparison.hpp"
 
@@ -19,7 +18,7 @@ Aabb box_of(const Corners& t) {
   return box;
 }
 
-// Sign of (gap of the boxes along their widest axis - length): the triangles are at least so far apart.
+// Sign of (gap of the boxes along their widest axis - length). The triangles are at least that gap apart.
 int compare_along_axes(const Aabb& a, const Aabb& b, double length) {
   int widest = -1;
   for (int axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,7 @@
 namespace satcheck {
 namespace {
 
-// The plane of a triangle, which most triangles nearby are clearly farther from than a bound.
+// The plane of a triangle. Most nearby triangles are clearly farther from it than a bound.
 class Beyond {
  public:
   explicit Beyond(const Corners& t) : from_(t[0]) {
@@ -22,8 +22,8 @@ class Beyond {
     permanent_ = norm(u) * norm(v);
   }
 
-  // Is all of the triangle, on one side, certainly farther than `reach`? A component of the normal, and each of its
-  // products with an offset, is off by a few roundoffs of the lengths that are multiplied.
+  // Whether the whole triangle is on one side, and certainly farther than `reach`. The error of a component of the
+  // normal, and of its products with an offset, is a few roundoffs of the multiplied lengths.
   bool holds(const Corners& t, double reach) const {
     const double far = reach * (length_ + kNoise * permanent_);
     int sides = 0;
@@ -57,7 +57,7 @@ class DistanceSearch {
     const Aabb &box_a = a_.bvh.nodes[0].box, &box_b = b_.bvh.nodes[0].box;
     rounding_ = chain_rounding(std::max({max_abs(box_a.min), max_abs(box_a.max), max_abs(box_b.min), max_abs(box_b.max)}));
     push(0, 0);
-    // Depth first, the nearer child first: the bound gets good early and the stack stays short.
+    // Depth first, nearer child first, so that the bound is good early and the stack is short.
     while (!stack_.empty() && result_.distance > 0) {
       const NodePair pair = stack_.back();
       stack_.pop_back();

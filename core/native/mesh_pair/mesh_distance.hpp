@@ -18,8 +18,8 @@ struct MeshDistance {
 // Of a triangle of each surface.
 using TrianglePairTest = std::function<bool(std::uint32_t, std::uint32_t)>;
 
-// Distance of the two surfaces, 0 when they meet; what is inside a solid makes no difference. counts: only pairs
-// that pass are measured; empty: all.
+// Distance of the two surfaces, 0 if they meet; a body inside the other has a distance, too. counts: only pairs that
+// pass this test are measured; empty: all.
 MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts = {});
 
 }  // namespace satcheck

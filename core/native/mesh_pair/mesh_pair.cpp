@@ -67,7 +67,7 @@ MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vect
                              Wanted wanted) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted));
   if (result.relation == Relation::separated && !contacts.empty()) {
-    // Triangles without area bound nothing, but they are part of the surface.
+    // Triangles without area bound no volume, but they are part of the surface.
     const Vec3 point = contact_point(corners(a.mesh, contacts[0].a), corners(b.mesh, contacts[0].b));
     result = make_relation(Relation::touching, Evidence{contacts[0].a, contacts[0].b, point});
   }
@@ -92,23 +92,23 @@ MeshRelation relation_of_closed(const Surface& a, const Surface& b, const Surfac
   if (const auto simple = simple_relation_of(a, b, contacts)) return *simple;
   if (!contacts.crossing) return judged_relation(a, b, contacts.contacts, wanted);
   const MeshRelation judged = judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
-  // Each triangle bounds material, is within it, or is a sheet: where two cross, the bodies overlap, whatever samples
-  // fail to show.
+  // Each triangle bounds material, is within it, or is a sheet. If two triangles cross, the bodies overlap, even if
+  // samples do not show it.
   return overlaps(judged) ? judged : crossing_relation(a, b, *contacts.crossing);
 }
 
-// Of two closed surfaces, whatever their triangles.
+// The relation of two closed surfaces, for any triangles.
 MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted) {
   return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop), wanted);
 }
 
-// Do boundaries cross here, and not walls within a body?
+// Whether boundaries cross here, and not internal walls of a body.
 bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing) {
   return facts_at_crossing(pair.a(), pair.b(), crossing).settled();
 }
 
-// Where surfaces cross bodies overlap, however they are closed. Else the closed surfaces tell, as far as that does
-// not depend on what fills a hole; and as sheets open surfaces tell of an overlap that no fill undoes.
+// If surfaces cross, the bodies overlap for every fill. Else the closed surfaces decide, unless the answer depends on
+// the fill of a hole. The open surfaces, read as sheets, show overlaps that no fill removes.
 MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted) {
   if (contacts.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *contacts.crossing);
   const ClosedPair filled(a, b, OpenParts::filled);
@@ -155,7 +155,7 @@ std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Sur
   return result ? std::optional(with_counts(*result, contacts)) : std::nullopt;
 }
 
-// The answer to the question with A and B exchanged.
+// The relation with A and B exchanged.
 MeshRelation mirrored(MeshRelation r) {
   std::swap(r.triangle_a, r.triangle_b);
   if (r.hole) r.hole->of_a = !r.hole->of_a;

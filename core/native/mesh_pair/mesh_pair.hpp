@@ -20,7 +20,7 @@ enum class Relation { separated, touching, penetrating, contains, inside, coinci
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 
-// A hole that leaves the relation open: what fills it may meet the other body.
+// A hole that leaves the relation open, because its fill may meet the other body.
 struct OpenHole {
   bool of_a = true;
   std::size_t number = 0, count = 0;  // number: from 0 on, the largest hole first
@@ -31,24 +31,24 @@ struct OpenHole {
 struct MeshRelation {
   Relation relation = Relation::separated;
   bool proven = true;  // false: a degenerate contact was decided by samples, or a hole leaves it open
-  std::optional<OpenHole> hole;  // then the relation is that of the surfaces as they are
+  std::optional<OpenHole> hole;  // if set, the relation is that of the surfaces without fills
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
   std::optional<Vec3> point;  // a common point, rounded
   std::size_t box_tests = 0, triangle_tests = 0;
-  std::size_t judged = 0;  // pairs of triangles in contact that samples had to be taken beside
+  std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b);
 
-// The same where only a common interior counts, which takes less: `separated` may be touching, and one that `contains`
-// the other, or is `inside`, may reach its surface.
+// The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
+// `inside`, the inner body may reach the surface of the outer one.
 MeshRelation overlap_relation(const Surface& a, const Surface& b);
 
-// The same of two closed surfaces by their points alone: sheets of the same triangles touch.
+// The same for two closed surfaces by their points only: sheets with equal triangles touch.
 MeshRelation closed_relation(const Surface& a, const Surface& b);
 
-// The same of two closed surfaces whose boxes differ, where one crossing settles it, or that they have no contact. It looks
-// at little beyond where the boxes of the two meet.
+// The same for two closed surfaces with different boxes; empty unless one crossing settles the relation or there is no
+// contact. It visits little outside of the intersection of the two boxes.
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b);
 
 }  // namespace satcheck

@@ -1,4 +1,4 @@
-// A surface that is moved again and again by a translation, without building its tree anew.
+// A surface that is translated many times without rebuilding its tree.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class MovedSurface {
     if (!still.solid) closed_ = std::make_unique<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
-  // The surface with t added to every coordinate and rounded once. Rounding keeps the order of
-  // coordinates, so the moved boxes hold the moved triangles exactly. Valid until the next call.
+  // The surface with t added to every coordinate, rounded once. Rounding keeps the order of coordinates, so the moved
+  // boxes contain the moved triangles exactly. Valid until the next call.
   const Surface& at(Vec3 t) {
     const auto move_box = [&](const Aabb& box) { return Aabb{box.min + t, box.max + t}; };
     for (std::size_t i = 0; i < still_.mesh.vertices.size(); ++i) {

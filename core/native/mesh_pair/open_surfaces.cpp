@@ -53,7 +53,7 @@ class HoledSide {
       if (clearness == Clearness::in_the_way) break;
       if (theirs.bvh.nodes.empty() || !meet(box_of(theirs), box_of(hull))) continue;
       const MeshRelation relation = closed_relation(hull, theirs);
-      // Within the hull of another hole nothing is known.
+      // Within the hull of another hole, the answer is unknown.
       const bool within = relation.relation == Relation::inside;
       clearness = std::max(clearness, within ? Clearness::in_the_way : clearness_of(relation));
     }

@@ -23,8 +23,8 @@ struct PairFacts {
   bool a_alone = false;  // there is an inner point of A outside of B
   bool b_alone = false;
   bool contact = false;  // the boundaries have a common point
-  std::optional<Evidence> overlap;  // where interiors meet: known with `common`
-  std::optional<Evidence> touch;    // where boundaries meet: known with `contact`
+  std::optional<Evidence> overlap;  // evidence for `common`
+  std::optional<Evidence> touch;    // evidence for `contact`
   bool proven = true;  // false: a sample that might have shown another fact gave no answer
 
   // Further facts would not change the relation.

@@ -1,4 +1,4 @@
-// What exact sample points show of a pair of surfaces.
+// Facts about a pair of surfaces from exact sample points.
 #pragma once
 
 #include "exact/triangle_pair.hpp"
@@ -9,7 +9,7 @@
 
 namespace satcheck {
 
-// One surface, seen against the other one. Both are closed.
+// One surface and the other one. Both are closed.
 struct Side {
   const Surface& self;
   const Surface& other;
@@ -20,8 +20,8 @@ struct Side {
   }
 };
 
-// Winding numbers of the surface beside a point of triangle t of any mesh; nothing when the point lies on
-// a triangle of the surface in another plane.
+// Winding numbers of the surface beside a point of triangle t of any mesh; empty if the point lies on a triangle of the
+// surface in another plane.
 inline std::optional<Beside> beside(const Surface& s, const ExactPoint& p, const Corners& t) {
   return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2]);
 }
@@ -37,13 +37,13 @@ class Samples {
   const PairFacts& facts() const { return facts_; }
   bool settled() const { return facts_.settled(); }
 
-  // Could winding number `theirs` of the other solid at a point of side.self add a fact?
+  // Whether winding number `theirs` of the other solid at a point of side.self could add a fact.
   bool may_learn(const Side& side, int theirs) const {
     if (settled()) return false;
     return theirs == 0 ? !alone(side, true) : !facts_.common || !alone(side, false);
   }
 
-  // Does the relation depend on whether there is contact, which is not known yet?
+  // Whether the relation depends on contact, which is still unknown.
   bool contact_matters() const {
     return !facts_.contact && (!facts_.common || facts_.a_alone != facts_.b_alone);
   }
@@ -57,8 +57,8 @@ class Samples {
     if (mine.is_boundary() && theirs.is_boundary()) note_contact(where);
   }
 
-  // A sheet of side.self (self), or of the other body, next to a point where the body that it is no part of has
-  // these winding numbers.
+  // Notes a sheet of side.self (self) or of the other body. other: winding numbers, beside the sheet, of the body that
+  // it does not belong to.
   void note_sheet(const Side& side, bool self, const Beside& other, const Evidence& where) {
     if (other.front != 0 && other.back != 0 && !facts_.common) {
       facts_.common = true;
@@ -89,8 +89,8 @@ class Samples {
     facts_.contact = true;
   }
 
-  // A point of triangle t of side.self, where the other surface's winding number is `theirs`. False when
-  // that of its own surface could not be told.
+  // Notes a point of triangle t of side.self. theirs: the winding number of the other surface there. False: the winding
+  // number of its own surface was not decided.
   bool note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs);
 
   // The same for any point; `partner` is the triangle to name beside t.
@@ -109,9 +109,9 @@ class Samples {
   PairFacts facts_;
 };
 
-// Tries points of the piece until note(point) returns true. A point gives no answer where it lies on a
-// triangle in another plane: at single points of a piece that is cut by all of them, and at no more than
-// two of the points where one that is not cut meets a line. `others`: how many triangles it meets.
+// Tries points of the piece until note(point) returns true. A point gives no answer if it lies on a triangle in another
+// plane. If all such triangles cut the piece, only single points are affected. A triangle that does not cut it meets it
+// in a line, which contains at most two of the points. `others`: the number of triangles that the piece meets.
 template <class Note>
 bool sample_piece(const Piece& piece, std::size_t others, Note note) {
   for (std::size_t k = 0; k <= 2 * others; ++k) {

@@ -1,14 +1,14 @@
-// Near an interior point a surface is a disk that parts its surroundings in two. Two such disks that
-// share only that point do not cross, for a disk without one point is connected. So a crossing runs
-// along a segment, and when no two open triangles cross, the segment lies on an edge:
+// Near an interior point, a surface is a disk that divides its surroundings in two. Two such disks that share only one
+// point do not cross, because a disk without one point is connected. A crossing therefore runs along a segment. If no
+// two open triangles cross, the segment lies on an edge:
 //
 // * an edge of one sheet in a triangle of the other: they cross if triangles at the edge leave to
 //   strictly different sides of that triangle's plane;
 // * on edges of both: they cross if, turning around the common line, triangles of one sheet
 //   alternate with those of the other.
 //
-// Where triangles of both lie in each other, a crossing may lead through that patch. It does not if there is
-// a direction in which A, moved by however little, leaves every triangle of B that it meets.
+// If triangles of both coincide in a patch, a crossing may lead through that patch. There is none if an arbitrarily
+// small translation in some direction separates A from every triangle of B that it meets.
 #include "mesh_pair/sheet_contact.hpp"
 
 #include <algorithm>
@@ -26,14 +26,14 @@
 namespace satcheck {
 namespace {
 
-// An edge and the corners across from it, of each triangle there.
+// An edge, and the opposite corner of each triangle at the edge.
 struct Hinge {
   Vec3 p, q;
   std::vector<Vec3> wings;
 };
 
-// Which triangles of a closed surface are sheets, by every piece into which their own surface cuts them. One that is
-// a sheet in part counts as one, and unsure() tells of it.
+// The triangles of a closed surface that are sheets, by the pieces into which their own surface cuts them. A triangle
+// that is partly a sheet counts as a sheet, and unsure() is then true.
 class Sheets {
  public:
   explicit Sheets(const Surface& surface) : surface_(surface) {}
@@ -109,7 +109,7 @@ class Hinges {
   std::unordered_map<std::uint32_t, std::vector<Hinge>> by_triangle_;
 };
 
-// Does the segment p q, in the plane of t, run through the open triangle?
+// Whether the segment p q, in the plane of t, passes through the open triangle.
 bool runs_through(Vec3 p, Vec3 q, const Corners& t) {
   const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
   const int turn = orientation_2d(t[0], t[1], t[2], axis);
@@ -133,8 +133,8 @@ bool share_length(const Hinge& a, const Hinge& b) {
   return low(a) < high(b) && low(b) < high(a);
 }
 
-// Turning around the line p q one way from wing u, is x met before v? orientation(p, q, u, w) > 0
-// when the turn from u to w is less than half of one.
+// Whether a rotation about the line p q from wing u meets x before v. orientation(p, q, u, w) > 0 if the rotation from
+// u to w is less than half a turn.
 bool strictly_between(Vec3 p, Vec3 q, Vec3 u, Vec3 v, Vec3 x) {
   const int u_v = orientation(p, q, u, v), u_x = orientation(p, q, u, x), x_v = orientation(p, q, x, v);
   if (u_v > 0) return u_x > 0 && x_v > 0;
@@ -148,10 +148,10 @@ bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v) {
     const int side = orientation_2d(p, q, u, axis);
     if (side != 0) return side == orientation_2d(p, q, v, axis);
   }
-  return true;  // a collinear triangle: no side to speak of
+  return true;  // a collinear triangle has no sides
 }
 
-// Do two wings of A and two of B alternate?
+// Whether two wings of A and two of B alternate.
 bool alternate(const Hinge& a, const Hinge& b) {
   const Vec3 p = a.p, q = a.q;
   const auto lies_in = [&](Vec3 u, const std::vector<Vec3>& wings) {
@@ -201,7 +201,7 @@ bool crosses_at_edge(const SheetPair& pair, const Hinges& hinges_a, const Hinges
   return std::any_of(of_b.begin(), of_b.end(), [&](const Hinge& k) { return crosses_triangle(k, pair.of_a); });
 }
 
-// Of a direction and the normal of a plane, both unit: far more than rounding makes of 0.
+// A dot product of a direction and a normal, both unit: far more than the rounding of 0.
 constexpr double kSurelyAlong = 0x1p-40;
 
 Vec3 unit_normal(const Corners& t) {
@@ -209,12 +209,12 @@ Vec3 unit_normal(const Corners& t) {
   return n * (1 / norm(n));
 }
 
-// Does the plane of t, the triangle of A (sign 1) or of B (-1), part the two triangles, so that A leaves B when it
-// moves along `way`?
+// Whether the plane of t separates the two triangles, so that A leaves B when it moves along `way`. sign: 1 if t
+// belongs to A, -1 if it belongs to B.
 bool leaves_over(const Corners& t, const Corners& other, double sign, Vec3 way) {
   const double along = sign * dot(unit_normal(t), way);
   if (std::fabs(along) < kSurelyAlong) return false;
-  // A moves to the front of its own triangle (along > 0): then B has to lie behind it, or in its plane.
+  // If A moves to the front of its own triangle (along > 0), B has to lie behind it or in its plane.
   const int free_side = along > 0 ? -1 : 1;
   return std::all_of(other.begin(), other.end(), [&](Vec3 p) {
     const int side = orientation(t[0], t[1], t[2], p);
@@ -226,7 +226,7 @@ bool leaves(const SheetPair& pair, Vec3 way) {
   return leaves_over(pair.of_a, pair.of_b, 1, way) || leaves_over(pair.of_b, pair.of_a, -1, way);
 }
 
-// Sums of up to three different normals, each forth or back.
+// Sums of up to three different normals, with both signs.
 std::vector<Vec3> ways_out(const std::vector<Vec3>& normals) {
   std::vector<Vec3> chosen;
   for (const Vec3& n : normals) {
@@ -270,7 +270,7 @@ void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<C
   if (pairs.empty()) return;
   const Hinges hinges_a(a.mesh, of_a, triangles_of(pairs, &SheetPair::a));
   const Hinges hinges_b(b.mesh, of_b, triangles_of(pairs, &SheetPair::b));
-  std::vector<Vec3> flat;  // normals of triangles that lie in each other
+  std::vector<Vec3> flat;  // normals of coplanar triangles that overlap
   for (const SheetPair& pair : pairs) {
     if (crosses_at_edge(pair, hinges_a, hinges_b)) {
       if (of_a.unsure() || of_b.unsure()) return samples.fail();

@@ -1,4 +1,4 @@
-// Do sheets cross along edges, where no two of their triangles cross?
+// Decides whether sheets cross along edges when no two of their triangles cross.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace satcheck {
 
-// Notes a crossing of sheets of two closed surfaces that runs through edges: along a shared segment each has
-// points strictly on both sides of the other. Where it finds none it proves that there is none, or fails: sheets
-// do not cross where an arbitrarily small translation of A frees them of each other.
+// Notes a crossing of sheets of two closed surfaces through edges: along a shared segment, each has points strictly on
+// both sides of the other. If it finds no crossing, it tries to prove that there is none: sheets do not cross if an
+// arbitrarily small translation of A separates them.
 void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples);
 
 }  // namespace satcheck

@@ -1,11 +1,11 @@
-// Every pair of triangles says by name which of its features meet (incidence.hpp): two nodes with a
-// segment between them, or the sides of a shared polygon. Names are the same in all triangles around
-// a feature, so pieces join without comparing coordinates:
+// For every pair of triangles, incidence.hpp names the features that meet: two nodes with a segment between them, or
+// the sides of a shared polygon. All triangles around a feature use the same names, so pieces are joined without
+// comparing coordinates:
 //
-// * Coplanar polygons become one patch where they share a side; the sides left over are its border.
+// * Coplanar polygons that share a side become one patch. The other sides are its border.
 // * Segments that are a side of a patch belong to it. The others join into curves.
-// * Collinear triangles are flipped away first, for they hide that an edge ends at a vertex. One that
-//   cannot go gives points several names; these become one node.
+// * Collinear triangles are flipped away first, because they hide that an edge ends at a vertex. One that cannot be
+//   removed gives points several names, which become one node.
 #include "mesh_pair/surface_intersection.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool points_less(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), coordinates_less);
 }
 
-// A loop from its least point on, in the direction it has.
+// A loop, rotated to start at its least point.
 std::vector<Vec3> from_least_point(const std::vector<Vec3>& loop) {
   const Vec3 least = *std::min_element(loop.begin(), loop.end(), coordinates_less);
   std::vector<Vec3> best;
@@ -181,7 +181,7 @@ class Assembly {
     std::vector<std::pair<double, std::vector<Vec3>>> outlines;  // with signed areas
     for (const auto& loop : join_loops(std::move(border))) {
       std::vector<Vec3> points = trace(loop, true);
-      if (points.size() < 3) continue;  // thinner than the rounding
+      if (points.size() < 3) continue;  // vanished by rounding
       Vec3 sum;
       for (std::size_t k = 2; k < points.size(); ++k) {
         sum = sum + cross(points[k - 1] - points[0], points[k] - points[0]);
@@ -211,7 +211,7 @@ class Assembly {
       curve.points = trace(chain.nodes, chain.closed);
       curve.closed = chain.closed && curve.points.size() > 2;
       if (curve.points.size() < 2) {
-        result_.points.push_back(curve.points[0]);  // shorter than the rounding
+        result_.points.push_back(curve.points[0]);  // vanished by rounding
         continue;
       }
       std::vector<Vec3> reversed(curve.points.rbegin(), curve.points.rend());
@@ -254,7 +254,7 @@ class Assembly {
   std::vector<NodePair> segments_, joined_;
   std::vector<Piece> pieces_;
   std::vector<NodePair> border_;  // sides of all patches, sorted
-  std::vector<bool> covered_;     // nodes that are no points of their own
+  std::vector<bool> covered_;     // nodes that are not isolated points
   std::vector<std::optional<ExactPoint>> where_;
 };
 

@@ -10,8 +10,7 @@
 
 namespace satcheck {
 
-// A polyline, straight between its points; a closed one does not repeat the first. It does not
-// branch: where more than two meet, each ends.
+// A polyline. A closed one does not repeat its first point. It does not branch: where more than two meet, each ends.
 struct ContactCurve {
   std::vector<Vec3> points;
   bool closed = false;
@@ -22,12 +21,12 @@ struct ContactCurve {
 struct ContactPatch {
   std::vector<std::vector<Vec3>> outlines;
   Vec3 normal;           // unit, of a's surface
-  bool opposed = false;  // do the surfaces face each other there?
+  bool opposed = false;  // the surfaces face each other there
   double area = 0;
 };
 
-// Curves by falling length, patches by falling area; nothing is in two lists. Points are exact
-// intersections, each coordinate rounded once; points in the middle of a straight line are left out.
+// Curves by decreasing length, patches by decreasing area; no contact is in two lists. Points are exact intersections,
+// each coordinate rounded once. Points in the middle of a straight line are left out.
 struct SurfaceIntersection {
   std::vector<ContactCurve> curves;
   std::vector<ContactPatch> patches;
@@ -36,7 +35,7 @@ struct SurfaceIntersection {
   bool complete = true;  // false: more pairs meet than allowed, and nothing is listed
 };
 
-// Swapping a and b swaps the pairs, turns the patches that oppose each other, and changes nothing else.
+// Swapping a and b only swaps the pairs and reverses opposed patches.
 SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs);
 
 }  // namespace satcheck

@@ -48,7 +48,7 @@ class Traversal {
  private:
   bool ended() const { return contacts_.crossing && at_crossing_ == AtCrossing::stop; }
 
-  // As with box_at(), which would be a copy.
+  // As box_at(), but without copying the box.
   static bool meets(const Surface& s, std::uint32_t place, const Aabb& box) {
     return place < s.bvh.boxes.size() ? meet(s.bvh.boxes[place], box) : meet(box_at(s.bvh, s.mesh, place), box);
   }

@@ -1,4 +1,5 @@
-// Where two surfaces meet: both trees are walked at once, their triangles classified exactly.
+// Finds all pairs of triangles of two surfaces that meet. Traverses both trees at once and classifies triangles
+// exactly.
 #pragma once
 
 #include <optional>

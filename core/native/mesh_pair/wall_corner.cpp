@@ -5,9 +5,9 @@
 namespace satcheck {
 namespace {
 
-// Rounding of a point that a solved system puts on a wall, as a share of the largest offset.
+// Rounding error of a computed point on a wall, as a share of the largest offset.
 constexpr double kOnWall = 1e-12;
-// Walls whose normals span less than this volume (squared) have no useful corner.
+// If the normals of walls span less than this squared volume, their corner is not used.
 constexpr double kFlattest = 1e-12;
 
 Vec3 on_one(const Wall& p) { return p.normal * p.offset; }

@@ -1,4 +1,4 @@
-// The nearest point to the origin beyond some planes.
+// The point beyond several planes that is nearest to the origin.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct Wall {
   double offset;
 };
 
-// The point of least norm beyond all walls, on the last of them; nothing where no point is beyond all walls. At most
-// three walls hold it, so all such sets with the last one are tried.
+// The point of least norm beyond all walls, on the last wall; empty if no point is beyond all walls. It lies on at most
+// three walls, so all sets of up to three walls with the last one are tried.
 std::optional<Vec3> nearest_beyond(const std::vector<Wall>& walls);
 
 }  // namespace satcheck

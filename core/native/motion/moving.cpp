@@ -17,8 +17,8 @@ double time_until(const Approach& approach, double level) {
   return std::fmax(steadily, time_by_bend(room, approach.ahead.rate, approach.bend));
 }
 
-// The least of the bound over 0 <= s <= window: where the rate is negative the gap opens first, and the
-// bound is concave, so that its least value is at an end.
+// The least value of the bound over 0 <= s <= window. If the rate is negative, the gap first opens. The bound is
+// concave, so its least value is at an end.
 double least(double gap, const Approach::Speed& speed, double bend, double window) {
   const double steadily = gap - speed.steady * window;
   const double bent = gap - speed.rate * window - bend * window * window / 2;

@@ -1,13 +1,13 @@
-// A rigid body on the move, and how fast a gap to another one can close.
+// A moving rigid body, and how fast its gap to another body can close.
 //
 // The axis n is fixed in the world while the bodies move. A point p = centre + r of a body that turns with
 // the angular velocity w about an axis through `centre`, which itself moves with v, has
 //   n . (p(s) - p(0)) <= s (n . v + r . (n x w)) + s^2 / 2 |n x w| |w x r|        (Taylor)
 //   n . (p(s) - p(0)) <= s (n . v + |n x w| |w x r| / |w|)                         (r turns at a fixed radius)
 // for every s >= 0: the second derivative of the turning part is |n x w| |w x r| at most. The motion bound of
-// Brian Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems" (1996), 2.3, taken along the axis
-// as by Xinyu Zhang, Minkyoung Lee, Young J. Kim, "Interactive Continuous Collision Detection for Non-convex
-// Polyhedra" (2006): what slides past is not slowed down.
+// Brian Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems" (1996), 2.3, taken along the axis as by Xinyu
+// Zhang, Minkyoung Lee, Young J. Kim, "Interactive Continuous Collision Detection for Non-convex Polyhedra" (2006).
+// Bodies that slide past each other therefore keep large steps.
 #pragma once
 
 #include "base/vec.hpp"
@@ -23,9 +23,9 @@ struct Moving {
   Vec3 velocity_at(Vec3 world) const { return velocity + cross(spin, world - centre); }
 };
 
-// Two bodies as seen from the world: the axes of their gaps stand still there. Where one body stands
-// and the other turns about a fixed axis, the world may as well turn and the body stand: the axis of the gap
-// then goes along with it, as that of a face that opens like a door does.
+// The frames in which two bodies are seen. In the world, the axis of a gap is fixed. If one body is at rest and the
+// other turns about a fixed axis, the frame may also turn with that body. The axis of the gap then turns too, like the
+// normal of a door that opens.
 class Views {
  public:
   struct View {
@@ -56,7 +56,7 @@ class Views {
   int count_ = 1;
 };
 
-// What the bounds may be off by: of a gap, and of the rate at which it closes.
+// The rounding errors of a gap, and of the rate at which it closes.
 struct MotionRounding {
   double gap = 0, rate = 0;
 };
@@ -65,8 +65,8 @@ struct Extent {
   double low, high;
 };
 
-// How the gap along one axis goes on. It is at least gap - rate s - bend s^2 / 2, and gap - steady s; the
-// first members hold for s >= 0, those for s <= 0 are `back`.
+// Bounds of the future gap along one axis. It is at least gap - rate s - bend s^2 / 2, and at least gap - steady s. The
+// first members hold for s >= 0; the values for s <= 0 are in `back`.
 struct Approach {
   struct Speed {
     double rate = 0, steady = 0;
@@ -75,23 +75,23 @@ struct Approach {
   Speed ahead, back;
 };
 
-// What is asked of a pair: a value that is smaller the more the pair stands in the way.
+// The requested value of a pair. It is smaller for pairs that are a closer obstacle.
 class MotionQuestion {
  public:
-  // For how long the gap stays above the level, at most `limit`.
+  // The time for which the gap stays above the level, at most `limit`.
   static MotionQuestion time(double level, double limit) { return {true, level, limit}; }
-  // The least gap within `window` of now, before and after; how far it is below `floor` does not matter.
+  // The least gap from `window` before now to `window` after. If it is below `floor`, any value below `floor` will do.
   static MotionQuestion gap(double window, double floor = -INFINITY) { return {false, floor, window}; }
 
   // A lower bound of the answer.
   double answer(const Approach& approach) const;
-  // Whether the answer for a gap as it is now, whatever becomes of it, may be more than a known one.
+  // Whether a pair with this gap now may have a larger answer than a known one.
   bool may_raise(double gap, double known) const { return time_ ? gap > level_ : gap > known; }
   // No answer is larger.
   double largest() const { return time_ ? extent_ : INFINITY; }
   // No smaller answer is of use.
   double smallest() const { return time_ ? 0.0 : level_; }
-  // What is true in any case.
+  // The answer that always holds.
   double trivial() const { return time_ ? 0.0 : -INFINITY; }
 
  private:
@@ -101,7 +101,7 @@ class MotionQuestion {
   double level_, extent_;
 };
 
-// Along the axis, of length 1 whatever its size; zero where it has no direction.
+// The unit vector along the axis, for any length; zero if the axis is zero.
 inline Vec3 unit_along(Vec3 axis) {
   const double largest = max_abs(axis), inverse = 1 / largest;
   if (!(largest > 0) || !is_finite(axis) || !std::isfinite(inverse)) return {};
@@ -131,7 +131,7 @@ void add_approach(const Part& part, const Moving& moving, Vec3 n, bool towards, 
   approach.bend += across * turning;
 }
 
-// How a gap along a unit axis from A to B goes on in one view.
+// Bounds of the future gap along a unit axis from A to B in one view.
 template <class PartA, class PartB>
 Approach approach_of(double gap, const PartA& a, const PartB& b, const Views::View& view, Vec3 n, double rounding) {
   Approach approach{gap, 0, {rounding, rounding}, {rounding, rounding}};
@@ -140,8 +140,8 @@ Approach approach_of(double gap, const PartA& a, const PartB& b, const Views::Vi
   return approach;
 }
 
-// Raises `answer`, a lower bound of the answer to the question, by what an axis of any length from A to B
-// proves in all views.
+// Raises `answer`, a lower bound of the requested value, to what an axis from A to B, of any length, proves in all
+// views.
 template <class PartA, class PartB>
 void raise_answer(const PartA& a, const PartB& b, Vec3 axis, const Views& views, const MotionRounding& rounding,
                   const MotionQuestion& question, double& answer) {

@@ -26,7 +26,7 @@ class MixedSearch {
 
   MotionAnswer run(std::uint64_t work) {
     push(0);
-    // Depth first, the child that is more in the way first.
+    // Depth first; the child with the smaller bound first.
     while (!stack_.empty() && result_.value > question_.smallest()) {
       const Node node = stack_.back();
       stack_.pop_back();

@@ -1,4 +1,4 @@
-// What stands in the way of a moving convex shape and a moving surface.
+// The nearest obstacle of a moving convex shape and a moving surface.
 #pragma once
 
 #include "convex/shape.hpp"
@@ -6,7 +6,7 @@
 
 namespace satcheck {
 
-// As for two surfaces; the shape counts with its inside. The pair that is most in the way: triangle_b alone.
+// As for two surfaces. The inside of the shape counts. Only triangle_b of the nearest obstacle is set.
 MotionAnswer ask_motion(const Shape& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
                         const MotionQuestion& question, const MotionRounding& rounding, std::uint64_t work);
 

@@ -1,4 +1,4 @@
-// What the bounds of motion are asked about: boxes, triangles and shapes, placed.
+// The placed parts that motion bounds apply to: boxes, triangles and shapes.
 #pragma once
 
 #include "convex/minkowski.hpp"
@@ -85,7 +85,7 @@ class PlacedShape {
 // The axis, turned round where it points against the direction.
 inline Vec3 towards(Vec3 axis, Vec3 direction) { return dot(axis, direction) < 0 ? -axis : axis; }
 
-// What is left of a direction across the relative motion of two points, world.
+// The component of a direction perpendicular to the relative motion of two points, world.
 inline Vec3 across_motion(Vec3 direction, const Views& views, Vec3 on_a, Vec3 on_b) {
   const Vec3 v = views.world().a.velocity_at(on_a) - views.world().b.velocity_at(on_b);
   const double squared = norm_squared(v);

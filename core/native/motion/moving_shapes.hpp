@@ -1,4 +1,4 @@
-// What stands in the way of two moving convex shapes.
+// The motion bounds of two moving convex shapes.
 #pragma once
 
 #include "convex/shape.hpp"
@@ -6,7 +6,7 @@
 
 namespace satcheck {
 
-// As for surfaces, with the signed distance in the place of the gap: < 0 where they overlap. Poses are rigid.
+// As for surfaces, with the signed distance instead of the gap: < 0 for an overlap. Poses are rigid.
 MotionAnswer ask_motion(const Shape& a, const Moving& moving_a, const Shape& b, const Moving& moving_b,
                         const MotionQuestion& question, const MotionRounding& rounding);
 

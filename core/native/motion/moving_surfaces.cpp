@@ -25,12 +25,12 @@ class MotionSearch {
 
   MotionAnswer run() {
     push_two({0, 0}, {0, 0}, 1);
-    // Depth first, the child that is more in the way first: the bound gets good early.
+    // Depth first; the child with the smaller bound first, so that the bound is good early.
     while (!stack_.empty() && result_.value > question_.smallest()) {
       const NodePair pair = stack_.back();
       stack_.pop_back();
       if (!(pair.value < result_.value)) continue;
-      if (result_.visits >= work_) {  // what is left may be as much in the way as its bounds say
+      if (result_.visits >= work_) {  // the remaining pairs count with their bounds
         result_.value = pair.value;
         continue;
       }
@@ -96,7 +96,7 @@ class MotionSearch {
     result_.triangle_b = tb;
   }
 
-  // Tries an axis; whether the pair is no more in the way than what is known.
+  // Tries an axis. Returns whether the pair is no closer obstacle than the known one.
   template <class Part>
   bool improve(const Part& a, const Part& b, Vec3 axis, double& value) const {
     raise_answer(a, b, axis, views_, rounding_, question_, value);

@@ -1,9 +1,9 @@
-// What stands in the way of two moving surfaces, by branch and bound over their box trees.
+// The nearest obstacle of two moving surfaces, by branch and bound over their box trees.
 //
 // Method: conservative advancement with motion bounds for each pair of boxes and triangles, as Min Tang, Young J. Kim,
 // Dinesh Manocha, "C2A: Controlled Conservative Advancement for Continuous Collision Detection of Polygonal Models"
-// (2009). Where we deviate: the trees are those of the surfaces as they were placed, whose boxes turn with the body, so
-// that nothing is built anew from step to step; and several axes are tried for each pair. Each is a proof by itself.
+// (2009). Where we deviate: the trees belong to the surfaces as placed, and their boxes turn with the body, so that no
+// tree is rebuilt between steps. Several axes are tried for each pair; each is a proof by itself.
 #pragma once
 
 #include "mesh/surface.hpp"
@@ -13,14 +13,14 @@
 namespace satcheck {
 
 struct MotionAnswer {
-  double value;                // a proven lower bound of what was asked
-  double upper = INFINITY;     // of the distance as the bodies are now, as far as pairs were looked at
-  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // the pair that is most in the way
+  double value;                // a proven lower bound of the requested value
+  double upper = INFINITY;     // of the distance of the bodies now, among the visited pairs
+  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // the nearest obstacle
   std::uint64_t visits = 0;    // pairs of boxes and triangles
 };
 
-// Of the surfaces alone: what is inside a solid makes no difference. After `work` visits the answer is what is
-// proven by then, which is less. Throws std::invalid_argument on an empty surface.
+// Only the surfaces count, and not the inside of solids. After `work` visits the search stops, and the answer is the
+// weaker bound that is proven so far. Throws std::invalid_argument for an empty surface.
 MotionAnswer ask_motion(const Surface& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
                         const MotionQuestion& question, const MotionRounding& rounding, std::uint64_t work);
 

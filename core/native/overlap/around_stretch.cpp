@@ -29,7 +29,7 @@ class Turn {
   }
 
  private:
-  // About the edge of a mesh: each half-plane by a corner of its triangle.
+  // The order about the edge of a mesh. Each half-plane is represented by a corner of its triangle.
   std::optional<Groups> order_about(Vec3 from, Vec3 to) const {
     struct Place {
       int quarter;
@@ -81,7 +81,7 @@ class Turn {
     return std::nullopt;
   }
 
-  // Where two triangles cross inside both.
+  // The order where two triangles cross inside both.
   std::optional<Groups> order_at_crossing() const {
     std::array<const HalfPlane*, 4> at{};  // left and right of a, left and right of b
     if (half_planes_.size() != 4) return std::nullopt;

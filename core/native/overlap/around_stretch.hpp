@@ -1,4 +1,4 @@
-// The faces around a straight stretch of a surface, in the order of a turn about it.
+// The faces around a straight stretch of a surface, in rotational order.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@ struct HalfPlane {
   bool left;  // of the way from low to high, seen from the front of the triangle
   int edge;   // the edge of the triangle in which the stretch lies, -1: none
 
-  // The sides of a face: 2 face is in front of it, 2 face + 1 behind it. Which of them lies ahead, and which behind,
-  // when half-planes turn counter-clockwise about the way from low to high?
+  // The sides of a face: 2 * face is in front of it, 2 * face + 1 behind it. side_ahead: the side that comes next when
+  // the half-plane turns counter-clockwise about the direction from low to high.
   std::uint32_t side_ahead() const { return 2 * face + (left ? 0 : 1); }
   std::uint32_t side_behind() const { return 2 * face + (left ? 1 : 0); }
 };
 
-// Counter-clockwise about the way from low to high; those that coincide are together. Nothing where neither an edge of
-// a mesh nor the crossing of two triangles tells the order: where a surface meets itself.
+// The half-planes in counter-clockwise order about the direction from low to high; coincident ones form a group. Empty
+// if neither an edge of a mesh nor the crossing of two triangles gives the order, because a surface meets itself.
 std::optional<std::vector<std::vector<HalfPlane>>> order_around(const Mesh& a, const Mesh& b, const MeetingNodes& nodes,
                                                                 const std::vector<HalfPlane>& half_planes);
 

@@ -9,7 +9,7 @@
 namespace satcheck {
 namespace {
 
-// Of two points on a line that is not across the axis.
+// The order of two points on a line that is not perpendicular to the axis.
 bool comes_before_along(const ExactPoint& p, const ExactPoint& q, int axis) {
   const double gap = q.rounded[axis] - p.rounded[axis];
   if (std::fabs(gap) > 2 * (p.error[axis] + q.error[axis])) return gap > 0;
@@ -80,7 +80,7 @@ ExactPoint MeetingNodes::locate_node(std::uint32_t node) const {
     return make_exact_point(node < of_a ? meshes_[0]->vertices[node] : meshes_[1]->vertices[node - of_a]);
   }
   ExactPoint p = locate(incidences_[node - first_incidence()], *meshes_[0], *meshes_[1]);
-  // With the error of its rounding, which locate() leaves out.
+  // Adds the rounding error, which locate() leaves out.
   return make_exact_point(std::move(p.x), std::move(p.y), std::move(p.z), std::move(p.w));
 }
 

@@ -10,21 +10,21 @@
 
 namespace satcheck {
 
-// Numbers: the vertices of a, those of b, then the other incidences. A point has one number: a vertex of b that lies on
-// one of a has the latter's.
+// Numbers: the vertices of a, the vertices of b, then the other incidences. Each point has one number: a vertex of b on
+// a vertex of a has the number of the latter.
 class MeetingNodes {
  public:
   MeetingNodes(const Mesh& a, const Mesh& b) : meshes_{&a, &b} {}
 
   std::uint32_t add(const Incidence& at);
-  // To be called after the last add(): puts the nodes on each edge in order.
+  // Sorts the nodes on each edge. Call it after the last add().
   void sort_edges();
 
   std::size_t count() const { return first_incidence() + incidences_.size(); }
   std::uint32_t of_vertex(int mesh, std::uint32_t vertex) const;
   // The nodes inside an edge of one mesh (0: a, 1: b), from its lower vertex on.
   const std::vector<std::uint32_t>& inside(int mesh, MeshFeature edge) const;
-  // Of one mesh, where a node that add() returned lies.
+  // The feature of one mesh that contains a node from add().
   MeshFeature feature(int mesh, std::uint32_t node) const;
   const ExactPoint& at(std::uint32_t node) const;
 

@@ -16,7 +16,7 @@
 namespace satcheck {
 namespace {
 
-// Each corner of a face is rounded, and some operations on it.
+// Roundings of a corner of a face and of the operations on it.
 constexpr double kVolumeRoundoffs = 16;
 
 bool lies_within(const Aabb& in, const Aabb& out) {
@@ -61,7 +61,7 @@ class Overlap {
  private:
   std::uint32_t sides() const { return static_cast<std::uint32_t>(2 * cells_.faces().size()); }
 
-  // A component within the box of another may be a cave of it.
+  // A component within the box of another one may be a cavity of it.
   void join_caves() {
     std::map<std::uint32_t, Aabb> boxes;
     for (std::uint32_t s = 0; s < sides(); ++s) {
@@ -79,7 +79,7 @@ class Overlap {
     }
   }
 
-  // Of what meets the other surface or lies within the other solid.
+  // Marks self-contacts of triangles that meet the other surface or lie within the other solid.
   void find_self_contact() {
     irregular_.assign(cells_.faces().size(), false);
     for (std::uint32_t f = 0; f < cells_.faces().size(); ++f) {
@@ -113,7 +113,7 @@ class Overlap {
     }
   }
 
-  // By the divergence theorem, from the middle of each component.
+  // Adds volumes by the divergence theorem, relative to the middle of each component.
   void add_volumes(std::map<std::uint32_t, OverlapComponent>& found) const {
     for (std::uint32_t s = 0; s < sides(); ++s) {
       if (component_[s] == kNoComponent) continue;

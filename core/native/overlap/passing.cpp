@@ -45,7 +45,7 @@ class Pieces {
     const CellFace& face = cells_.faces()[side / 2];
     return face.shared ? shared_ == Shared::of_both : face.mesh == mesh;
   }
-  // Pieces are sets of faces; a face that belongs to both surfaces stands there twice.
+  // Pieces are sets of faces. A face that belongs to both surfaces counts twice.
   static std::uint32_t piece(std::uint32_t side, int mesh) { return 2 * (side / 2) + static_cast<std::uint32_t>(mesh); }
 
   const SpaceCells& cells_;
@@ -76,7 +76,7 @@ std::map<std::uint32_t, Passing> find_passing(const SpaceCells& cells, const std
       result[here] = {agreed(a_without, a_with, here), agreed(b_without, b_with, here)};
     }
   }
-  // A face within a body may part what belongs together.
+  // A face within a body may separate parts that belong together.
   for (std::uint32_t s = 0; s < component.size(); s += 2) {
     if (component[s] != kNoComponent && component[s] == component[s + 1]) result[component[s]] = {};
   }

@@ -1,8 +1,8 @@
-// Does one body pass through the other?
+// Decides whether one body passes through the other.
 //
-// Each body bounds a component of the overlap by pieces of its surface. A passes through B where a piece of A joins two
-// pieces of B: A enters through one and leaves through the other. Faces that lie in each other belong to both surfaces,
-// or to none: where it matters which, there is no answer.
+// Pieces of both surfaces bound a component of the overlap. A passes through B if a piece of A joins two pieces of B: A
+// enters through one and leaves through the other. Coincident faces belong to both surfaces or to none. If this
+// matters, there is no answer.
 #pragma once
 
 #include <map>

@@ -13,7 +13,8 @@ struct Hit {
   std::uint32_t near_side, far_side;
 };
 
-// What the way from p to `far` meets of one surface; nothing where an edge is among it, or a face cannot be told.
+// Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge, or a face is not
+// decided.
 bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, std::vector<Hit>& hits) {
   const Surface& surface = cells.surface(mesh);
   Aabb path = point_box(p);
@@ -37,7 +38,7 @@ bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, 
 ShellLabels::ShellLabels(SpaceCells& cells) : cells_(cells) {
   const auto box_of = [&](int mesh) { return cells.surface(mesh).bvh.nodes[0].box; };
   const auto face_count = static_cast<std::uint32_t>(cells.faces().size());
-  // A way across a triangle that is cut takes longer than the middle of another one.
+  // Triangles that are not cut come first, because they are faster.
   for (const bool is_cut : {false, true}) {
     for (std::uint32_t f = 0; f < face_count; ++f) {
       const CellFace& face = cells.faces()[f];

@@ -1,4 +1,4 @@
-// Which cells lie in which solid, and which shells bound one cell.
+// Decides which cells lie in which solid, and which shells bound the same cell.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@ class ShellLabels {
  public:
   explicit ShellLabels(SpaceCells& cells);
 
-  // Whether each shell near both bodies could be told.
+  // Whether the winding numbers of each shell near both bodies are decided.
   bool complete() const { return complete_; }
-  // Nothing of shells away from one of the bodies.
+  // Empty for shells away from one of the bodies.
   std::optional<Windings> of(std::uint32_t side) const;
   bool in_both(std::uint32_t side) const {
     const auto w = of(side);
@@ -37,8 +37,8 @@ class ShellLabels {
   bool complete_ = true;
 };
 
-// The sides that a way meets, pair by pair: both of a pair bound the cell between them. The way starts at a point of
-// the side's face, on that side, and ends far away. Nothing where no way avoids all edges.
+// Pairs of sides that a segment meets. Both sides of a pair bound the cell between them. The segment starts at a point
+// of the side's face, on that side, and ends far away. Empty if no tried segment avoids all edges.
 std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> sides_on_way(const SpaceCells& cells,
                                                                                  std::uint32_t side);
 

@@ -95,7 +95,7 @@ SpaceCells::Border SpaceCells::border_of(int mesh, std::uint32_t triangle) const
   return border;
 }
 
-// Those that do not lie along an edge of the triangle.
+// The stretches that do not lie along an edge of the triangle.
 std::vector<NodePair> SpaceCells::inner_stretches(int mesh, std::uint32_t triangle) const {
   const Triangle& v = surface(mesh).mesh.triangles[triangle];
   const auto on_edge = [&](std::uint32_t node, int i) {

@@ -1,8 +1,8 @@
 // The cells into which two closed surfaces cut space, by the sides of the faces that bound them.
 //
-// Each surface cuts the triangles of the other into faces. Around each stretch at which faces end, those that follow
-// each other in a turn about it bound a common cell (around_stretch.hpp). So the sides of the faces join into the
-// closed surfaces that bound the cells: each one is a shell. A cell may have several shells: caves within it.
+// Each surface cuts the triangles of the other into faces. Faces end at stretches. Faces that follow each other in a
+// rotation about a stretch bound a common cell (around_stretch.hpp). In this way the sides of the faces join into the
+// closed surfaces that bound the cells. Each of these is a shell. A cell with cavities has several shells.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ struct CellFace {
   bool shared = false;   // a face of the other surface coincides with it
 };
 
-// Two sides that look at each other across a stretch; the numbers of its ends (meeting_nodes.hpp).
+// Two sides that face each other at a stretch, and the numbers of its ends (meeting_nodes.hpp).
 struct Wedge {
   std::uint32_t side, other;
   std::uint32_t low, high;
@@ -31,8 +31,8 @@ struct Wedge {
 
 class SpaceCells {
  public:
-  // Of surfaces without collinear triangles, as without_slivers() leaves them. Where more triangles meet than
-  // `max_pairs`, and where a surface meets itself at the other one, not complete().
+  // For surfaces without collinear triangles, see without_slivers(). complete() is false if more than `max_pairs` pairs
+  // of triangles meet, or if a surface meets itself at the other one.
   SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs);
 
   bool complete() const { return complete_; }
@@ -41,15 +41,15 @@ class SpaceCells {
   const std::vector<CellFace>& faces() const { return faces_; }
   const std::vector<Wedge>& wedges() const { return wedges_; }
   std::uint32_t shell(std::uint32_t side) { return shells_.find(side); }
-  // Triangles that meet the other surface.
+  // Whether a triangle meets the other surface.
   bool in_contact(int mesh, std::uint32_t triangle) const { return cut_[mesh][triangle] != kNotCut; }
   bool any_contact() const { return !cuts_.empty(); }
   bool bounds_nothing(const CellFace& face) const;
 
-  // A point inside the face, and the face of a triangle in which a point lies; nothing where that cannot be told.
+  // A point inside the face; and the face of a triangle that contains a point. Empty: not decided.
   std::optional<ExactPoint> sample(std::uint32_t face) const;
   std::optional<std::uint32_t> face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
-  // The corners of the face and the box around them, rounded; and its area times its unit normal, of coordinates
+  // The corners of the face and the box around them, rounded; and its area times its unit normal, in coordinates
   // relative to an origin.
   std::vector<Vec3> face_corners(std::uint32_t face) const;
   Aabb box(std::uint32_t face) const;
@@ -58,7 +58,7 @@ class SpaceCells {
  private:
   static constexpr std::uint32_t kNotCut = 0xFFFFFFFF;
 
-  // The nodes around a triangle, and on which edge of it the stretch from each one lies.
+  // The nodes around a triangle, and for each node the edge that contains the stretch from it.
   struct Border {
     std::vector<std::uint32_t> nodes;
     std::vector<int> edges;

@@ -9,7 +9,8 @@
 namespace satcheck {
 namespace {
 
-// Ways to different points of the border; each node and each stretch spoils one way at most.
+// The number of segments to different points of the border that are tried. Each node and each stretch blocks at most
+// one.
 constexpr int kWays = 256;
 
 }  // namespace
@@ -69,7 +70,7 @@ void TriangleFaces::sort_around(std::vector<std::uint32_t>& half_edges) const {
   });
 }
 
-// The stretches of each part of the graph that does not hang together with the border.
+// The stretches of each part of the graph that is not connected to the border.
 std::vector<std::vector<std::uint32_t>> TriangleFaces::islands() const {
   std::vector<std::uint32_t> numbers;
   for (const auto& [i, k] : stretches_) numbers.insert(numbers.end(), {i, k});
@@ -88,8 +89,8 @@ std::vector<std::vector<std::uint32_t>> TriangleFaces::islands() const {
   return result;
 }
 
-// Behind the last crossing of a way with some islands follows their surrounding face, and then another part of its
-// outline: one way from each island joins all outlines of all faces.
+// After the last crossing of a segment with some islands, it is in their surrounding face, and then meets another part
+// of its outline. One segment from each island therefore joins all outlines of all faces.
 bool TriangleFaces::join_islands(std::vector<std::uint32_t>& loop_of) const {
   const auto parts = islands();
   if (parts.empty()) return true;
@@ -128,8 +129,8 @@ ExactPoint TriangleFaces::beyond(const ExactPoint& from, int attempt) const {
   return between(from, between(p, q, part, kParts - part), -1.0, 2.0);
 }
 
-// The stretches that the way crosses, in order; nothing where it meets a node, or runs along a stretch. `from` may lie
-// inside one, which the way only leaves.
+// The stretches that the segment crosses, in order; empty if it meets a node or runs along a stretch. `from` may lie
+// inside a stretch, which the segment only leaves.
 std::optional<std::vector<TriangleFaces::Crossing>> TriangleFaces::crossings(const ExactPoint& from,
                                                                              const ExactPoint& to) const {
   std::vector<Crossing> met;

@@ -1,9 +1,8 @@
 // The faces into which another surface cuts a triangle: a planar graph, traced by its half-edges.
 //
 // Method: Mark de Berg, Otfried Cheong, Marc van Kreveld, Mark Overmars, "Computational Geometry" (3rd ed. 2008),
-// chapter 2: next to each half-edge, clockwise at its end, is the one that goes on along the same face. Where we
-// deviate: parts of the graph that hang together with nothing are joined to their faces by ways across the triangle
-// and not by a sweep.
+// chapter 2: the next half-edge in clockwise order at its end continues the same face. Where we deviate: unconnected
+// parts of the graph are joined to their faces by segments across the triangle and not by a sweep.
 #pragma once
 
 #include <optional>
@@ -20,12 +19,12 @@ class TriangleFaces {
  public:
   static constexpr std::uint32_t kOutside = 0xFFFFFFFF;
 
-  // border: the nodes around the triangle, counter-clockwise. inner: stretches within it, none twice; two of them meet
-  // at common nodes only. Not of a collinear triangle.
+  // border: the nodes around the triangle, counter-clockwise. inner: stretches within it, each once; they meet only at
+  // common nodes. The triangle must not be collinear.
   TriangleFaces(const MeetingNodes& nodes, const Corners& triangle, const std::vector<std::uint32_t>& border,
                 const std::vector<NodePair>& inner);
 
-  // Whether all faces are known: no way across the triangle avoids all nodes, else.
+  // Whether all faces are known. False: no tried segment across the triangle avoids all nodes.
   bool complete() const { return complete_; }
   std::uint32_t count() const { return count_; }
 
@@ -35,7 +34,7 @@ class TriangleFaces {
   // The face on the left of a half-edge.
   std::uint32_t left(std::size_t half_edge) const { return face_[half_edge]; }
 
-  // A point inside a face; where a point of the triangle, on no stretch, lies.
+  // A point inside a face; and the face that contains a point of the triangle that is on no stretch.
   std::optional<ExactPoint> sample(std::uint32_t face) const;
   std::optional<std::uint32_t> face_at(const ExactPoint& p) const;
 

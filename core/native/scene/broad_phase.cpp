@@ -1,7 +1,7 @@
 // Method: one tree over all boxes, walked against itself: Gottschalk, Lin, Manocha, "OBBTree: A
 // Hierarchical Structure for Rapid Interference Detection" (1996), the simultaneous descent, on the tree of
-// bvh.cpp. Unlike a sweep along an axis it takes time near n log n where the pairs are few. Each box is
-// grown by its reach, outward, so that the walk misses no pair; the gap of the boxes themselves decides.
+// bvh.cpp. Unlike a sweep along an axis, it takes time near n log n if there are few pairs. Each box is grown outward
+// by its reach, so that the walk misses no pair. The gap of the boxes themselves then decides.
 #include "scene/broad_phase.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace satcheck {
 namespace {
 
-// Holds every point within `reach` of the box, rounding included; also where two reaches are summed first.
+// Contains every point within `reach` of the box, rounding included; also if two reaches are summed first.
 Aabb grown(const Aabb& box, double reach) {
   const double by = reach * (1 + 4 * kUnitRoundoff);
   const auto below = [&](double c) { return std::nextafter(c - by, -INFINITY); };
@@ -137,7 +137,7 @@ double box_gap(const Aabb& a, const Aabb& b) {
     return std::fmax(std::fmax(b.min[axis] - a.max[axis], a.min[axis] - b.max[axis]), 0.0);
   };
   const Vec3 gap{along(0), along(1), along(2)};
-  // The largest is rounded once, and so is its product with the factor below 1. In the root each
+  // The largest is rounded once, and so is its product with the factor below 1. The root has roundings of each
   // difference, its quotient by the largest, the squares, two sums, the root and the product: less than 8.
   const double diagonal = std::hypot(gap.x, gap.y, gap.z);
   return std::fmax(max_abs(gap) * (1 - kUnitRoundoff), diagonal * (1 - 8 * kUnitRoundoff));

@@ -16,15 +16,16 @@
 namespace satcheck {
 namespace {
 
-// Pairs that one thread takes at a time, at most: neighbours along the curve share their bodies. Of few, which
-// may be large, each thread gets several turns.
+// The most pairs that one thread takes at a time: neighbours along the curve share bodies. If there are few pairs, they
+// may be large, and each thread takes fewer at a time.
 constexpr std::size_t kTogether = 8;
 constexpr std::size_t kTurns = 4;
 
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
 
-// Of its box what a body can be cut down to for one pair: cutting it costs a part of what it saves.
+// A body is cut to a region for one pair only if the region is at most this share of its box, because cutting has a
+// cost.
 constexpr double kLittle = 0.5;
 
 bool holds(const Aabb& outer, const Aabb& inner) {
@@ -39,7 +40,7 @@ std::optional<ContactPair> crossing_of(const MeshRelation& r) {
   return ContactPair{r.triangle_a, r.triangle_b};
 }
 
-// Of the volume of a box the part within another; 1 where it has none.
+// The share of the volume of a box within another box; 1 if the box has no volume.
 double share_within(const Aabb& box, const Aabb& other) {
   double share = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -103,7 +104,7 @@ class Climber {
 
   static bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
 
-  // Calls make(body) of both, of large ones at the same time.
+  // Calls make(body) for both bodies; for large ones in parallel.
   template <class Make>
   void make_both(Make make) {
     const unsigned threads = is_large(*request_.a) && is_large(*request_.b) ? 0 : 1;
@@ -150,7 +151,7 @@ class Climber {
     return largest;
   }
 
-  // Then hulls cost more than asking the vertices.
+  // For one large pair, hulls cost more than scans of the vertices.
   bool serves_one_large_pair() { return request_.alone && (is_large(*request_.a) || is_large(*request_.b)); }
 
   bool points_are_apart() {
@@ -164,12 +165,12 @@ class Climber {
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
-    // The overlap was disproved, whatever is made of the distance.
+    // The overlap is disproved, whatever the distance is.
     climb_.hulls->outcome = Outcome::separated;
     return true;
   }
 
-  // Hulls can be closer than a gap that is asked about.
+  // Whether the hulls may be closer than the gap limit.
   bool hulls_leave_gap_open() const {
     if (climb_.both_convex || last_ != Rung::triangles) return false;
     return !(gap_of_hulls(climb_) > request_.gap_limit);
@@ -187,7 +188,7 @@ class Climber {
     make_surfaces([](PlacedGeometry& body) { return body.surface(); });
   }
 
-  // Where a surface has to be to matter for the relation to this body, and for a gap that is asked about.
+  // The region of surfaces that matter for the relation to this body, and for gaps up to the limit.
   Aabb reach_of(const PlacedGeometry& body) const {
     const double reach = 2 * request_.gap_limit;
     return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
@@ -223,7 +224,7 @@ class Climber {
     }
   }
 
-  // As far as that needs no search.
+  // Decides about the touch band if that needs no search.
   bool explain_overlap() {
     const MeshRelation& relation = *climb_.triangles;
     if (a_->solid && b_->solid) {
@@ -248,7 +249,7 @@ class Climber {
 
   const ClimbRequest& request_;
   Rung first_, last_;
-  std::shared_ptr<Surface> a_, b_;  // of the world, or refined only where the other body can be
+  std::shared_ptr<Surface> a_, b_;  // in the world, perhaps refined only near the other body
   Climb climb_;
 };
 
@@ -263,7 +264,7 @@ std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& req
   parallel_for(requests.size(), threads, [&](std::size_t i) {
     try {
       climbs[i] = climb(requests[i], Rung::aabb, last);
-    } catch (const std::exception&) {  // said when the pair is asked alone
+    } catch (const std::exception&) {  // climb() reports the error for this pair
       climbs[i].reset();
     }
   }, together);

@@ -50,8 +50,8 @@ struct Climb {
   std::optional<PairResult> hulls;  // for two convex bodies with the depth; else the distance, or only the outcome
   std::optional<Relation> nesting;  // of two convex bodies that overlap and whose boxes nest
   std::optional<MeshRelation> triangles;
-  // For an overlap of solids deeper than the band: whether a point lies deeper in both than their tolerances reach. If
-  // none was met, the overlap may be thin; sheets were not looked for.
+  // For an overlap of solids deeper than the band: whether a point is deeper in both than their tolerances reach.
+  // False: no such point was found, so the overlap may be thin. Sheets are not searched.
   std::optional<bool> thick;
   std::optional<double> least_depth;    // of an overlap that triangles decided, unless it is known to be thick
   std::optional<WayWithin> way_within;  // if least_depth does not prove an overlap deeper than the band

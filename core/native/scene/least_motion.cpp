@@ -1,7 +1,7 @@
-// Clifford Hildreth, "A quadratic programming procedure" (1957): one wall after another, its two bodies are
-// moved apart, or back, until it is just kept, but never back by more than it has moved them apart so far.
-// Every step is lengthened, after Colin W. Cryer, "The solution of a quadratic programming problem using
-// systematic overrelaxation" (1971), as suits a chain of bodies.
+// Clifford Hildreth, "A quadratic programming procedure" (1957): for one wall after another, move its two bodies apart,
+// or back, until the wall is just kept. A wall never moves them back by more than it has moved them apart so far. Every
+// step is lengthened, after Colin W. Cryer, "The solution of a quadratic programming problem using systematic
+// overrelaxation" (1971), which suits chains of bodies.
 #include "scene/least_motion.hpp"
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace {
 constexpr int sweeps_at_most = 20000;
 // If the shortfall does not halve within this many sweeps, the walls count as contradictory.
 constexpr int patience = 2000;
-// Of the longest way that a wall asks for: a sweep that changes less is the last one, and how far past the
-// walls is aimed where sweeps_at_most did not do.
+// Shares of the longest way that a wall requires. converged: a sweep that changes less is the last one. overshoot: if
+// sweeps_at_most sweeps were not enough, the goal is this far beyond the walls.
 constexpr double converged = 0x1p-46, overshoot = 1e-6;
-// Sweeps without overrelaxation: walls across each other are kept by the first one, to the last bit.
+// Sweeps without overrelaxation. Perpendicular walls are kept exactly after the first one.
 constexpr int plain_sweeps = 8;
 // Chains longer than this are rare.
 constexpr std::size_t longest_chain = 12;
@@ -40,7 +40,7 @@ class Solver {
   }
 
  private:
-  // Sweeps until nothing changes any more, or with a margin, until all walls are kept.
+  // Sweeps until nothing changes; with a margin, until all walls are kept.
   bool settles(double margin) {
     double before = shortfall();
     for (int sweep = 1; sweep <= sweeps_at_most; ++sweep) {

@@ -15,15 +15,15 @@ struct PairWall {
   double least;
 };
 
-// translations: 0 for bodies that are not movable, and for those without a wall. multipliers: how far each
-// wall pushes its bodies, >= 0; a translation is the sum of the pushes of its walls.
+// translations: 0 for bodies that are not movable or have no wall. multipliers: how far each wall pushes its bodies, >=
+// 0; a translation is the sum of the pushes of its walls.
 struct LeastMotion {
   std::vector<Vec3> translations;
   std::vector<double> multipliers;
 };
 
-// Minimises the sum of the squared translations. multipliers: those of an earlier solution of similar walls,
-// or zeros. A wall has a movable body at least. Walls that exclude each other are not all kept.
+// Minimises the sum of the squared translations. multipliers: of an earlier solution for similar walls, or zeros. Each
+// wall has at least one movable body. If walls contradict each other, some are broken.
 LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<PairWall>& walls,
                          std::vector<double> multipliers);
 

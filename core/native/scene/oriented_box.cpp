@@ -1,5 +1,5 @@
 // The test is that of box_axes.hpp, on fewer words: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree" (1996), 15 axes.
-// The products of edges are not scaled to unit length: the rounding of a projection does not shrink with it.
+// The products of edges are not scaled to unit length, because the rounding of a projection does not shrink with it.
 #include "scene/oriented_box.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 bool along_one_axis(Vec3 column) { return (column.x != 0) + (column.y != 0) + (column.z != 0) == 1; }
 
-// What rounding, and axes that are not quite perpendicular, can take from a gap.
+// The error of a gap from rounding, and from axes that are not exactly perpendicular.
 struct Noise {
   double face, edge;
 };
@@ -23,7 +23,7 @@ Noise noise_of(const OrientedBox& a, const OrientedBox& b, Vec3 offset) {
   return {face, face + 4 * kOrthogonality * reach};
 }
 
-// By size, then by place, so that both orders of a pair are one question.
+// Orders boxes by size, then by place, so that both orders of a pair give the same answer.
 bool comes_after(const OrientedBox& a, const OrientedBox& b) {
   return a.half == b.half ? coordinates_less(b.centre, a.centre) : coordinates_less(b.half, a.half);
 }
@@ -85,7 +85,7 @@ OrientedBox carried_box(const Aabb& box, const std::array<double, 16>* matrix, d
                     m[8] * middle.x + m[9] * middle.y + m[10] * middle.z + m[11]};
   const Vec3 placed{half.x * stretch[0], half.y * stretch[1], half.z * stretch[2]};
   const double radius = norm(placed);
-  double largest = 0;  // of what is added up to the centre
+  double largest = 0;  // of the terms of the centre
   for (int row = 0; row < 3; ++row) {
     const double terms[4] = {m[4 * row] * middle.x, m[4 * row + 1] * middle.y, m[4 * row + 2] * middle.z,
                              m[4 * row + 3]};

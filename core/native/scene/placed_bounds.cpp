@@ -1,5 +1,5 @@
-// Coordinates are first taken in plain float64. Only those that could be the largest or the smallest, or
-// could leave the range of numbers, are summed and rounded as transform() does it.
+// Coordinates are first computed in plain float64. Only those that could be the largest or the smallest, or could
+// overflow, are computed exactly as in transform().
 #include "mesh/transform.hpp"
 #include "scene/placed_bounds.hpp"
 
@@ -21,9 +21,10 @@ struct Interval {
   }
 };
 
-// One world coordinate of all vertices; nothing when one is out of range.
+// The range of one world coordinate over all vertices; empty if one is out of range.
 std::optional<Interval> along(const std::vector<Vec3>& vertices, Vec3 row, double offset, Vec3 largest) {
-  // What the plain sum, with 4 roundings of at most this size, and the compensated one, with 1, can differ by.
+  // A bound of the difference between the plain sum, with 4 roundings of at most this size, and the compensated sum,
+  // with 1.
   const double size = std::fabs(row.x) * largest.x + std::fabs(row.y) * largest.y + std::fabs(row.z) * largest.z +
                       std::fabs(offset);
   const double error = 8 * kUnitRoundoff * size;
@@ -48,7 +49,7 @@ std::optional<Aabb> bounds_of(const std::vector<Vec3>& points) {
   return box;
 }
 
-// Where the sums may come near the ends of the range; speed does not matter there.
+// For sums near the ends of the range; speed does not matter there.
 std::optional<Aabb> bounds_of_placed(const Mesh& mesh, const std::array<double, 16>& m) {
   try {
     return bounds_of(transform(Mesh{mesh.vertices, {}}, m).vertices);

@@ -8,7 +8,7 @@
 
 namespace satcheck {
 
-// The box around the vertices of transform(mesh, matrix), to the bit; nothing where that throws.
+// The box around the vertices of transform(mesh, matrix), equal to the bit; empty if transform() throws.
 std::optional<Aabb> placed_bounds(const Mesh& mesh, const std::array<double, 16>& matrix);
 
 }  // namespace satcheck

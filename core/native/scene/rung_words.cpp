@@ -7,7 +7,7 @@
 namespace satcheck {
 namespace {
 
-// Of a length, for people: six significant digits, with a point in every locale.
+// A length as text: six significant digits, with a decimal point in every locale.
 std::string at_least(const char* what, double length) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 6).ptr;

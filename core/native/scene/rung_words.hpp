@@ -1,4 +1,4 @@
-// What the rungs of a climb found, in words: the first stages of the trace of a pair.
+// The results of the rungs of a climb in words: the first stages of the trace of a pair.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace satcheck {
 
-// detail: how it was found, or why it settles nothing; may be empty.
+// detail: how the result was found, or why it settles nothing; may be empty.
 struct RungWords {
   const char* rung;
   const char* result;
@@ -16,8 +16,8 @@ struct RungWords {
   std::int64_t nanoseconds;
 };
 
-// Of the rungs that ran, in their order. Those of the touch band and of the gap are not among them: what they found is
-// put into words with what was asked.
+// The words of the rungs that ran, in their order, without the touch band and the gap. The caller describes these
+// together with the request.
 std::vector<RungWords> words_of(const Climb& climb);
 
 }  // namespace satcheck

@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kSteps = 16;
 
-// A computed height above the plane of a triangle, times the length of its normal, is off by no more than this, times
-// the lengths of two edges and of the way from the first corner: 4 roundings of the edges and the way, 6 of the
-// cross product and 3 of the dot product, rounded up.
+// The error of a computed height above the plane of a triangle, times the length of its normal, is at most this times
+// the product of two edge lengths and the distance from the first corner. It covers 4 roundings of the edges and the
+// offset, 6 of the cross product and 3 of the dot product, rounded up.
 constexpr double kHeightError = 32 * kUnitRoundoff;
 
-// How far a point is inside the nearest plane of the triangles, for certain; negative outside. inward: unit.
+// A lower bound of the distance of a point inside the nearest plane of the triangles; negative outside. inward: unit.
 struct Wall {
   double room = INFINITY;
   Vec3 inward;
@@ -44,15 +44,15 @@ bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& rel
   return common && common->depth > enough;
 }
 
-// By relaxation (T. S. Motzkin, I. J. Schoenberg, "The Relaxation Method for Linear Inequalities", 1954): off the
-// plane that is nearest, to a distance that shrinks, for how thick the overlap is, is not known.
+// By relaxation (T. S. Motzkin, I. J. Schoenberg, "The Relaxation Method for Linear Inequalities", 1954): moves the
+// point away from the nearest plane, to a distance that decreases, because the thickness of the overlap is unknown.
 bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, double least) {
-  double more = 0.25 * -hulls.lower - 0.5 * least;  // half of what is left of half the depth
+  double more = 0.25 * -hulls.lower - 0.5 * least;  // half of the rest of half the depth
   Vec3 p = (hulls.witness_a + hulls.witness_b) * 0.5;
   for (int step = 0; step < kSteps && more > 0; ++step, more *= 0.5) {
     const Wall of_a = nearest_wall(a, p), of_b = nearest_wall(b, p);
     const Wall& wall = of_a.room < of_b.room ? of_a : of_b;
-    if (!std::isfinite(wall.room)) break;  // without witnesses there is no place to start from
+    if (!std::isfinite(wall.room)) break;  // without witness points there is no start
     if (wall.room > least) return true;
     p = p + wall.inward * (least + more - wall.room);
   }

@@ -7,11 +7,11 @@
 
 namespace satcheck {
 
-// Whether a point was met that lies deeper than `least` in both solids. Where none was met there may be one.
-// relation: with a common interior. largest: no |coordinate| of the two is greater.
+// Whether a point deeper than `least` in both solids was found. False: there may still be one. relation: with a common
+// interior. largest: the largest |coordinate| of both.
 bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least);
 
-// The same of convex solids, by the planes of their triangles. hulls: their signed distance, of bodies that overlap.
+// The same for convex solids that overlap, by the planes of their triangles. hulls: their signed distance.
 bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, double least);
 
 }  // namespace satcheck

@@ -32,8 +32,8 @@ BandSide band_of_convex_bodies(const ClimbRequest& request, const PairResult& hu
   return *side >= 0 ? BandSide::within : BandSide::deeper;
 }
 
-// The surfaces differ from the hulls by the rounding of the pose. A nesting without a common interior can then only mean
-// a graze, and the hulls have settled that.
+// The surfaces differ from the hulls by the rounding of the pose. If nesting reports no common interior, the bodies can
+// only graze each other, and the hulls have already decided that.
 Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const PairResult& hulls) {
   const double gap = std::fmax(hulls.has_distance ? hulls.lower : 0.0, 0.0);
   if (hulls.outcome == Outcome::separated) return apart(gap);

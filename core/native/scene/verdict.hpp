@@ -1,4 +1,4 @@
-// The verdict on a pair, drawn once from all that the rungs of its climb found.
+// The verdict on a pair, derived once from the results of all rungs.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@ namespace satcheck {
 struct Climb;
 struct ClimbRequest;
 
-// settled: a rung answered what was asked. Else a rung above the last one may say more: bodies apart are then apart by
-//     `gap`, but not beyond what was asked about, and others overlap as far as is known.
-// proven: the relation is. It is not where nothing settled an overlap, where samples decided a contact, or where a hole
+// settled: a rung answered the request. Else a higher rung may decide more: separate bodies are apart by `gap`, but not
+//     beyond the gap limit, and other bodies may overlap.
+// proven: the relation is proven. It is not if no rung settled an overlap, if samples decided a contact, or if a hole
 //     leaves the relation open (`hole_in_the_way`).
-// gap: a proven lower bound of the distance; 0 where none is known.
-// band: of an overlap that is settled, whether it is within the touch band. `open` and `hidden` leave a search to do.
+// gap: a proven lower bound of the distance; 0: none is known.
+// band: for a settled overlap, whether it is within the touch band. `open` and `hidden` need a search.
 struct Verdict {
   Relation relation = Relation::penetrating;
   bool settled = false, proven = false;
@@ -27,10 +27,10 @@ struct Verdict {
 
 Verdict verdict_of(const ClimbRequest& request, const Climb& climb);
 
-// Of two convex bodies the signed distance, which says everything about them; null where it did not settle the pair.
+// The signed distance of two convex bodies, which decides everything about them; null if it did not settle the pair.
 const PairResult* signed_distance(const Climb& climb);
 
-// The hole that leaves the relation open; null where there is none.
+// The hole that leaves the relation open; null if there is none.
 const OpenHole* hole_in_the_way(const Climb& climb);
 
 // A proven lower bound of the distance of hulls that are apart.

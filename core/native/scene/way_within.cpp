@@ -21,7 +21,7 @@ constexpr int kWalls = 3;
 // The computed length of a unit direction times the tolerance exceeds the tolerance by no more than this factor.
 constexpr double kToRounding = 1 + 16 * kUnitRoundoff;
 
-// A moved again and again, without a tree being built.
+// Moves A many times without rebuilding its tree.
 class Trials {
  public:
   Trials(const Surface& a, const Surface& b) : still_(a), moved_(a), b_(b) {}
@@ -43,8 +43,8 @@ bool is_free(const MeshRelation& found) {
   return found.proven && (found.relation == Relation::separated || found.relation == Relation::touching);
 }
 
-// What frees A frees B when it moves the other way, up to rounding: a way out does both, so that no order of the
-// bodies finds more than the other.
+// A translation that frees A also frees B in the opposite direction, up to rounding. A way out has to do both, so that
+// the order of the bodies does not matter.
 class Search {
  public:
   Search(PlacedGeometry& a, PlacedGeometry& b, double tolerance)
@@ -64,7 +64,7 @@ class Search {
     return {};
   }
 
-  // Depth first: a step off the crossing triangles, then off those that are then crossed.
+  // Depth first: a step away from the crossing triangles, then from those that cross after the step.
   std::optional<Vec3> off(ContactPair crossing, Vec3 at = {}, int walls = kWalls) {
     if (is_deeper_at(crossing)) return {};
     for (const Vec3 away : ways_off(crossing)) {
@@ -83,7 +83,7 @@ class Search {
     return {};
   }
 
-  // As far as the band reaches, in one step.
+  // One step of the whole band.
   std::optional<Vec3> straight_off(ContactPair crossing) {
     for (const Vec3 away : ways_off(crossing)) {
       if (const auto move = way_out(away * tolerance_)) return move;
@@ -101,7 +101,7 @@ class Search {
   }
 
  private:
-  // By these triangles, as the bodies stand.
+  // Whether these triangles prove a depth beyond the band, for the bodies as placed.
   bool is_deeper_at(ContactPair crossing) {
     deepest_ = std::max(deepest_, crossing_depth(*of_a_, *of_b_, crossing.a, crossing.b));
     deeper_ = deeper_ || deepest_ > tolerance_ || crosses_deeper(*of_a_, *of_b_, crossing.a, crossing.b, tolerance_);
@@ -112,7 +112,7 @@ class Search {
     return compare_signed_distance(*a_.hull_shape(), {}, *b_.hull_shape(), {}, -tolerance_).value_or(-1);
   }
 
-  // The move, or one beside it that rounds no coordinate, if it is within the tolerance and frees A.
+  // The move, or a nearby one that rounds no coordinate, if it is within the tolerance and frees A.
   std::optional<Vec3> way_out(Vec3 move) {
     for (const Vec3 candidate : {move, on_grid(move)}) {
       const bool is_short = moves_within(of_a_->mesh.vertices, candidate, tolerance_) &&
@@ -127,7 +127,7 @@ class Search {
     return {};
   }
 
-  // Each coordinate a multiple of the step between the largest coordinates.
+  // Rounds each coordinate to a multiple of the float64 spacing at the largest coordinate.
   Vec3 on_grid(Vec3 move) const {
     const auto round = [](double step, const Aabb& a, const Aabb& b, int axis) {
       const double most = std::max({std::fabs(a.min[axis]), std::fabs(a.max[axis]), std::fabs(b.min[axis]), std::fabs(b.max[axis])});
@@ -137,7 +137,7 @@ class Search {
     return {round(move.x, a, b, 0), round(move.y, a, b, 1), round(move.z, a, b, 2)};
   }
 
-  // Unit directions for A: along B's outward normal, against its own; both ways if not solid.
+  // Unit directions for A: along B's outward normal, or against A's own; both signs if the body is not solid.
   std::vector<Vec3> ways_off(ContactPair crossing) const {
     std::vector<Vec3> ways;
     const auto append = [&](const Surface& surface, std::uint32_t triangle, double sign) {

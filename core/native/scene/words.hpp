@@ -1,4 +1,4 @@
-// The words by which Python knows outcomes.
+// The words for outcomes in Python.
 #pragma once
 
 #include "convex/narrow_phase.hpp"
