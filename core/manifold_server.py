@@ -23,7 +23,7 @@ Request = tuple[Literal["volume", "mesh"], list[bytes]]
 
 
 def serve(request: bytes) -> bytes:
-    """request: "volume" or "mesh", and two meshes as four blocks. The reply has `volume` and `error`,
+    """request: "volume" or "mesh", and two meshes as four blocks. The reply has `volume`, `error`,
     or the `mesh` of the overlap as two blocks, or `refused` and `which`.
 
     The pair is moved to the origin and scaled by a power of two to unit size, so that the tolerance
