@@ -55,7 +55,8 @@ def features_of(
     u, v = Axes(points, triangles).vectors()
     longest = np.linalg.norm(v - u, axis=1)
     height = np.linalg.norm(np.cross(u, v), axis=1) / longest
-    face_off = np.minimum(STEPS_OFF * step / height, WORST_TOLERANCE)
+    with np.errstate(divide="ignore"):  # of a sliver whose height underflows
+        face_off = np.minimum(STEPS_OFF * step / height, WORST_TOLERANCE)
     edges, left, right = _edges(triangles)
     folded = _folded(triangles, left, right, normal, exact)
     sine = np.linalg.norm(np.cross(normal[left], normal[right]), axis=1)
