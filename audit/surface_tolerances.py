@@ -60,8 +60,8 @@ def _of_body(body: Body, known: dict[tuple[object, ...], Curves]) -> BodyToleran
         triangles = mesh.triangles.astype(np.intp)
         if np.linalg.det(linear) < 0:  # a mirrored copy is turned inside out
             triangles = triangles[:, ::-1]
-        precision = body.file.resolution * float(np.linalg.norm(linear, 2))
-        known[key] = find_curves(points, triangles, precision, body.file.health.solid)
+        resolution = body.file.resolution * float(np.linalg.norm(linear, 2))
+        known[key] = find_curves(points, triangles, resolution, body.file.health.solid)
     curves = _told(known[key].curves, body, exponent)
     concave = max((curve.sagitta for curve in curves if curve.concave), default=None)
     return BodyTolerance(

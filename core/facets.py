@@ -66,21 +66,22 @@ class Ridges(Struct, frozen=True):
 
 
 def facets_and_ridges(
-    points: Floats, triangles: Indices, precision: float
+    points: Floats, triangles: Indices, resolution: float
 ) -> tuple[Facets, Ridges]:
-    """points: (v, 3) of a welded mesh, triangles: (t, 3). precision: of the coordinates. An edge is
-    on a ridge if it has two triangles with consistent orientation."""
-    precision = max(precision, rounding_pad(float(np.abs(points).max(initial=0.0))))
+    """points: (v, 3) of a welded mesh, triangles: (t, 3). resolution: the precision of the
+    coordinates, in their unit. An edge is on a ridge if it has two triangles with consistent
+    orientation."""
+    resolution = max(resolution, rounding_pad(float(np.abs(points).max(initial=0.0))))
     corners = points[triangles]
     edges, sides = _inner_edges(triangles)
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    sliver = np.linalg.norm(areas, axis=1) <= SLIVER_STEPS * precision * longest
+    sliver = np.linalg.norm(areas, axis=1) <= SLIVER_STEPS * resolution * longest
     normals = unit(areas)
     turns = angles_between(normals[sides[:, 0]], normals[sides[:, 1]])
     across = triangles[sides].sum(axis=2) - edges.sum(axis=1)[:, None]
     heights = (points[across] - points[edges[:, :1]]) * normals[sides[:, ::-1]]
-    even = (np.abs(heights.sum(axis=2)) <= FLAT_STEPS * precision).any(axis=1)
+    even = (np.abs(heights.sum(axis=2)) <= FLAT_STEPS * resolution).any(axis=1)
     flat = (turns <= LEAST_TURN) | (even & (turns <= MOST_UNEVEN))
     flat &= ~sliver[sides].any(axis=1)
     flat |= _at_longest_edge(points, edges, sides, sliver)

@@ -88,11 +88,11 @@ class _OverTriangles(Struct, frozen=True):
     turns: Floats
 
 
-def find_curves(points: Floats, triangles: Indices, precision: float, solid: bool) -> Curves:
-    """points: (v, 3), triangles: (t, 3), of a welded mesh. precision: of the coordinates, in their
-    unit. solid: the triangles are wound outward; else no side has material, and all curves count as
-    concave."""
-    facets, ridges = facets_and_ridges(points, triangles.astype(np.intp), precision)
+def find_curves(points: Floats, triangles: Indices, resolution: float, solid: bool) -> Curves:
+    """points: (v, 3), triangles: (t, 3), of a welded mesh. resolution: the precision of the
+    coordinates, in their unit. solid: the triangles are wound outward; else no side has material,
+    and all curves count as concave."""
+    facets, ridges = facets_and_ridges(points, triangles.astype(np.intp), resolution)
     nothing = np.zeros(facets.count, dtype=bool)
     curves, taken = _curves(facets, ridges, 2 * math.pi / LEAST_AROUND, nothing, solid)
     left_out, _ = _curves(facets, ridges, 2 * math.pi / LEAST_PRISM, taken, solid)

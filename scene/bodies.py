@@ -15,7 +15,7 @@ from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
-from satcheck.scene.precision import FLOAT64_ROUNDING
+from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import mesh_file
-from satcheck.scene.loading.raw_mesh import Precision, RawMesh
+from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
 from satcheck.scene.loading.source import Source
 from satcheck.scene.mesh_units import placing_mesh
-from satcheck.scene.precision import STEPS
+from satcheck.scene.resolution import STEPS
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 # rotations is off by less than this. The pose itself is applied as given.
 RIGID_TOLERANCE = 1e-5
 LARGEST_INTEGER = 2**53  # float64 holds all integers up to this
-PRECISIONS: dict[int, Precision] = {2: "float16", 4: "float32"}  # by size in bytes
+NUMBER_FORMATS: dict[int, NumberFormat] = {2: "float16", 4: "float32"}  # by size in bytes
 
 
 class FacesMesh(Protocol):
@@ -84,7 +84,7 @@ def _body(id_: str, mesh: MeshLike, pose: ArrayLike | None) -> Body:
         else:
             matrix = _numbers(pose, "pose")
             transform = _transform(matrix)
-            file = replace(file, placement_step=STEPS[_precision(matrix)])
+            file = replace(file, placement_step=STEPS[_number_format(matrix)])
     except MeshFileError as error:
         raise SatcheckError(error.code, error.message, body=id_) from error.__cause__
     except SatcheckError as error:
@@ -96,7 +96,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
     raw = RawMesh(
         vertices.astype("<f8", order="C", copy=False).data.cast("B"),
         faces.astype("<u4", order="C", copy=False).data.cast("B"),
-        _precision(vertices),
+        _number_format(vertices),
     )
     return mesh_file(Source(id_, Path(id_), "memory", None, 0, b""), raw)
 
@@ -174,10 +174,10 @@ def _array(values: ArrayLike, name: str) -> Array:
         raise _refused(f"{name}: not an array of numbers: {reason}") from None
 
 
-def _precision(values: Array) -> Precision:
+def _number_format(values: Array) -> NumberFormat:
     if values.dtype.kind != "f":
         return "float64"
-    return PRECISIONS.get(values.dtype.itemsize, "float64")
+    return NUMBER_FORMATS.get(values.dtype.itemsize, "float64")
 
 
 def _transform(matrix: Array) -> Transform | None:

@@ -14,7 +14,7 @@ from satcheck.core.shapes import Primitive, sizes_of, times_power_of_two, values
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
-from satcheck.scene.precision import FLOAT64_ROUNDING
+from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 SHAPE_FORMAT = "shape"
 

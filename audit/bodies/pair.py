@@ -60,7 +60,7 @@ class Pair(Struct, frozen=True):
     def __post_init__(self) -> None:
         tolerance = self.request.tolerance
         if tolerance is None:
-            tolerance = self._precision()
+            tolerance = self._resolution()
         force_setattr(self, "tolerance", tolerance)
         tolerances = (self.a.surface_tolerance, self.b.surface_tolerance)
         off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
@@ -73,7 +73,7 @@ class Pair(Struct, frozen=True):
         force_setattr(self, "closer", closer)
         force_setattr(self, "farther", farther)
 
-    def _precision(self) -> float:
+    def _resolution(self) -> float:
         plane = self.settings.planar
         if plane is None:
             size = min(self.a.diagonal, self.b.diagonal)

@@ -21,7 +21,7 @@ from satcheck.scene.loading.nodes import Node, Nodes
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.precision import FLOAT64_ROUNDING
+from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 
 def load_drawing(

@@ -21,7 +21,7 @@ from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
-from satcheck.scene.precision import file_resolution, placement_step
+from satcheck.scene.resolution import file_resolution, placement_step
 
 Made = TypeVar("Made")
 

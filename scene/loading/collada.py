@@ -81,7 +81,7 @@ class _Document:
             mesh = RawMesh(
                 vertices=points.astype("<f8").tobytes(),
                 triangles=triangles.astype("<u4").tobytes(),
-                precision="float32",
+                number_format="float32",
                 units=units,
                 warnings=tuple(self._warnings.items()),
             )

@@ -42,7 +42,7 @@ def flattened(scene: RawScene) -> RawMesh:
     return RawMesh(
         vertices=vertices,
         triangles=triangles,
-        precision=meshes[0].precision,
+        number_format=meshes[0].number_format,
         decimals=max(mesh.decimals for mesh in meshes),
         significant=max(mesh.significant for mesh in meshes),
         units=meshes[0].units,

@@ -81,7 +81,7 @@ class Meshes:
         return RawMesh(
             vertices=vertices,
             triangles=triangles,
-            precision="float32",
+            number_format="float32",
             units="meter",
             warnings=tuple(warnings.items()),
         )

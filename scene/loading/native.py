@@ -25,7 +25,7 @@ def read_native(source: Source) -> RawMesh:
     return RawMesh(
         vertices=outcome.vertices,
         triangles=outcome.triangles,
-        precision=outcome.precision,
+        number_format=outcome.number_format,
         decimals=outcome.decimals,
         significant=outcome.significant,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),

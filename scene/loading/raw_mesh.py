@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from satcheck.core.power_of_two import exponent_into_range, exponent_of, times_power
 from satcheck.core.transform import Transform
 
-Precision = Literal["written-digits", "float16", "float32", "float64"]
+NumberFormat = Literal["written-digits", "float16", "float32", "float64"]
 if TYPE_CHECKING:
     Block = bytes | memoryview
 else:
@@ -32,7 +32,7 @@ class RawMesh(Struct, frozen=True, tag=True):
 
     vertices: Block
     triangles: Block
-    precision: Precision
+    number_format: NumberFormat
     decimals: int = 0
     significant: int = 0
     units: str | None = None

@@ -156,7 +156,7 @@ class Object:
         return RawMesh(
             vertices=self.vertices.tobytes(),
             triangles=self.triangles.tobytes(),
-            precision="written-digits",
+            number_format="written-digits",
             decimals=self.decimals,
             significant=self.significant,
             units=unit,

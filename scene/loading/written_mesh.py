@@ -33,7 +33,7 @@ class WrittenMesh:
         return RawMesh(
             vertices=self.vertices.tobytes(),
             triangles=self.triangles.tobytes(),
-            precision="written-digits",
+            number_format="written-digits",
             decimals=self._decimals,
             significant=self._significant,
             units=units,

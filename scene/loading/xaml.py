@@ -54,7 +54,7 @@ def _flattened(meshes: list[tuple[WrittenMesh, Transform]]) -> RawMesh:
     return RawMesh(
         vertices=vertices,
         triangles=triangles,
-        precision="written-digits",
+        number_format="written-digits",
         decimals=max(raw.decimals for raw, _ in raws),
         significant=max(raw.significant for raw, _ in raws),
     )

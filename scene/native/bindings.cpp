@@ -148,11 +148,11 @@ std::variant<nb::bytes, ReadError> cut_polygons(const nb::bytes& vertices, const
   return to_bytes(mesh.triangles);
 }
 
-const char* precision_name(const MeshData& mesh) {
-  switch (mesh.precision) {
-    case Precision::written_digits: return "written-digits";
-    case Precision::float32: return "float32";
-    case Precision::float64: return "float64";
+const char* number_format_name(const MeshData& mesh) {
+  switch (mesh.number_format) {
+    case NumberFormat::written_digits: return "written-digits";
+    case NumberFormat::float32: return "float32";
+    case NumberFormat::float64: return "float64";
   }
   return "";
 }
@@ -173,7 +173,7 @@ void satcheck::bind_readers(nb::module_& m) {
                    "Little-endian float64 x, y, z of each vertex.")
       .def_prop_ro("triangles", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).triangles, self); },
                    "Little-endian uint32 vertex numbers, three a triangle.")
-      .def_prop_ro("precision", &precision_name, "\"written-digits\", \"float32\" or \"float64\".")
+      .def_prop_ro("number_format", &number_format_name, "\"written-digits\", \"float32\" or \"float64\".")
       .def_ro("decimals", &MeshData::decimals,
               "Most digits after the point in a coordinate written without an exponent.")
       .def_ro("significant", &MeshData::significant,

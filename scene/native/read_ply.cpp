@@ -249,22 +249,22 @@ std::int64_t vertex_count_of(const PlyHeader& header) {
   return 0;
 }
 
-Precision precision_of(const PlyHeader& header) {
-  if (header.ascii) return Precision::written_digits;
-  Precision precision = Precision::float64;
+NumberFormat number_format_of(const PlyHeader& header) {
+  if (header.ascii) return NumberFormat::written_digits;
+  NumberFormat format = NumberFormat::float64;
   for (const PlyElement& element : header.elements) {
     for (const PlyProperty& property : element.properties) {
       const bool coarse = element.name == "vertex" && axis_of(property) >= 0 && property.type == PlyType::float32;
-      if (coarse) precision = Precision::float32;
+      if (coarse) format = NumberFormat::float32;
     }
   }
-  return precision;
+  return format;
 }
 
 template <class Records>
 MeshData read_body(Records records, const PlyHeader& header) {
   MeshData mesh;
-  mesh.precision = precision_of(header);
+  mesh.number_format = number_format_of(header);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
       read_vertices(records, element, mesh);

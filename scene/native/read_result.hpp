@@ -10,7 +10,7 @@
 namespace satcheck::scene {
 
 // How the file stores coordinates. The default tolerance follows from it.
-enum class Precision { written_digits, float32, float64 };
+enum class NumberFormat { written_digits, float32, float64 };
 
 struct Warning {
   std::string code;
@@ -20,7 +20,7 @@ struct Warning {
 struct MeshData {
   std::vector<double> vertices;          // x, y, z of vertex 0, of vertex 1, ...: file units, all finite
   std::vector<std::uint32_t> triangles;  // three vertex numbers each, all below vertices.size() / 3
-  Precision precision = Precision::written_digits;
+  NumberFormat number_format = NumberFormat::written_digits;
   int decimals = 0;     // most digits after the point in a coordinate written without exponent
   int significant = 0;  // most significant digits in a coordinate written with an exponent
   std::vector<Warning> warnings;

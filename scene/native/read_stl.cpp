@@ -46,7 +46,7 @@ bool is_finite(const Facet& facet) {
 class BinaryReader {
  public:
   explicit BinaryReader(std::size_t count) : corners_(vertices_of(count)) {
-    mesh_.precision = Precision::float32;
+    mesh_.number_format = NumberFormat::float32;
     mesh_.vertices = with_room<double>(vertices_of(count) * 3);
     mesh_.triangles = with_room<std::uint32_t>(count * 3);
     mesh_.triangles.resize(count * 3);

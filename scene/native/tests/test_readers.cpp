@@ -170,7 +170,7 @@ bool are_equal(const ReadOutcome& a, const ReadOutcome& b) {
     return error->code == error_of(b)->code && error->message == error_of(b)->message && error->offset == error_of(b)->offset;
   }
   const MeshData &one = std::get<MeshData>(a), &other = std::get<MeshData>(b);
-  return one.vertices == other.vertices && one.triangles == other.triangles && one.precision == other.precision;
+  return one.vertices == other.vertices && one.triangles == other.triangles && one.number_format == other.number_format;
 }
 
 void test_pieces_of_stl_are_the_whole() {

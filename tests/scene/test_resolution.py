@@ -10,7 +10,7 @@ import pytest
 from satcheck.core import largest_placed, largest_stretch
 from satcheck.scene import Body, load_scene
 from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.precision import (
+from satcheck.scene.resolution import (
     FLOAT32_STEP,
     FLOAT64_ROUNDING,
     file_resolution,
@@ -20,8 +20,8 @@ from tests.scene import files, graphs
 from tests.scene.loading import loaded
 
 
-def raw(precision, decimals=0, significant=0):
-    return RawMesh(b"", b"", precision, decimals, significant)
+def raw(number_format, decimals=0, significant=0):
+    return RawMesh(b"", b"", number_format, decimals, significant)
 
 
 @pytest.mark.parametrize(
@@ -43,15 +43,17 @@ def test_file_resolution(mesh, largest, resolution):
 
 
 @pytest.mark.parametrize(
-    ("precision", "by_file", "step"),
+    ("number_format", "by_file", "step"),
     [
         ("float32", True, FLOAT32_STEP),
         ("float32", False, FLOAT64_ROUNDING),
         ("written-digits", True, FLOAT64_ROUNDING),
     ],
 )
-def test_placements_are_known_as_finely_as_the_file_stores_coordinates(precision, by_file, step):
-    assert placement_step(raw(precision), by_file=by_file) == step
+def test_placements_are_known_as_finely_as_the_file_stores_coordinates(
+    number_format, by_file, step
+):
+    assert placement_step(raw(number_format), by_file=by_file) == step
 
 
 def test_a_node_far_out_is_known_no_finer_than_float32_there(tmp_path):

@@ -1,4 +1,8 @@
-"""The precision of the coordinates in a file. The default tolerance follows from it."""
+"""The resolution of a file: the precision of its coordinates, a length.
+
+It follows from the number format in which the file stores coordinates. The default tolerance
+follows from the resolutions of both bodies.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +10,12 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.scene.loading.raw_mesh import Precision, RawMesh
+    from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
 
 FLOAT16_STEP = 2.0**-10  # spacing of float16 numbers relative to their power of two
 FLOAT32_STEP = 2.0**-23  # the same of float32
 FLOAT64_ROUNDING = 2.0**-53  # largest relative error of rounding to float64
-STEPS: dict[Precision, float] = {
+STEPS: dict[NumberFormat, float] = {
     "float16": FLOAT16_STEP,
     "float32": FLOAT32_STEP,
     "float64": FLOAT64_ROUNDING,
@@ -24,7 +28,7 @@ def placement_step(raw: RawMesh, *, by_file: bool) -> float:
     by_file: the file itself places its mesh. A program that stores coordinates as float32 is
     assumed to store placements no finer. All other placements are taken as written.
     """
-    return FLOAT32_STEP if by_file and raw.precision == "float32" else FLOAT64_ROUNDING
+    return FLOAT32_STEP if by_file and raw.number_format == "float32" else FLOAT64_ROUNDING
 
 
 def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
@@ -37,8 +41,8 @@ def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     counted down from the largest coordinate: many files write -4.4e-08 for 0, which does not
     promise eight decimals.
     """
-    if raw.precision in STEPS:
-        return max_coordinate * STEPS[raw.precision]
+    if raw.number_format in STEPS:
+        return max_coordinate * STEPS[raw.number_format]
     float32 = max_coordinate * FLOAT32_STEP
     float64 = max_coordinate * FLOAT64_ROUNDING
     decimals = raw.decimals
