@@ -14,11 +14,13 @@ StabilityVerdict = Literal["stable", "changed", "undecided"]
 
 
 class StatedAnswer(Value, frozen=True):
-    """relation: the exact one, without a touch band. depth_bounds: contains the depth."""
+    """relation: the exact one, without a touch band. depth_bounds: contains the depth.
+    thickness_bounds: contains the thickness; None: a body is not closed."""
 
     relation: Relation
     distance: Length | None
     depth_bounds: Interval | None
+    thickness_bounds: Interval | None
     mtv: Vector | None
     quality: Quality | None
     reason: str | None
@@ -26,25 +28,28 @@ class StatedAnswer(Value, frozen=True):
 
 class StatedVariant(Value, frozen=True):
     """how: the variant, in words. beyond: what changed although it must not. change: a lower bound
-    of the change of the signed distance. bound: the change that the variant may cause."""
+    of the change of the signed distance. bound: the change that the variant may cause.
+    thickness_change: a lower bound of the change of the thickness, which may be twice the bound."""
 
     how: str
     judgement: Judgement
     beyond: tuple[str, ...]
     change: Length | None
     bound: Length
+    thickness_change: Length | None
     answer: StatedAnswer
 
 
 class StatedFamily(Value, frozen=True):
     """judgement: the worst of the samples; None: no samples. skipped: why there are no samples.
-    change, bound: the largest of the samples."""
+    change, bound, thickness_change: the largest of the samples."""
 
     family: Family
     judgement: Judgement | None
     skipped: str | None
     change: Length | None
     bound: Length
+    thickness_change: Length | None
     samples: tuple[StatedVariant, ...]
 
 

@@ -48,7 +48,7 @@ def render(result: Stability, page: Page, *, explain: bool) -> str:
 
 
 def answer_line(answer: Answer) -> str:
-    """`penetrating, depth 1, move A by (-1, 0, 0)`."""
+    """`penetrating, depth 1, thickness 1, move A by (-1, 0, 0)`."""
     parts: list[str] = [answer.relation]
     if answer.reason:
         parts.append(answer.reason)
@@ -56,6 +56,8 @@ def answer_line(answer: Answer) -> str:
         parts.append(f"gap {number(answer.distance)}")
     if answer.depth_bounds is not None:
         parts.append(f"depth {bounds(*answer.depth_bounds)}")
+    if answer.thickness_bounds is not None:
+        parts.append(f"thickness {bounds(*answer.thickness_bounds)}")
     if answer.mtv is not None:
         parts.append(f"move A by {vector(answer.mtv)}")
     return ", ".join(parts)
@@ -68,6 +70,9 @@ def _families(result: Stability, *, unicode: bool) -> Table:
     table.add_column("relation")
     table.add_column("changed by", justify="right")
     table.add_column("may be", justify="right")
+    thick = result.answer.thickness_bounds is not None
+    if thick:
+        table.add_column("thickness by", justify="right")
     table.add_column("verdict")
     for family in result.families:
         if family.samples:
@@ -76,8 +81,9 @@ def _families(result: Stability, *, unicode: bool) -> Table:
                 _QUESTIONS[family.family],
                 str(len(family.samples)),
                 _relations(family),
-                "" if family.change is None else _small(family.change),
+                _length(family.change),
                 _small(family.bound),
+                *([_length(family.thickness_change)] if thick else []),
                 Text(judgement, style=_COLOURS.get(judgement, "")),
             )
     return table
@@ -88,6 +94,10 @@ def _relations(family: FamilyResult) -> str:
     if len(seen) == 1:
         return next(iter(seen))
     return ", ".join(f"{count} {relation}" for relation, count in sorted(seen.items()))
+
+
+def _length(change: float | None) -> str:
+    return "" if change is None else _small(change)
 
 
 def _small(length: float) -> str:

@@ -32,7 +32,7 @@ _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}
 _COLOURS = {"right": "green", "WRONG": "bold red"}
 # Left out, in this order, where a terminal is too narrow.
-_SPARE = ("runs", "memory", "volume error", "width", "spread", "hulls", "cached")
+_SPARE = ("runs", "thickness time", "memory", "volume error", "width", "spread", "hulls", "cached")
 # Never broken between lines.
 _WHOLE = ("rung", "verdict", "error", "time")
 _FRAME = 3
@@ -51,7 +51,8 @@ def render(result: Tradeoff, page: Page) -> str:
         "* on the Pareto front: no rung is better in time, error or proof without being worse in "
         "another; times within the spread of their runs (middle half) are alike. Error: signed "
         "distance said minus proven; below 0: closer or deeper than it is. Volume error: of what "
-        "stands for A, and for B. Memory: what a rung adds."
+        "stands for A, and for B. Thickness: of the overlap of what stands for the bodies: hulls "
+        "bound it, parts (~) do not. Memory: what a rung adds."
     )
     spent = f"{number(round(result.spent, 1))} s of {number(result.budget)} s"
     console.print(f"Medians of up to {counted(result.repeat, 'run')} in turn, {spent}.")
@@ -108,6 +109,9 @@ def _truth(pair: PairTradeoff) -> str:
     said = f"proven {truth.relation}"
     if truth.figure is not None:
         said += f", {figure(truth.figure)}"
+    thickness = truth.thickness
+    if thickness is not None and thickness.low is not None and thickness.high:
+        said += f", thickness {_interval(thickness.low, thickness.high)}"
     return f"{said} ({truth.reason})" if truth.reason else said
 
 
@@ -138,6 +142,8 @@ def _columns(pair: PairTradeoff) -> dict[str, list[str]]:
         "answer": column(_answer),
         "error": column(_error),
         "width": column(_width_of),
+        "thickness": column(_thickness),
+        "thickness time": column(lambda row: _time(row.thickness_times)),
         "volume error": column(_excess),
         "hulls": column(lambda row: "" if row.hulls is None else "{} + {}".format(*row.hulls)),
         "time": column(lambda row: _time(row.cold)),
@@ -197,6 +203,17 @@ def _answer(row: Row) -> str:
         error = f" +- {row.volume_error:.0e}" if row.volume_error else ""
         return f"volume {number(row.volume)}{error}"
     return "" if row.figure is None else figure(row.figure)
+
+
+def _thickness(row: Row) -> str:
+    """`<= 2` of hulls, `0.25 .. 0.26`; `~ 0.25` of parts, which leave both sides open."""
+    thickness = row.thickness
+    if thickness is None:
+        return ""
+    if thickness.high is None:
+        return f"~ {number(thickness.value)}"
+    low = thickness.low
+    return f"<= {number(thickness.high)}" if low is None else _interval(low, thickness.high)
 
 
 def _error(row: Row) -> str:

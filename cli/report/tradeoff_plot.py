@@ -1,7 +1,8 @@
 """What accuracy costs in time: a panel for each pair, error against time, both logarithmic.
 
-An error of 0 has a row of its own below the others, and so has a rung without an error, the
-Boolean. A rung that climbed no further than a lower one is named below its panel, not drawn.
+A diamond at the time of a rung is the error of its thickness. An error of 0 has a row of its own
+below the others, and so has a rung without an error, the Boolean. A rung that climbed no further
+than a lower one is named below its panel, not drawn.
 """
 
 from __future__ import annotations
@@ -67,6 +68,7 @@ def _head(figure: Figure, palette: Palette, height: float) -> None:
         for standing, words in enumerate(("proven", "not proven", "wrong"))
     ]
     marks.append(Line2D([], [], **_marker(0, palette, cached=True), label="cached"))
+    marks.append(Line2D([], [], **_diamond(palette), label="thickness"))
     marks.append(Line2D([], [], color=palette.faint, label="Pareto front: worth its time"))
     corner = (8 / WIDTH, 1 - 32 / height)
     figure.legend(handles=marks, loc="upper left", bbox_to_anchor=corner, ncols=len(marks))
@@ -125,7 +127,8 @@ class _ErrorAxis(msgspec.Struct, frozen=True):
 
 
 def _error_axis(rows: Sequence[Row]) -> _ErrorAxis:
-    sizes = [size for row in rows if (size := row.size_of_error)]
+    errors = [error for row in rows for error in (row.error, row.thickness_error)]
+    sizes = [abs(error) for error in errors if error]
     without = any(row.error is None for row in rows)
     if not sizes:
         return _ErrorAxis(0, 0, without)
@@ -210,6 +213,9 @@ class _Panel:
             marker = _marker(row.standing, palette, cached=True)
             axes.plot(row.cached.median, y, **marker, gid=f"{row.rung.label}, cached")
         axes.plot(x, y, **_marker(row.standing, palette), gid=row.rung.label)
+        if row.thickness_error is not None:
+            name = f"{row.rung.label}, thickness"
+            axes.plot(x, self._thickness(row), **_diamond(palette), gid=name)
 
     def _name(self, axes: Axes) -> None:
         """A label for each rung; neighbours of one kind share one."""
@@ -218,7 +224,12 @@ class _Panel:
             for row in self._rows
             if row.cached is not None
         ]
-        labels = Labels(axes, [*map(self._place, self._rows), *cached])
+        thick = [
+            (self._place(row)[0], self._thickness(row))
+            for row in self._rows
+            if row.thickness_error is not None
+        ]
+        labels = Labels(axes, [*map(self._place, self._rows), *cached, *thick])
         for start, end in pairwise(self._corners):
             labels.keep_clear_of_line(start, end)
         for group in self._groups(axes):
@@ -243,6 +254,23 @@ class _Panel:
     def _place(self, row: Row) -> tuple[float, float]:
         assert row.cold is not None
         return row.cold.median, self.errors.at(row.size_of_error)
+
+    def _thickness(self, row: Row) -> float:
+        assert row.thickness_error is not None
+        return self.errors.at(abs(row.thickness_error))
+
+
+def _diamond(palette: Palette) -> dict[str, Any]:
+    """Of an error of the thickness."""
+    return {
+        "marker": "D",
+        "color": palette.faint,
+        "markersize": 5,
+        "markerfacecolor": "none",
+        "markeredgewidth": 1.2,
+        "linestyle": "none",
+        "zorder": 5,
+    }
 
 
 def _marker(standing: int, palette: Palette, *, cached: bool = False) -> dict[str, Any]:

@@ -23,7 +23,8 @@ NESTED = frozenset({"contains", "inside"})
 class Answer(Struct, frozen=True):
     """relation: the exact one; indeterminate, with a reason, where it is not proven.
 
-    distance: of bodies that do not overlap. depth_bounds: proven, of bodies that do. hold: the
+    distance: of bodies that do not overlap. depth_bounds, thickness_bounds: proven, of bodies that
+    do; the thickness only of closed ones. hold: the
     relation stays while the surfaces are moved by less than this, together; but an overlap whose
     surfaces cross may become a nesting. largest: the largest coordinate of the world meshes.
     convex: both bodies are; None where it was not needed. Lengths in the units of the files.
@@ -34,6 +35,7 @@ class Answer(Struct, frozen=True):
     convex: bool | None = None
     distance: float | None = None
     depth_bounds: tuple[float, float] | None = None
+    thickness_bounds: tuple[float, float] | None = None
     mtv: Vector | None = None
     normal: Vector | None = None
     witness: Witness | None = None
@@ -81,6 +83,7 @@ def _answer(report: Report, bodies: Bodies, largest: float) -> Answer:
         convex=None if None in convex else all(convex),
         distance=finding.distance,
         depth_bounds=finding.depth_bounds,
+        thickness_bounds=finding.thickness_bounds,
         mtv=finding.mtv,
         normal=finding.normal,
         witness=finding.witness,
@@ -115,18 +118,22 @@ def _taken_back(answer: Answer, variant: Variant) -> Answer:
     if variant.swapped:
         relation = MIRRORED.get(relation, relation)
         points = points and points[::-1]
-    bounds = answer.depth_bounds
     return replace(
         answer,
         relation=relation,
         largest=answer.largest * by,
         distance=None if answer.distance is None else answer.distance * by,
-        depth_bounds=None if bounds is None else (bounds[0] * by, bounds[1] * by),
+        depth_bounds=_interval(answer.depth_bounds, by),
+        thickness_bounds=_interval(answer.thickness_bounds, by),
         mtv=_turned_back(answer.mtv, variant.turn, sign * by),
         normal=_turned_back(answer.normal, variant.turn, sign),
         witness=None if points is None else Witness(*points),
         hold=answer.hold * by,
     )
+
+
+def _interval(bounds: tuple[float, float] | None, by: float) -> tuple[float, float] | None:
+    return None if bounds is None else (bounds[0] * by, bounds[1] * by)
 
 
 def _turned_back(vector: Vector | None, turn: Rows, by: float) -> Vector | None:

@@ -57,6 +57,12 @@ class FamilyResult(Struct, frozen=True):
         return max((change for change in changes if change is not None), default=None)
 
     @property
+    def thickness_change(self) -> float | None:
+        """The largest one."""
+        changes = (sample.comparison.thickness_change for sample in self.samples)
+        return max((change for change in changes if change is not None), default=None)
+
+    @property
     def bound(self) -> float:
         return max((sample.comparison.bound for sample in self.samples), default=0.0)
 
@@ -110,6 +116,7 @@ def _family(family: FamilyResult) -> StatedFamily:
         skipped=family.skipped,
         change=family.change,
         bound=family.bound,
+        thickness_change=family.thickness_change,
         samples=tuple(_variant(sample) for sample in family.samples),
     )
 
@@ -122,6 +129,7 @@ def _variant(sample: Sample) -> StatedVariant:
         beyond=comparison.beyond,
         change=comparison.change,
         bound=comparison.bound,
+        thickness_change=comparison.thickness_change,
         answer=_answer(sample.answer),
     )
 
@@ -131,6 +139,7 @@ def _answer(answer: Answer) -> StatedAnswer:
         relation=answer.relation,
         distance=answer.distance,
         depth_bounds=answer.depth_bounds,
+        thickness_bounds=answer.thickness_bounds,
         mtv=answer.mtv,
         quality=answer.quality,
         reason=answer.reason,

@@ -45,6 +45,7 @@ class Gauge:
     cold: list[float] = field(default_factory=list)
     cached: list[float] = field(default_factory=list)
     cpu: list[float] = field(default_factory=list)
+    thickness: list[float] = field(default_factory=list)
     megabytes: float | None = None
     longest: float = 0.0
     spent: float = 0.0
@@ -73,6 +74,8 @@ class Gauge:
         self.cold.append(cold)
         if isinstance(answer, LadderRun) and answer.cpu is not None:
             self.cpu.append(answer.cpu)
+        if isinstance(answer, LadderRun) and answer.thickness is not None:
+            self.thickness.append(answer.thickness.seconds)
         if cached is not None:
             self.cached.append(cached)
         if answer.megabytes is not None:

@@ -33,20 +33,29 @@ class Figure(Struct, frozen=True):
 class Truth(Struct, frozen=True):
     """What the exact rung has proven; relation, figure: None where it has not, reason says why.
 
-    pad: what the rounding of a coordinate can make of a length.
+    pad: what the rounding of a coordinate can make of a length. thickness: 0 where there is no
+    overlap; None: not known.
     """
 
     relation: Relation | None
     figure: Figure | None
     pad: float
     reason: str | None = None
+    thickness: Figure | None = None
 
     def error(self, said: Figure | None) -> float | None:
         """The figure minus the nearest signed distance that is possible; 0.0 within rounding.
         Negative: closer or deeper than the bodies are."""
-        if said is None or self.figure is None:
+        return self._off(said, self.figure)
+
+    def thickness_error(self, said: Figure | None) -> float | None:
+        """The same of a thickness. Positive: thicker than the overlap is."""
+        return self._off(said, self.thickness)
+
+    def _off(self, said: Figure | None, true: Figure | None) -> float | None:
+        if said is None or true is None:
             return None
-        low, high = self.figure.low, self.figure.high
+        low, high = true.low, true.high
         if low is None or high is None:
             return None
         nearest = min(max(said.value, low), high)
@@ -70,12 +79,14 @@ class Row(Struct, frozen=True, kw_only=True):
     None for the Boolean, which knows only whether there is a volume in common; where the inside of
     a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
     right: held against the truth; None: one of the two is not known. figure: the signed
-    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. excess: for A and
-    for B, how much more volume than the body what stood for it takes, as a share of the body's;
-    None: not known. settled_by: the rung at which its climb ended. cold: nothing kept from before;
-    cached: with the parts on disk, or the child process running. cpu: of the cold runs, child
-    processes included; None: not known. megabytes: MiB that it takes at most: by which this process
-    grows, or of its child process, whichever is more. on_front: of error against time.
+    distance. error: see Truth.error. thickness: of an overlap, by what stood for the bodies;
+    thickness_error: see Truth; thickness_times: of its search. hulls: convex bodies that stood for
+    A and B. excess: for A and for B, how much more volume than the body what stood for it takes, as
+    a share of the body's; None: not known. settled_by: the rung at which its climb ended. cold:
+    nothing kept from before; cached: with the parts on disk, or the child process running. cpu: of
+    the cold runs, child processes included; None: not known. megabytes: MiB that it takes at most:
+    by which this process grows, or of its child process, whichever is more. on_front: of error
+    against time.
     """
 
     rung: Rung
@@ -87,6 +98,9 @@ class Row(Struct, frozen=True, kw_only=True):
     right: bool | None = None
     figure: Figure | None = None
     error: float | None = None
+    thickness: Figure | None = None
+    thickness_error: float | None = None
+    thickness_times: Times | None = None
     volume: float | None = None
     volume_error: float | None = None
     hulls: tuple[int, int] | None = None
@@ -126,20 +140,32 @@ class Row(Struct, frozen=True, kw_only=True):
             "proven": self.proven,
             "right": self.right,
             "signed_distance": None if figure is None else figure.value,
-            "bounds": None if figure is None else [figure.low, figure.high],
+            "bounds": _bounds(figure),
             "width": None if figure is None else figure.width,
             "error": self.error,
+            "thickness": None if self.thickness is None else self.thickness.value,
+            "thickness_bounds": _bounds(self.thickness),
+            "thickness_error": self.thickness_error,
+            "thickness_times": _times(self.thickness_times),
             "volume": self.volume,
             "volume_error": self.volume_error,
             "settled_by": self.settled_by,
             "hulls": None if self.hulls is None else list(self.hulls),
             "excess": None if self.excess is None else list(self.excess),
-            "cold": None if self.cold is None else self.cold.to_dict(),
-            "cached": None if self.cached is None else self.cached.to_dict(),
-            "cpu": None if self.cpu is None else self.cpu.to_dict(),
+            "cold": _times(self.cold),
+            "cached": _times(self.cached),
+            "cpu": _times(self.cpu),
             "peak_megabytes": self.megabytes,
             "pareto": self.on_front,
         }
+
+
+def _bounds(figure: Figure | None) -> list[float | None] | None:
+    return None if figure is None else [figure.low, figure.high]
+
+
+def _times(times: Times | None) -> dict[str, Any] | None:
+    return None if times is None else times.to_dict()
 
 
 class ClimbEnd(Struct, frozen=True):
@@ -170,13 +196,14 @@ class PairTradeoff(Struct, frozen=True):
         return None if self.truth.relation is None else self.truth.relation in OVERLAPS
 
     def to_dict(self) -> dict[str, Any]:
-        truth, figure = self.truth, self.truth.figure
+        truth = self.truth
         return {
             "a": self.a,
             "b": self.b,
             "truth": {
                 "relation": truth.relation,
-                "bounds": None if figure is None else [figure.low, figure.high],
+                "bounds": _bounds(truth.figure),
+                "thickness_bounds": _bounds(truth.thickness),
                 "reason": truth.reason,
             },
             "default": None if self.default is None else self.default.to_dict(),

@@ -8,7 +8,7 @@ from satcheck.report.report import OVERLAPS
 from satcheck.studies.tradeoff.gauge import Gauge
 from satcheck.studies.tradeoff.pareto import Times
 from satcheck.studies.tradeoff.reading import figure_of, is_of_bodies, plain, truth_of
-from satcheck.studies.tradeoff.result import Row, Truth
+from satcheck.studies.tradeoff.result import Figure, Row, Truth
 from satcheck.studies.tradeoff.rungs import EXACT
 from satcheck.studies.tradeoff.runs import LadderRun, VolumeRun, Volumes
 
@@ -17,7 +17,12 @@ def truth_by(exact: Gauge) -> Truth:
     answer = exact.answer
     if not isinstance(answer, LadderRun):
         return Truth(None, None, 0.0, f"the exact rung was not run: {exact.reason}")
-    return truth_of(answer.finding, figure_of(answer.finding, answer.verdict), answer.pad)
+    truth = truth_of(answer.finding, figure_of(answer.finding, answer.verdict), answer.pad)
+    if truth.relation is None:
+        return truth
+    if answer.finding.exact_relation not in OVERLAPS:
+        return replace(truth, thickness=Figure(0.0, 0.0, 0.0))
+    return truth if answer.thickness is None else replace(truth, thickness=answer.thickness.figure)
 
 
 def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
@@ -41,6 +46,7 @@ def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
     known = is_of_bodies(finding) and relation != "indeterminate"
     overlap = relation in OVERLAPS if known else None
     figure = figure_of(finding, answer.verdict)
+    thickness = None if answer.thickness is None else answer.thickness.figure
     return replace(
         row,
         overlap=overlap,
@@ -49,6 +55,9 @@ def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
         right=truth.is_right(overlap, relation),
         figure=figure,
         error=truth.error(figure),
+        thickness=thickness,
+        thickness_error=truth.thickness_error(thickness),
+        thickness_times=Times(tuple(gauge.thickness)) if gauge.thickness else None,
         hulls=answer.hulls,
         excess=_excess(own if answer.ended == EXACT.name else answer.volumes, own),
         settled_by=answer.ended,

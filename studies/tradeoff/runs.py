@@ -20,6 +20,7 @@ from satcheck.report.report import Finding
 from satcheck.studies.pair import Bodies, pair_of
 from satcheck.studies.tradeoff.reading import climb_end
 from satcheck.studies.tradeoff.resources import ChildMemory, CpuClock, OwnMemory
+from satcheck.studies.tradeoff.thickness import ThicknessRun, thickness_by
 from satcheck.studies.tradeoff.volumes import body_volume, stand_in_volume
 
 Volumes = tuple[float | None, float | None]
@@ -33,7 +34,8 @@ class LadderRun(Struct, frozen=True):
     hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
     so long, on all threads and in child processes together; None: not known. ended: the rung at
     which the climb ended. volumes: of the shapes that it put in the place of A and of B. hulls:
-    how many convex bodies stood for A and for B, where hulls answered. split: convex parts were
+    how many convex bodies stood for A and for B, where hulls answered. thickness: of these shapes;
+    its time is in `seconds` only where the finding has it. split: convex parts were
     asked for; from_cache: and found there. megabytes: of the child that made them, or by which this
     process grew, whichever is more. failure: why there are none.
     """
@@ -46,6 +48,7 @@ class LadderRun(Struct, frozen=True):
     ended: str
     volumes: Volumes
     hulls: tuple[int, int] | None
+    thickness: ThicknessRun | None = None
     split: bool = False
     from_cache: bool = False
     megabytes: float | None = None
@@ -115,6 +118,7 @@ def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Ladde
         volumes=(stand_in_volume(ended, pair.a), stand_in_volume(ended, pair.b)),
         # Where the hulls of the whole meshes answered.
         hulls=(1, 1) if "hull" in stages and "triangles" not in stages else None,
+        thickness=thickness_by(ended, pair, finding),
     )
     return asked, pair
 

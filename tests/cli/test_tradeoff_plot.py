@@ -107,6 +107,22 @@ def test_the_marker_says_whether_the_verdict_is_proven_or_wrong() -> None:
         assert seen["parts 0.1, cached"].get_markerfacecolor() == palette.paper
 
 
+def test_a_diamond_is_the_error_of_a_thickness() -> None:
+    pair = made(hull=(1e-3, 2.0), exact=(1e-2, 0.0))
+    rows = [
+        replace(row, thickness_error=0.125 if row.rung.name == "hull" else 0.0)
+        if row.state == "answered"
+        else row
+        for row in pair.rows
+    ]
+    drawn = markers(draw([replace(pair, rows=tuple(rows))]))
+    hull, exact = place(drawn["hull, thickness"]), place(drawn["exact, thickness"])
+    assert hull[0] == place(drawn["hull"])[0]
+    assert exact == place(drawn["exact"])
+    assert exact[1] < hull[1] < place(drawn["hull"])[1]
+    assert "hull, thickness" not in markers(draw([pair]))
+
+
 def test_every_rung_is_named_whatever_became_of_it() -> None:
     for pairs in ([PAIR], [made()], [made(exact=(0.1, 0.0)), PAIR]):
         text = words(draw(pairs))

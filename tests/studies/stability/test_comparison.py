@@ -16,6 +16,7 @@ APART = Answer("separated", 1.0, convex=True, distance=0.5, hold=0.5, quality="e
 BARELY = replace(APART, distance=1e-12, hold=1e-12)
 TOUCHING = Answer("touching", 1.0, convex=True, distance=0.0, quality="exact")
 DEEP = Answer("penetrating", 1.0, convex=True, depth_bounds=(0.5, 0.5), quality="exact")
+THICK = replace(DEEP, thickness_bounds=(0.25, 0.5))
 GRAZING = replace(DEEP, depth_bounds=(1e-12, 1e-12))
 NESTED = Answer("contains", 1.0, convex=True, depth_bounds=(0.5, 0.5), hold=1e-12, quality="exact")
 WIDE = Answer("penetrating", 1.0, convex=False, depth_bounds=(0.4, 0.6), quality="bounded")
@@ -56,6 +57,11 @@ def judged(
         (WIDE, replace(TOUCHING, convex=False), 1e-8, "within"),
         (replace(WIDE, hold=0.1), replace(TOUCHING, convex=False), 1e-8, "beyond"),
         (replace(WIDE, hold=0.1), replace(NESTED, convex=False), 1e-8, "within"),
+        (THICK, replace(THICK, thickness_bounds=(0.4, 0.5)), 0.0, "same"),
+        (THICK, replace(THICK, thickness_bounds=(0.125, 0.2)), 0.0, "beyond"),
+        (THICK, replace(THICK, thickness_bounds=(0.125, 0.25 - 3e-8)), 1e-8, "beyond"),
+        (THICK, replace(THICK, thickness_bounds=(0.125, 0.25 - 1.5e-8)), 1e-8, "within"),
+        (THICK, DEEP, 0.0, "same"),
         (DEEP, UNKNOWN, 0.0, "undecided"),
         (UNKNOWN, DEEP, 0.0, "undecided"),
     ],
@@ -73,3 +79,9 @@ def test_judgement(
 def test_identical_is_meant_to_the_bit(change: dict[str, object], tmp_path: Path) -> None:
     assert judged(tmp_path, DEEP, DEEP, identical=True) == "same"
     assert judged(tmp_path, DEEP, replace(DEEP, **change), identical=True) == "beyond"
+
+
+def test_the_interval_of_the_thickness_may_be_another_one(tmp_path: Path) -> None:
+    other, apart = (replace(THICK, thickness_bounds=ends) for ends in ((0.3, 0.6), (0.6, 0.7)))
+    assert judged(tmp_path, THICK, other, identical=True) == "same"
+    assert judged(tmp_path, THICK, apart, identical=True) == "beyond"

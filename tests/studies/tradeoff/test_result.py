@@ -25,6 +25,14 @@ def test_without_bounds_on_both_sides_there_is_no_error() -> None:
     assert DEEP.error(None) is None
 
 
+def test_a_thickness_is_off_by_what_it_is_beyond_the_true_interval() -> None:
+    truth = Truth("penetrating", None, 1e-9, thickness=Figure(0.5, 0.25, 0.5))
+    for value, error in ((0.125, -0.125), (0.25, 0.0), (0.5, 0.0), (2.0, 1.5)):
+        assert truth.thickness_error(Figure(value, None, value)) == error
+    assert truth.thickness_error(None) is None
+    assert DEEP.thickness_error(Figure(1.0, None, 1.0)) is None
+
+
 @pytest.mark.parametrize(
     ("truth", "overlap", "relation", "right"),
     [
