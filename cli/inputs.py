@@ -12,7 +12,8 @@ from msgspec import Struct
 
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import cannot_write, talk
-from satcheck.cli.report.words import issue_line
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.words import counted, issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
@@ -92,7 +93,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
-    scene = read(inputs, paths, hashed=hashed)
+    with Bar("files", f"reading {counted(len(paths), 'file')}"):
+        scene = read(inputs, paths, hashed=hashed)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     advice = _advice(paths)

@@ -7,22 +7,28 @@ import sys
 from _thread import allocate_lock
 from typing import TYPE_CHECKING
 
+from satcheck.core.steps import current
+
 if TYPE_CHECKING:
     from threading import Timer
     from types import TracebackType
 
-    from rich.progress import Progress, TaskID
+    from rich.progress import Progress, Task, TaskID
 
 # Seconds before the bar appears: shorter work answers before anyone would read it.
 PATIENCE = 0.7
 
 
-class Bar:
-    """Context manager; call what it gives as `bar(done, total)` from any thread. `unit`: what is
-    counted."""
+# Of fewer there is no telling how long the others take.
+RATED = 20
 
-    def __init__(self, unit: str = "pairs") -> None:
-        self._unit = unit
+
+class Bar:
+    """Context manager; call what it gives as `bar(done, total)` from any thread. unit: what is
+    counted; verb: what is done, while no step names itself (core/steps.py)."""
+
+    def __init__(self, unit: str = "pairs", verb: str = "checking") -> None:
+        self._unit, self._verb = unit, verb
         # FORCE_COLOR would make rich write cursor movements into a redirected stderr.
         self._wanted = bool(
             sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
@@ -71,21 +77,39 @@ class Bar:
 
     def _show(self) -> None:
         from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-        from rich.progress import TimeElapsedColumn as Elapsed
+        from rich.progress import BarColumn, Progress, ProgressColumn
+
+        class Step(ProgressColumn):
+            def render(column, _: Task) -> str:
+                return current() or self._verb
+
+        class Pace(ProgressColumn):
+            def render(column, task: Task) -> str:
+                return self._pace(task)
 
         with self._lock:
             if self._ended:
                 return
             bar = Progress(
-                TextColumn("checking"),
-                BarColumn(),
-                MofNCompleteColumn(),
-                TextColumn(self._unit),
-                Elapsed(),
-                console=Console(stderr=True),
-                transient=True,
+                Step(), BarColumn(), Pace(), console=Console(stderr=True), transient=True
             )
-            task = bar.add_task(self._unit, completed=self._done, total=self._total or None)
+            task = bar.add_task("", completed=self._done, total=self._total or None)
             bar.start()
             self._shown = (bar, task)
+
+    def _pace(self, task: Task) -> str:
+        """`120/300 pairs, 35/s, 5 s left`; where little is counted, the time so far."""
+        counted = f"{self._done:,}/{self._total:,} {self._unit}, " if self._total else ""
+        if self._total >= RATED and task.speed and task.time_remaining is not None:
+            return f"{counted}{task.speed:.3g}/s, {in_words(task.time_remaining)} left"
+        return f"{counted}{in_words(task.elapsed or 0.0)}"
+
+
+def in_words(seconds: float) -> str:
+    """`8 s`, `2 min 5 s`, `1 h 5 min`."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"

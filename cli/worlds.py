@@ -27,6 +27,7 @@ from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
+from satcheck.core.steps import step
 from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
 from satcheck.report.baseline import Baseline
 from satcheck.report.config import StatedConfig
@@ -111,7 +112,9 @@ def _check(
     with Bar("assets") as bar:
         for number, world in enumerate(worlds):
             told = form != "table"
-            assets.append(check_asset(world[0], partial(load, world), settings_for, places=told))
+            with step(f"checking {world[0]}"):
+                made = check_asset(world[0], partial(load, world), settings_for, places=told)
+            assets.append(made)
             if bar is not None:
                 bar(number + 1, len(worlds))
     return assets

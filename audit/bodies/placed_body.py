@@ -15,6 +15,7 @@ from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
 from satcheck.audit.request.settings import Settings
 from satcheck.core.curved.placed import CurvedShape, curved_shape
 from satcheck.core.shapes import is_curved
+from satcheck.core.steps import step
 from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.scene.bodies import resolution_in_world
 
@@ -119,14 +120,15 @@ class SharedMesh:
         directory = settings.cache_directory
         cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
         try:
-            return decompose(
-                self.file.mesh,
-                threshold=settings.part_threshold,
-                seed=settings.part_seed,
-                seconds=settings.part_seconds,
-                megabytes=settings.part_megabytes,
-                cache=cache,
-            )
+            with step(f"splitting {self.file.path}"):
+                return decompose(
+                    self.file.mesh,
+                    threshold=settings.part_threshold,
+                    seed=settings.part_seed,
+                    seconds=settings.part_seconds,
+                    megabytes=settings.part_megabytes,
+                    cache=cache,
+                )
         except DecompositionError as error:
             return error
 

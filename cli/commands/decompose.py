@@ -38,6 +38,7 @@ from satcheck.cli.report.numbers import at_most, duration
 from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import is_curved
+from satcheck.core.steps import step
 from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
 from satcheck.report.decomposition import (
     DecomposedBody,
@@ -146,7 +147,8 @@ def command(
     bodies = []
     with Bar("bodies") as bar:
         for number, body in enumerate(scene.bodies, 1):
-            bodies.append(_Parts(body, _split(body, threshold, seed, seconds, store)))
+            with step(f"splitting {body.id}, {number} of {len(scene.bodies)}"):
+                bodies.append(_Parts(body, _split(body, threshold, seed, seconds, store)))
             if bar is not None:
                 bar(number, len(scene.bodies))
     parts = [part for each in bodies for part in each.named()]

@@ -128,7 +128,7 @@ def command(
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
     else:
         farthest = None
-    with Bar() as bar:
+    with Bar(verb="pushing apart") as bar:
         result = resolve(
             scene, settings, pins=pins, max_motion=farthest, iterations=iterations, progress=bar
         )

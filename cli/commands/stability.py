@@ -87,7 +87,7 @@ def command(
     scene = load(inputs)
     if scene.unreadable:
         raise click.ClickException("an input could not be used: there is no pair to ask about")
-    with Bar("variants") as bar:
+    with Bar("variants", "comparing") as bar:
         result = probe(scene, samples, seed, Settings(depth=depth), progress=bar)
     document.deliver(
         lambda page: _render(result, form, page, explain=explain), output, utf8=form == "json"

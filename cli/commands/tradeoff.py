@@ -97,7 +97,7 @@ def command(
     scene = load(inputs)
     if scene.unreadable:
         raise click.ClickException("an input could not be used: nothing is compared without it")
-    with Bar("runs") as bar:
+    with Bar("runs", "measuring") as bar:
         result = tradeoff(
             scene, repeat=repeat, budget=budget, pairs=pairs, method=method, progress=bar
         )

@@ -80,7 +80,7 @@ def command(
     document = Document()
     content = _read(report)
     try:
-        with Bar() as bar:
+        with Bar("verdicts", "verifying") as bar:
             result = verify(content, root, bar, allow_outside=allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None

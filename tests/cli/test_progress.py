@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import io
 import sys
+import time
 from threading import Thread
 
 import pytest
 
-from satcheck.cli.progress import Bar
+from satcheck.cli import progress
+from satcheck.cli.progress import Bar, in_words
+from satcheck.core.steps import step
 
 
 class Terminal(io.StringIO):
@@ -29,3 +32,40 @@ def test_there_is_none_where_no_thread_is_granted(
         monkeypatch.setattr(Thread, "start", refuse)
     with Bar() as bar:
         assert (bar is not None) == granted
+
+
+def drawn(until: str, monkeypatch: pytest.MonkeyPatch, *, total: int) -> str:
+    """What a terminal is sent, up to that text, while a step is under way."""
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "120")
+    with Bar("bodies") as bar, step("splitting kettle, 1 of 2"):
+        assert bar is not None
+        for done in range(500):
+            bar(1 + done % (total - 1), total)
+            time.sleep(0.02)
+            if until in terminal.getvalue():
+                break
+    return terminal.getvalue()
+
+
+def test_the_bar_names_the_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    sent = drawn("splitting kettle, 1 of 2", monkeypatch, total=2)
+    assert "splitting kettle, 1 of 2" in sent
+    assert " left" not in sent
+
+
+def test_of_many_the_bar_tells_the_rate_and_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    sent = drawn(" left", monkeypatch, total=1000)
+    assert "/1,000 bodies, " in sent
+    assert "/s, " in sent
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.4, "0 s"), (59.6, "1 min 0 s"), (125, "2 min 5 s"), (3900, "1 h 5 min")],
+)
+def test_time_in_words(seconds: float, words: str) -> None:
+    assert in_words(seconds) == words

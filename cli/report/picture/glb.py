@@ -42,7 +42,7 @@ def render(report: Report, scene: Scene) -> bytes:
     settings = report.settings
     meter = VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
     remarks: list[str] = []
-    with meter, Bar() as bar:
+    with meter, Bar(verb="drawing") as bar:
         for number, finding in enumerate(drawn, 1):
             nodes += _marks(finding, [bodies[finding.a], bodies[finding.b]], meter, remarks)
             if bar is not None:

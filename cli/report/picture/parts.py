@@ -22,7 +22,7 @@ def parts_of(report: Report, scene: Scene, *, cache: bool) -> Parts:
     bodies = [body for body in scene.bodies if body.id in met]
     store = Cache() if cache else None
     split: dict[int, tuple[Polytope, ...]] = {}
-    with Bar("bodies") as bar:
+    with Bar("bodies", "splitting") as bar:
         for number, body in enumerate(bodies, 1):
             mesh = body.file.mesh
             if id(mesh) not in split:
