@@ -89,6 +89,9 @@ def check_lattice(a: VoxelSolid, b: VoxelSolid, *, seed: int, sheared: bool) -> 
         for c in truth
     )
     assert sorted((str(c.a_through_b), str(c.b_through_a)) for c in found.components) == passing
+    unit = abs(np.linalg.det(np.array(matrix, dtype=float)))
+    volumes = [len(c) * unit for c in truth]
+    assert sorted(c.volume for c in found.components) == pytest.approx(sorted(volumes))
     if not sheared:
         corners = [np.array(sorted(c)) for c in truth]
         boxes = [(tuple(c.min(axis=0)), tuple(c.max(axis=0) + 1)) for c in corners]

@@ -116,10 +116,10 @@ class Overlap {
   // Adds volumes by the divergence theorem, relative to the middle of each component.
   void add_volumes(std::map<std::uint32_t, OverlapComponent>& found) const {
     for (std::uint32_t s = 0; s < sides(); ++s) {
-      if (component_[s] == kNoComponent) continue;
+      const CellFace& f = cells_.faces()[s / 2];
+      if (component_[s] == kNoComponent || (f.shared && f.mesh == 1)) continue;  // the face of a counts
       OverlapComponent& component = found[component_[s]];
       const Vec3 middle = component.bounds.min * 0.5 + component.bounds.max * 0.5;
-      const CellFace& f = cells_.faces()[s / 2];
       const Vec3 area = cells_.area(s / 2, middle) * (s % 2 == 0 ? -1 : 1);
       component.volume += dot(area, corners(cells_.surface(f.mesh).mesh, f.triangle)[0] - middle) / 3;
       const double largest = larger(max_abs(component.bounds.min), max_abs(component.bounds.max));
