@@ -32,9 +32,8 @@ BYTES_WITHOUT_GEOMETRY = 600_000
 def page_data(page: str) -> dict[str, Any]:
     match = DATA.search(page)
     assert match is not None
-    data = json.loads(match[1])
-    assert isinstance(data, dict)
-    return data
+    data: dict[str, Any] = json.loads(match[1])
+    return {**data, "findings": json.loads(unpacked(data["findings"], "u1").tobytes())}
 
 
 def unpacked(text: str, kind: str) -> Any:
@@ -89,6 +88,14 @@ def test_geometry_is_that_of_the_world_to_half_a_step(names: tuple[str, ...]) ->
         assert (np.abs(vertices(data, k) + middle - mesh) <= error).all()
         shown = triangles(data, data["bodies"]["meshes"][k])
         assert (shown == np.asarray(body.file.mesh.triangles)).all()
+
+
+def test_each_element_that_a_script_names_is_in_the_page() -> None:
+    scene = load_scene([str(SAMPLES / name) for name in PUSHED])
+    page = render(check(scene), scene)
+    named = set(re.findall(r"""element\("([\w-]+)"\)""", page))
+    assert len(named) > 15
+    assert named <= set(re.findall(r'id="([\w-]+)"', page))
 
 
 def test_copies_share_their_geometry() -> None:
@@ -190,9 +197,11 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
     assert component["low"] == pytest.approx(
         np.array(finding.components.items[0].bounds[0]) - middle
     )
-    points = unpacked(data["points"], "<f4").reshape(-1, 3)
+    low, high = np.array(shown["box"])
+    points = sums(data["points"], "<u2").reshape(3, -1).T / STEPS * (high - low) + low
     (curve,) = finding.contacts.curves
-    assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=1e-6)
+    off = (high - low).max() / STEPS
+    assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=off)
     assert sum(shown["lines"]) == len(points)
 
 

@@ -10,7 +10,7 @@ from msgspec import to_builtins
 from satcheck.cli.report.ci.problems import sentence
 from satcheck.cli.report.components import facts
 from satcheck.cli.report.picture.geometry import geometry
-from satcheck.cli.report.picture.packing import packed
+from satcheck.cli.report.picture.packing import packed_points
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
@@ -41,8 +41,6 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
     drawn = geometry(bodies, met, parts or {}, ROOM)
     numbers = {body.id: k for k, body in enumerate(bodies)}
     unit = unit_of(report.units)
-    lines = [line for finding in findings for line in lines_of(finding)]
-    points = np.array([point for line in lines for point in line]).reshape(-1, 3)
     others = counted(len(bodies) - len(met & numbers.keys()), "body", "bodies")
     simpler = f"Simplified: {others} without findings, to {drawn.simplified}"
     return {
@@ -52,7 +50,7 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
         "up": up_of(scene),
         "simplified": simpler if drawn.simplified else "",
         "findings": [_shown(finding, numbers, drawn.middle, unit) for finding in findings],
-        "points": packed((points - drawn.middle).astype(np.float32)),
+        "points": _packed_points(findings),
         "issues": [issue_line(issue) for issue in report.issues],
         "drawn": len(bodies) == len(scene.bodies),
         **drawn.values,
@@ -100,10 +98,27 @@ def lines_of(finding: Finding) -> list[list[tuple[float, float, float]]]:
     return [*curves, *([*outline, outline[0]] for outline in outlines)]
 
 
+def _points(finding: Finding) -> Floats:
+    return np.array([point for line in lines_of(finding) for point in line]).reshape(-1, 3)
+
+
+def _packed_points(findings: list[Finding]) -> str:
+    """Of the lines of all findings, within the box of each."""
+    points = [np.empty((0, 3)), *map(_points, findings)]
+    boxes = [np.broadcast_to(_box(each), (len(each), 2, 3)) for each in points]
+    return packed_points(np.concatenate(points), np.concatenate(boxes))
+
+
+def _box(points: Floats) -> Floats:
+    """(2, 3): least and greatest corner."""
+    return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
+
+
 def _shown(
     finding: Finding, numbers: dict[str, int], middle: Floats, unit: str | None
 ) -> dict[str, Any]:
-    """lines: how many of `points` each has, which stand in the order of the findings."""
+    """lines: how many of `points` each has, which stand in the order of the findings. box: of all
+    these points."""
     witness = None if finding.witness is None else to_builtins(finding.witness)
     ball, items = finding.ball, finding.components.items if finding.components else ()
     thickness = with_unit(interval(finding.thickness_bounds), unit)
@@ -126,6 +141,7 @@ def _shown(
         "components": [_component(item, finding, middle) for item in items[:MOST_COMPONENTS]],
         "more": max(len(items) - MOST_COMPONENTS, 0),
         "lines": list(map(len, lines_of(finding))),
+        "box": [_relative(corner, middle) for corner in _box(_points(finding))],
     }
 
 

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from satcheck.cli.report.picture.data import picture_data
+from satcheck.cli.report.picture.packing import packed_text
 
 if TYPE_CHECKING:
     from satcheck.cli.report.picture.geometry import Parts
@@ -32,11 +33,14 @@ def render(report: Report, scene: Scene, parts: Parts | None = None) -> str:
     page = _part("page.html")
     for name in SOURCES:
         page = page.replace(f"/* {name} */", _part(name), 1)
+    content = picture_data(report, scene, parts)
+    data = _json({**content, "findings": packed_text(_json(content["findings"]))})
     # Text from files must not end the element that holds it.
-    data = json.dumps(picture_data(report, scene, parts), separators=(",", ":")).replace(
-        "<", "\\u003c"
-    )
-    return page.replace("/* data */", data, 1)
+    return page.replace("/* data */", data.replace("<", "\\u003c"), 1)
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, separators=(",", ":"))
 
 
 def _part(name: str) -> str:

@@ -29,19 +29,28 @@ def packed(values: Array) -> str:
     return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode()
 
 
+def packed_text(text: str) -> str:
+    return packed(np.frombuffer(text.encode(), np.uint8))
+
+
+def packed_points(points: Array, boxes: Array) -> str:
+    """(n, 3) points, each within its box (n, 2, 3): as uint16, in columns, as differences."""
+    low, size = boxes[:, 0], boxes[:, 1] - boxes[:, 0]
+    steps = np.rint((points - low) / np.where(size > 0.0, size, 1.0) * STEPS).astype(np.uint16)
+    return packed(differences(steps.T.reshape(-1)))
+
+
 def differences(values: Array) -> Array:
     """Of unsigned integers, each to the one before, modulo their range."""
     return np.diff(values, prepend=values.dtype.type(0))
 
 
 def packed_mesh(mesh: Mesh) -> dict[str, str]:
-    """corners: uint16, x of all vertices, then y, then z, within the box of the mesh. triangles:
-    uint32. Both as differences."""
+    """corners: within the box of the mesh. triangles: uint32, as differences."""
     low, high = np.array(mesh.bounds)
-    size = np.where(high > low, high - low, 1.0)
-    steps = np.rint((np.asarray(mesh.vertices) - low) / size * STEPS).astype(np.uint16)
+    boxes = np.broadcast_to([low, high], (mesh.vertex_count, 2, 3))
     return {
-        "corners": packed(differences(steps.T.reshape(-1))),
+        "corners": packed_points(np.asarray(mesh.vertices), boxes),
         "triangles": packed(differences(np.asarray(mesh.triangles).reshape(-1))),
     }
 

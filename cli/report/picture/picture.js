@@ -3,7 +3,8 @@ const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RE
 const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45];
 const TINTS = { error: [0.82, 0.2, 0.2], warning: [0.8, 0.52, 0.05], note: [0.25, 0.5, 0.75] };
 const STILL = [0, 0, 0];
-const FAINT = report.bodies.ids.length > 100 ? 0.025 : 0.08; // of one body of many
+const CROWD = 100, SURROUNDINGS = 4; // bodies; radii of the pair
+const FAINT = report.bodies.ids.length > CROWD ? 0.04 : 0.08;
 const hues = (count) => Array.from({ length: count }, (_, k) => {
   const turn = (k * 0.618034) % 1; // golden section: neighbours differ
   return [0, 1 / 3, 2 / 3].map((at) => 0.5 + 0.35 * Math.cos(2 * Math.PI * (turn + at)));
@@ -25,8 +26,9 @@ class Picture {
     const { renderer } = this, { bodies } = report;
     const meshes = await Promise.all(report.meshes.map(unpackedMesh));
     this.meshes = meshes.map((mesh) => renderer.mesh(mesh));
-    [this.frames, this.boxes, this.points] = await Promise.all(
-      [bodies.frames, bodies.boxes, report.points].map((text) => unpacked(text, Float32Array)));
+    [this.frames, this.boxes] = await Promise.all(
+      [bodies.frames, bodies.boxes].map((text) => unpacked(text, Float32Array)));
+    this.points = await unpackedPoints(report.points);
     this.parts = {};
     for (const [body, { mesh, frame, triangles }] of Object.entries(report.parts))
       this.parts[body] = { mesh, triangles, rows: [...(await unpacked(frame, Float32Array))] };
@@ -34,20 +36,34 @@ class Picture {
     this.firstPoints = [0];
     for (const each of report.findings)
       this.firstPoints.push(this.firstPoints.at(-1) + each.lines.reduce((a, b) => a + b, 0));
-    this.crowds = this.grouped();
+    this.tints = bodies.ids.map(() => OTHER);
+    for (const each of [...report.findings].reverse())
+      for (const body of [each.a, each.b]) if (body !== null) this.tints[body] = TINTS[each.severity] || OTHER;
+    this.crowds = this.grouped(bodies.ids.map((_, body) => body));
+    this.near = [];
   }
 
   // Bodies of one mesh are drawn at once.
-  grouped() {
-    const tints = report.bodies.ids.map(() => OTHER), groups = new Map();
-    for (const each of [...report.findings].reverse())
-      for (const body of [each.a, each.b]) if (body !== null) tints[body] = TINTS[each.severity] || OTHER;
-    report.bodies.meshes.forEach((mesh, body) => {
+  grouped(members) {
+    const groups = new Map();
+    for (const body of members) {
+      const mesh = report.bodies.meshes[body];
       if (!groups.has(mesh)) groups.set(mesh, []);
-      groups.get(mesh).push(body);
-    });
-    return [...groups].map(([mesh, members]) => this.renderer.crowd(
-      this.meshes[mesh], members.flatMap((body) => this.rows(body)), members.flatMap((body) => tints[body]), members));
+      groups.get(mesh).push([...this.rows(body), ...this.tints[body], body]);
+    }
+    return [...groups].map(([mesh, group]) => this.renderer.crowd(this.meshes[mesh], group));
+  }
+
+  // Of a large scene only what surrounds the pair.
+  surroundings(now) {
+    const { ids } = report.bodies;
+    if (ids.length <= CROWD) return this.grouped(ids.map((_, body) => body));
+    const [centre, radius] = this.sphereAround([now.a, now.b]);
+    return this.grouped(ids.flatMap((_, body) => {
+      const [low, high] = this.box(body);
+      const away = [0, 1, 2].map((k) => Math.max(low[k] - centre[k], centre[k] - high[k], 0));
+      return norm(away) < SURROUNDINGS * radius ? [body] : [];
+    }));
   }
 
   rows(body) {
@@ -92,12 +108,14 @@ class Picture {
   choose(number) {
     const now = report.findings[number], { renderer } = this;
     for (const { shape } of this.strips) renderer.forget(shape);
-    this.strips = [];
-    this.shadows = null;
+    for (const crowd of this.near) renderer.forget(crowd);
+    Object.assign(this, { strips: [], near: [], shadows: null });
     if (!isDrawn(now)) return;
+    this.near = this.surroundings(now);
     let first = this.firstPoints[number];
     for (const count of now.lines) {
-      this.strip(this.points.subarray(3 * first, 3 * (first += count)), RED, renderer.gl.LINE_STRIP);
+      const points = this.points.slice(3 * first, 3 * (first += count));
+      this.strip(points, RED, renderer.gl.LINE_STRIP, "line", boxRows(now.box[0], minus(now.box[1], now.box[0])));
     }
     if (now.witness) {
       this.strip(now.witness, YELLOW, renderer.gl.LINES, "witness");
@@ -106,8 +124,8 @@ class Picture {
     }
   }
 
-  strip(points, colour, mode, kind = "line") {
-    if (points.length) this.strips.push({ shape: this.renderer.strip(points), colour, mode, kind });
+  strip(points, colour, mode, kind, rows) {
+    this.strips.push({ shape: this.renderer.strip(points, rows), colour, mode, kind });
   }
 
   // view: what the panel says: rung, move, ink, and what to show.
@@ -118,7 +136,7 @@ class Picture {
       return labels;
     }
     if (view.others)
-      for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, FAINT], [now.a, now.b], false);
+      for (const crowd of this.near) renderer.drawCrowd(crowd, [...OTHER, FAINT], [now.a, now.b], false);
     const [a, b] = [now.a, now.b].map((body) => this.shape(body, view.rung));
     this.body(a, A, view.move);
     this.body(b, B, STILL);
@@ -167,7 +185,7 @@ class Picture {
   }
 
   component(item, ink, labels) {
-    const { renderer } = this, box = renderer.strip(new Float32Array(edgesOf(item.low, item.high)));
+    const { renderer } = this, box = renderer.strip(edgesOf(item.low, item.high));
     const point = renderer.strip([item.point]);
     renderer.draw(box, [...ink, 1], { mode: renderer.gl.LINES, lit: 0 });
     renderer.draw(point, [...YELLOW, 1], { mode: renderer.gl.POINTS, lit: -1 });

@@ -72,25 +72,17 @@ class Renderer {
     return array;
   }
 
-  // Many of one mesh. rows: 12 numbers each; tints: 3; numbers: which `skip` knows.
-  crowd(mesh, rows, tints, numbers) {
-    const gl = this.gl, array = this.array(mesh.buffer, mesh.corners, mesh.indices);
-    const add = (at, values, size, stride, offset) => {
+  // Many of one mesh. members: of each 12 numbers of its rows, 3 of its tint, and which `skip` knows.
+  crowd(mesh, members) {
+    const gl = this.gl, buffer = this.buffer(new Float32Array(members.flat()));
+    const array = this.array(mesh.buffer, mesh.corners, mesh.indices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    [...ROWS.map((at, k) => [at, 4, 4 * k]), [TINT, 3, 12], [NUMBER, 1, 15]].forEach(([at, size, first]) => {
       gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
+      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 64, 4 * first);
       gl.vertexAttribDivisor(at, 1);
-    };
-    const attach = (values) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(values), gl.STATIC_DRAW);
-    };
-    attach(rows);
-    ROWS.forEach((at, k) => add(at, rows, 4, 48, 16 * k));
-    attach(tints);
-    add(TINT, tints, 3, 12, 0);
-    attach(numbers);
-    add(NUMBER, numbers, 1, 4, 0);
-    return { ...mesh, array, instances: numbers.length };
+    });
+    return { ...mesh, array, buffer, instances: members.length };
   }
 
   // rows: from the box of the mesh, whose sides are 1, into the page, 3 x 4.
@@ -100,8 +92,9 @@ class Renderer {
   }
 
   // Stays until `forget`: lines and points change with the finding.
-  strip(points) {
-    return this.placed(this.mesh({ corners: new Float32Array(points.flat ? points.flat() : points) }), SAME);
+  strip(points, rows = SAME) {
+    const corners = points instanceof Uint16Array ? points : new Float32Array(points.flat());
+    return this.placed(this.mesh({ corners }), rows);
   }
 
   forget(shape) {

@@ -16,11 +16,18 @@ function sums(differences) {
   return differences;
 }
 
-async function unpackedMesh(mesh) {
-  const columns = sums(await unpacked(mesh.corners, Uint16Array));
-  const triangles = sums(await unpacked(mesh.triangles, Uint32Array));
-  const count = columns.length / 3, corners = new Uint16Array(columns.length);
+const unpackedText = async (text) => new TextDecoder().decode(await unpacked(text, Uint8Array));
+
+// From columns of differences to rows.
+async function unpackedPoints(text) {
+  const columns = sums(await unpacked(text, Uint16Array)), count = columns.length / 3;
+  const points = new Uint16Array(columns.length);
   for (let k = 0; k < count; k++)
-    for (let axis = 0; axis < 3; axis++) corners[3 * k + axis] = columns[axis * count + k];
-  return { corners, triangles };
+    for (let axis = 0; axis < 3; axis++) points[3 * k + axis] = columns[axis * count + k];
+  return points;
+}
+
+async function unpackedMesh(mesh) {
+  const [corners, differences] = [await unpackedPoints(mesh.corners), await unpacked(mesh.triangles, Uint32Array)];
+  return { corners, triangles: sums(differences) };
 }

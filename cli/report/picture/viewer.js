@@ -204,6 +204,7 @@ function listen() {
 }
 
 async function start() {
+  report.findings = JSON.parse(await unpackedText(report.findings));
   element("title").textContent = document.title = report.title;
   element("simplified").textContent = report.simplified;
   const preferred = matchMedia("(prefers-color-scheme: dark)");
