@@ -101,7 +101,7 @@ def about_one_body(path: str, components: int) -> list[Advice]:
     if other := _sibling(path):
         advice.append(Advice("to check it against another mesh", _line([*sys.argv[1:], other])))
     if components > 1:
-        words = ["--split", "components", *sys.argv[1:]]
+        words = [*sys.argv[1:], "--split", "components"]  # the last one counts
         advice.append(Advice("to check its connected pieces", _line(words)))
     return advice
 

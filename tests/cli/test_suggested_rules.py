@@ -184,7 +184,7 @@ def test_a_rule_about_no_body_is_a_warning(tmp_path: Path) -> None:
     [
         (("rules.toml",), "there is no body: give mesh files beside rules.toml"),
         (("rules.toml", "cube.obj"), "one body alone cannot collide: give two or more mesh files"),
-        (("cube.obj", "rules.toml", "--split", "components"), "cube.obj is one connected"),
+        (("cube.obj", "rules.toml", "--split", "components"), "cube.obj is one piece"),
     ],
 )
 def test_rules_are_no_second_body(inputs: tuple[str, ...], complaint: str, tmp_path: Path) -> None:

@@ -90,6 +90,7 @@ def test_keys_come_in_the_order_of_the_schema():
             "issues",
             "truncated",
             "baseline",
+            "config",
         ]
     )
     assert list(plain["findings"][0]) == FINDING_KEYS
