@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING
 
 from rich import box
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 # Passing assets are listed up to this many assets.
 LISTED = 60
+# So many are named in the summary.
+NAMED = 3
 # Colour only repeats what the word says.
 _COLOURS = {
     "pass": "green",
@@ -52,20 +55,34 @@ def render(report: AssetsReport, page: Page, *, top: int | None = None) -> str:
 
 
 def summary_line(report: AssetsReport) -> str:
-    """`FAIL: 39 assets: 1 unreadable, 2 fail, 36 pass.`"""
+    """`FAIL: 39 assets: 1 has errors (c.glb), 2 fail (a.glb, b.glb), 36 pass.`"""
     counts = report.counts
+    word = "PASS" if report.verdict == "pass" else "FAIL" if counts.fail else "INCOMPLETE"
     parts = [
-        f"{count:,} {words}"
-        for count, words in (
-            (counts.error, "have errors" if counts.error > 1 else "has errors"),
-            (counts.fail, "fail" if counts.fail > 1 else "fails"),
-            (counts.incomplete, "incomplete"),
-            (counts.passed, "pass" if counts.passed > 1 else "passes"),
+        f"{count:,} {words}{_named(report, verdict)}"
+        for count, words, verdict in (
+            (counts.error, "have errors" if counts.error > 1 else "has errors", "error"),
+            (counts.fail, "fail" if counts.fail > 1 else "fails", "fail"),
+            (counts.incomplete, "incomplete", "incomplete"),
+            (counts.passed, "pass" if counts.passed > 1 else "passes", "pass"),
         )
         if count
     ]
-    line = f"{report.verdict.upper()}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
-    return " ".join([line, *beside_baseline(asset.report for asset in report.assets)])
+    line = f"{word}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
+    beside = beside_baseline(asset.report for asset in report.assets)
+    return " ".join([line, *beside, *_next_step(report)])
+
+
+def _next_step(report: AssetsReport) -> list[str]:
+    failing = (asset.file for asset in report.assets if asset.verdict == "fail")
+    return [f"Next: satcheck {shlex.quote(file)} lists its pairs." for file in failing][:1]
+
+
+def _named(report: AssetsReport, verdict: str) -> str:
+    """` (a.glb, b.glb, c.glb, ...)`; what passes is not named."""
+    files = [asset.file for asset in report.assets if asset.verdict == verdict != "pass"]
+    more = ", ..." if len(files) > NAMED else ""
+    return f" ({', '.join(files[:NAMED])}{more})" if files else ""
 
 
 def _table(assets: list[Asset], *, unicode: bool) -> Table:

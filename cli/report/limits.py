@@ -14,8 +14,10 @@ if TYPE_CHECKING:
 
 
 def rule_of(finding: Finding, report: Report) -> RuleReport | None:
-    """The rule of the scene that decided the severity."""
-    return next((rule for rule in report.rules if rule.name == finding.rule), None)
+    """The rule of the scene that decided the severity; None, too, where several have its name, as
+    those of one line do."""
+    named = [rule for rule in report.rules if rule.name == finding.rule]
+    return named[0] if len(named) == 1 else None
 
 
 def limits(finding: Finding, report: Report) -> list[str]:

@@ -20,13 +20,18 @@ def severity(finding: Finding) -> Severity:
     return "note" if finding.baseline_state == "unchanged" else finding.severity
 
 
-def worst_first(findings: Iterable[Finding]) -> list[list[Finding]]:
-    """In groups: by severity, then the thicker overlap, then the deeper one. Of one severity, all
-    pairs between two parts stand together, where the worst of them stands."""
-    groups: dict[tuple[str, str, str], list[Finding]] = {}
-    for finding in sorted(findings, key=_rank):
-        parts = (severity(finding), _part(finding.a), _part(finding.b))
-        groups.setdefault(parts, []).append(finding)
+def worst_first(findings: Iterable[Finding]) -> list[Finding]:
+    """By severity, then the thicker overlap, then the deeper one."""
+    return sorted(findings, key=_rank)
+
+
+def groups_of(findings: Iterable[Finding]) -> list[list[Finding]]:
+    """Findings that are the worst first: of one severity, all pairs between two parts in a group,
+    which stands where its worst finding stands."""
+    groups: dict[tuple[str, frozenset[str]], list[Finding]] = {}
+    for finding in findings:
+        parts = frozenset((_part(finding.a), _part(finding.b)))
+        groups.setdefault((severity(finding), parts), []).append(finding)
     return list(groups.values())
 
 

@@ -87,11 +87,11 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
     pair = f"{finding.a} and {finding.b}"
     if finding.undecided == "limit":
         return [f"{pair}: {finding.reason}"]
-    rule = rule_of(finding, report)
-    if rule is None:
+    if all(rule.name != finding.rule for rule in report.rules):
         return []
-    why = f" ({rule.reason})" if rule.reason else ""
-    said = [f"{pair}: {finding.severity} by {rule.name}", *limits(finding, report)]
+    rule = rule_of(finding, report)
+    why = f" ({rule.reason})" if rule is not None and rule.reason else ""
+    said = [f"{pair}: {finding.severity} by {finding.rule}", *limits(finding, report)]
     return [f"{', '.join(said)}{why}"]
 
 

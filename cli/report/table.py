@@ -19,7 +19,7 @@ from satcheck.cli.report.lines import (
     fitted,
     joined,
 )
-from satcheck.cli.report.order import severity, worst_first
+from satcheck.cli.report.order import groups_of, severity, worst_first
 from satcheck.cli.report.remarks import remarks
 from satcheck.cli.report.stack import stacked
 from satcheck.cli.report.summary import counts_line
@@ -47,9 +47,9 @@ def render(
 
     top: how many pairs at most; all count in the summary.
     """
-    groups = worst_first(_listed(report))
-    rows = list(chain.from_iterable(groups))
-    shown = rows[:top]
+    rows = worst_first(_listed(report))
+    groups = groups_of(rows[:top])
+    shown = list(chain.from_iterable(groups))
     lines: list[str] = []
     if shown:
         columns = columns_of(shown, report.units, timings=explain and timings)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import chain
 from typing import TYPE_CHECKING
 
 from satcheck.audit.severity import fails
@@ -92,7 +91,7 @@ def _is_ruled(finding: Finding) -> bool:
 def _failing(report: Report) -> list[Finding]:
     fail_on = report.settings.fail_on
     failing = [f for f in report.findings if fails(f, fail_on) and f.baseline_state != "unchanged"]
-    return list(chain.from_iterable(worst_first(failing)))
+    return worst_first(failing)
 
 
 def _failed(report: Report) -> str:

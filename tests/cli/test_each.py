@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -76,7 +77,11 @@ def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
 
 def test_the_table_ends_with_the_verdict(assets: Path) -> None:
     ran = satcheck("each", str(assets))
-    assert ran.out.splitlines()[-1] == "FAIL: 2 assets: 1 fails, 1 passes."
+    last = ran.out.splitlines()[-1]
+    (failing,) = re.findall(r"1 fails \((\S+)\), 1 passes", last)
+    assert last.startswith("FAIL: 2 assets: ")
+    assert last.endswith(f"Next: satcheck {failing} lists its pairs.")
+    assert satcheck(failing).code == 1
 
 
 def git(folder: Path, *arguments: str) -> None:

@@ -18,6 +18,7 @@ from satcheck.report.report import (
     Exempt,
     Finding,
     Issue,
+    RuleReport,
     Stage,
 )
 from satcheck.report.sweep import Place, Sweep
@@ -204,6 +205,48 @@ def test_pairs_of_the_same_parts_stand_together_behind_a_rule() -> None:
     rows = text.splitlines()[3:-3]
     assert [row.split()[1] for row in rows if "box" in row] == ["hand/y", "hand/x", "arm"]
     assert "─" in rows[2]
+
+
+def test_top_takes_the_worst_before_parts_are_grouped() -> None:
+    pairs = [
+        replace(PENETRATING, a=a, b="box", depth=depth, depth_bounds=(depth, depth))
+        for a, depth in (("hand/x", 3.0), ("hand/y", 1.0), ("arm", 2.0))
+    ]
+    text = render(report(*pairs), PLAIN_PAGE, explain=False, timings=True, top=2)
+    assert "arm" in text
+    assert "hand/y │" not in text
+    assert "FAIL: hand/x and box overlap (depth 3); arm and box overlap (depth 2); hand/y" in text
+
+
+def test_pairs_of_parts_are_grouped_in_either_order() -> None:
+    turned = replace(PENETRATING, a="box", b="hand/x", depth=1.0, depth_bounds=(1.0, 1.0))
+    third = replace(PENETRATING, a="hand/y", b="box", depth=0.5, depth_bounds=(0.5, 0.5))
+    between = replace(PENETRATING, a="arm", b="box", depth=0.75, depth_bounds=(0.75, 0.75))
+    rows = [row for row in shown(turned, between, third).splitlines() if row.startswith("│")]
+    assert ["hand/y" in row for row in rows[1:]] == [False, True, False]
+
+
+def test_rules_that_share_a_line_are_not_taken_for_each_other() -> None:
+    rule = RuleReport(
+        a="*",
+        b="*",
+        allowed=None,
+        max_depth=4.0,
+        max_thickness=None,
+        max_volume=None,
+        clearance=None,
+        tolerance=None,
+        severity=None,
+        reason="press fits",
+        where="cell.json:1",
+    )
+    finding = replace(PENETRATING, severity="note", rule="cell.json:1")
+    one, two = (
+        render(replace(report(finding), rules=rules), PLAIN_PAGE, explain=False, timings=True)
+        for rules in ((rule,), (rule, replace(rule, max_depth=1.0)))
+    )
+    assert "note by cell.json:1, max_depth 4 (press fits)" in one
+    assert "note by cell.json:1\n" in two
 
 
 def test_top_limits_rows_and_nothing_else() -> None:
