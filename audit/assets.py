@@ -1,4 +1,4 @@
-"""The check of one asset as a scene of its own, whatever is wrong with it."""
+"""Checks one asset as a scene of its own. Every error becomes part of its report."""
 
 from __future__ import annotations
 

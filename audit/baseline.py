@@ -200,7 +200,7 @@ def _is_no_worse(
 
 
 def _band(finding: Finding, report: Report) -> float:
-    """The precision of the input. 0 where a user may have set another tolerance."""
+    """The precision of the input; 0 if a user may have set another tolerance."""
     is_set = report.settings.tolerance != "input-precision"
     if is_set or any(rule.tolerance is not None for rule in report.rules):
         return 0.0

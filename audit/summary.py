@@ -88,7 +88,7 @@ def summarise(
 
 
 def verdict_of(report: Report) -> Verdict:
-    """Of the findings as they are now."""
+    """The verdict of a report, from its current findings."""
     alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
     summary = report.summary
     return "pass" if alone else _verdict(summary.pairs, report.findings, report.settings.fail_on)

@@ -188,7 +188,7 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 
 
 def _is_exact_scaling(transform: Transform) -> bool:
-    """By a power of two about the origin, which rounds nothing."""
+    """Whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
     return frexp(scale)[0] == 0.5 and transform == (
         scale,

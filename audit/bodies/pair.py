@@ -103,12 +103,12 @@ class Pair(Struct, frozen=True):
 
     @property
     def curved(self) -> bool:
-        """At least one body is a curved shape. Its mesh is inscribed and does not stand for it."""
+        """At least one body is a curved shape. Its mesh is only inscribed."""
         return self.a.curved is not None or self.b.curved is not None
 
     @property
     def triangles(self) -> int:
-        """Of both, in their files."""
+        """The number of triangles of both bodies, in their files."""
         return self.a.shared.triangles + self.b.shared.triangles
 
     @property

@@ -147,8 +147,8 @@ class _Scan:
 
 
 def _first_overlap(pair: MovingPair, start: float) -> float | None:
-    """A t >= start at which the bodies overlap, as near to it as doubling steps and then halving
-    them find; None where no probe overlaps."""
+    """A t >= start at which the bodies overlap; None: no probe overlaps. The steps first double and
+    are then halved, so that t is near the first overlap."""
     before, overlap_time = start, None
     for t in _probes(start):
         if overlaps(pair.found_at(t)):

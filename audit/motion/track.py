@@ -56,7 +56,7 @@ PLACING_ROUNDOFFS = 16
 # the reach, and a body without a pose has 128 to spare. The second bound has no difference of large
 # terms: its error is some roundoffs of the decrease of the gap.
 RATE_ROUNDOFFS = 128
-# The turn between two orientations has this error in roundoffs, however small it is.
+# The error of the rotation between two orientations, in roundoffs; also for small rotations.
 LEG_ROUNDOFFS = 16
 
 

@@ -63,7 +63,7 @@ def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:
 
 
 def axis_angle(q: Quaternion) -> tuple[Vector, float]:
-    """Of a unit quaternion; degrees from 0 to 360."""
+    """The axis and angle of a unit quaternion; degrees from 0 to 360."""
     sine = math.hypot(q[0], q[1], q[2])
     if sine == 0.0:
         return _X, 0.0

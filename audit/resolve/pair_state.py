@@ -37,8 +37,8 @@ class PairState(Struct, frozen=True):
 
 
 def is_objected(finding: Finding, fail_on: FailOn) -> bool:
-    """Whether a check fails on what the pair is known to be, or cannot tell whether an overlap is
-    within its limits."""
+    """Whether a check fails because of the pair, or cannot decide whether an overlap is within its
+    limits."""
     if finding.undecided == "limit" and finding.at_rest in OVERLAPS:
         return True
     return fails(finding, fail_on)

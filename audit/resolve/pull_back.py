@@ -149,8 +149,8 @@ def _within(longest: float, layout: Layout, group: Offsets) -> Offsets:
 
 
 def _share_within(longest: float, start: Vector, end: Vector) -> float:
-    """Of the way from start, which is within `longest` of the origin, to the end: by bisection, so
-    that what is returned was seen to be within."""
+    """The share of the way from start to end that stays within `longest` of the origin. start is
+    within it. Found by bisection, and only shares that were tested are returned."""
     share, beyond = 1.0, 1.0
     if math.hypot(*end) <= longest:
         return share

@@ -33,7 +33,7 @@ class Wall(Struct):
     multiplier: float = 0.0
 
     def slack(self, offset: Vector) -> float:
-        """By how much t_a - t_b = offset keeps the wall; negative: breaks it."""
+        """The distance by which t_a - t_b = offset keeps the wall; negative: it breaks the wall."""
         return dot(self.normal, offset) - self.least
 
 

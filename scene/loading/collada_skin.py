@@ -18,7 +18,7 @@ from satcheck.scene.loading.xml_tree import Element
 
 Floats = NDArray[np.float64]
 
-_BIND_SHAPE = -1  # in the place of a joint: the bind shape itself
+_BIND_SHAPE = -1  # index of the bind shape among the joints
 
 
 def morphed(morph: Element, points: Floats, target: Callable[[str], Floats | None]) -> Floats:

@@ -17,7 +17,7 @@ from satcheck.scene.loading.gltf_buffers import BufferViews, integer, items, mem
 # componentType: typecode of an array.
 _COMPONENTS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 _UNSIGNED = frozenset("BHI")
-# typecode: the integer that stands for 1.0 in a normalized accessor.
+# typecode: the integer that means 1.0 in a normalized accessor.
 _LARGEST = {"b": 127, "B": 255, "h": 32767, "H": 65535}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 

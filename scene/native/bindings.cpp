@@ -164,15 +164,15 @@ void bind_readers(nb::module_& m);
 }
 
 void satcheck::bind_readers(nb::module_& m) {
-  nb::class_<Warning>(m, "Warning", "Something the reader passed over, with a stable code.")
+  nb::class_<Warning>(m, "Warning", "A part of the file that the reader skipped, with a stable code.")
       .def_ro("code", &Warning::code)
       .def_ro("message", &Warning::message);
 
-  nb::class_<MeshData>(m, "MeshData", "A mesh as the file wrote it, in file units; all coordinates finite.")
+  nb::class_<MeshData>(m, "MeshData", "A mesh as in the file, in file units; all coordinates are finite.")
       .def_prop_ro("vertices", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).vertices, self); },
                    "Little-endian float64 x, y, z of each vertex.")
       .def_prop_ro("triangles", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).triangles, self); },
-                   "Little-endian uint32 vertex numbers, three a triangle.")
+                   "Little-endian uint32 vertex numbers, three for each triangle.")
       .def_prop_ro("number_format", &number_format_name, "\"written-digits\", \"float32\" or \"float64\".")
       .def_ro("decimals", &MeshData::decimals,
               "Most digits after the point in a coordinate written without an exponent.")
@@ -187,10 +187,10 @@ void satcheck::bind_readers(nb::module_& m) {
       .def_ro("offset", &ReadError::offset, "Byte offset from 0, or -1.");
 
   m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ.");
-  m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.");
+  m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL. Corners with equal coordinates, bit for bit, are one vertex.");
   m.def("read_binary_stl", &read_stl_in_pieces, nb::arg("descriptor"), nb::arg("size"),
-        "What read_stl makes of the `size` bytes of an open file that is binary by its count of facets, without holding them; "
-        "OSError where it cannot be read.");
+        "Same as read_stl for the `size` bytes of an open file that is binary by its count of facets, without holding them; "
+        "OSError if it cannot be read.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 
@@ -203,5 +203,5 @@ void satcheck::bind_readers(nb::module_& m) {
         "\"INDICES\"; filter: \"NONE\", \"EXPONENTIAL\" or \"QUATERNION\".");
 
   m.def("read_file", &read_file, nb::arg("descriptor"), nb::arg("size"),
-        "Up to `size` bytes of an open file from where it stands; OSError where it cannot be read.");
+        "Up to `size` bytes of an open file from its current position; OSError if it cannot be read.");
 }

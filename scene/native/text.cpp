@@ -149,7 +149,7 @@ bool same_word(std::string_view word, std::string_view lower_case) {
 }
 
 std::string quoted(std::string_view word) {
-  constexpr std::size_t longest = 24;  // a message is one line, whatever the file holds
+  constexpr std::size_t longest = 24;  // characters, so that a message is one line
   std::string text = "'";
   for (char c : word.substr(0, longest)) text.push_back(c >= ' ' && c <= '~' ? c : '?');
   text += word.size() > longest ? "...'" : "'";

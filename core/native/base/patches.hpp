@@ -44,7 +44,7 @@ std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges);
 // example, a wall within a closed box is a flap if it does not reach the box all around.
 std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges);
 
-// Sets connected through shared edges, whatever the number of triangles at them.
+// Sets connected through shared edges with any number of triangles.
 Labels label_components(const Mesh& welded, const EdgeTable& edges);
 
 // Sets connected through shared vertices.

@@ -51,7 +51,7 @@ ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone
 }
 
 void bind_geometry(nb::module_& m) {
-  nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when needed. solid: the mesh is closed and
+  nb::class_<Geometry>(m, "Geometry", R"(The data that all bodies with one mesh share, in file coordinates, made on demand. solid: the mesh is closed and
 consistently wound; if that is false, surfaces raise ValueError. plain: the mesh of an Inspection whose topology is a
 plain solid, which is not proven again. sheets: open parts of the mesh have no inside; else every hole has some fill.)")
       .def("__init__",
@@ -65,8 +65,8 @@ world coordinate, so the body in the world is the hull of its world vertices.)")
       .def("surface", &Geometry::surface, ReleaseGil())
       .def("hull", &Geometry::hull, ReleaseGil())
       .def("hull_shape", &Geometry::hull_shape, ReleaseGil())
-      .def_prop_ro("hierarchies", &Geometry::hierarchies, "How many trees were built for these bodies.")
-      .def_prop_ro("refits", &Geometry::refits, "How many were fitted again to placed vertices.");
+      .def_prop_ro("hierarchies", &Geometry::hierarchies, "Number of trees built for these bodies.")
+      .def_prop_ro("refits", &Geometry::refits, "Number of trees fitted again to placed vertices.");
   nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh, and data that are made on demand.
 
 transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: of the body in the world.
@@ -77,10 +77,10 @@ resolution: the precision of its coordinates, world units.)")
              new (self) PlacedGeometry(std::move(shared), transform, to_aabb(bounds), resolution);
            },
            "shared"_a, "transform"_a.none(), "bounds"_a, "resolution"_a)
-      .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "Each coordinate rounded once. ValueError, OverflowError as Mesh.transformed.")
+      .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "The mesh in the world; each coordinate rounded once. Raises what Mesh.transformed raises.")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
-      .def("hull", &PlacedGeometry::hull, ReleaseGil(), "Of all its vertices, with its faces.")
-      .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The same as a shape, usually without faces.")
+      .def("hull", &PlacedGeometry::hull, ReleaseGil(), "The hull of all vertices, with its faces.")
+      .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The hull as a shape, usually without faces.")
       .def("release", &PlacedGeometry::release, "Releases the data; they are made again on demand.");
 }
 
@@ -94,7 +94,7 @@ const T* if_known(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-// The Python text of a word that is written in the source: one for all uses.
+// The Python string of a literal word, shared by all uses.
 PyObject* known_word(const char* word) {
   static auto* const known = new std::unordered_map<const void*, PyObject*>;
   PyObject*& text = (*known)[word];
@@ -230,7 +230,7 @@ alone: there is one pair, and no other needs its bodies. method: between convex 
       .def(nb::init<nb::list, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
            "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
       .def("results", &Climbing::results,
-           R"(Waits, then hands over the results once: a Climb for each pair, the same for any number of threads; None: the climb
+           R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
         [](const PairTuple& pair, const std::string& first, const std::string& last, const std::string& method) {
@@ -249,8 +249,8 @@ failed, and climb() raises for this pair.)");
           return crossing_depth(a, b, static_cast<std::uint32_t>(triangle_a), static_cast<std::uint32_t>(triangle_b));
         },
         "a"_a, "b"_a, "triangle_a"_a, "triangle_b"_a, ReleaseGil(),
-        R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 unless each triangle is
-boundary all over.)");
+        R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 unless both triangles are
+completely boundary.)");
   m.def("nested_depth", &nested_depth, "a"_a, "b"_a, ReleaseGil(),
         "A proven lower bound of the depth of nested bodies: the inner one stays inside until the surfaces meet.");
 }

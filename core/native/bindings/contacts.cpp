@@ -50,8 +50,8 @@ a's surface, unit. opposed: whether the surfaces face each other there.)")
       .def_ro("opposed", &ContactPatch::opposed)
       .def_ro("area", &ContactPatch::area);
   nb::class_<SurfaceIntersection>(m, "SurfaceIntersection",
-                                  R"(The common points of two surfaces. curves: by falling length; patches: by falling area; points: alone.
-triangle_pairs: all that meet. complete: False when more met than allowed, and nothing is listed.)")
+                                  R"(The common points of two surfaces. curves: by decreasing length; patches: by decreasing area; points: isolated
+ones. triangle_pairs: all that meet. complete: False if more pairs meet than allowed; nothing is listed then.)")
       .def_ro("curves", &SurfaceIntersection::curves, nb::rv_policy::reference_internal)
       .def_ro("patches", &SurfaceIntersection::patches, nb::rv_policy::reference_internal)
       .def_prop_ro("points", [](const SurfaceIntersection& s) { return to_tuples(s.points); })
@@ -71,7 +71,7 @@ predicates; points are exact intersections, each coordinate rounded once. Solid 
         R"(Whether all winding numbers of the solid are 0 or 1, so that its signed volume is the volume that it covers. Exact
 samples beside every piece of the surface decide.)");
   m.def("has_sheets", &has_sheets, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
-        R"(Whether a piece of the surface has no inside on either side; also true if a sample gives no answer.)");
+        R"(Whether a piece of the surface has no inside on either side. Also true if a sample gives no answer.)");
 }
 
 }  // namespace satcheck

@@ -32,7 +32,7 @@ void bind_depth(nb::module_& m) {
   nb::class_<DepthInterval>(m, "DepthInterval", R"(lower <= depth <= upper. way_out: a translation of a, `upper` long, after which the meshes have no common
 interior; None: none is shorter than the known one. bound: the proven upper bound of the depth: `upper`
 and the rounding of a's moved coordinates. stop: "narrow" or "work spent"; boxes
-of translations, exact tests of the moved meshes, convex sets of forbidden translations: the counts of the search.)")
+of translations, exact tests of the moved meshes, convex sets of forbidden translations: counts of the search.)")
       .def_ro("lower", &DepthInterval::lower)
       .def_ro("upper", &DepthInterval::upper)
       .def_ro("bound", &DepthInterval::bound)
@@ -51,8 +51,8 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
         nb::call_guard<nb::gil_scoped_release>(),
         R"(The depth of two overlapping meshes as a proven interval. The search ends when the interval is `width` wide, relative
 to its upper end, or after `work` steps of about a nanosecond. upper: the length of a known way out; lower: a known
-bound. across: for prisms along a world axis, that axis, along which no translation goes; -1: none.
-The same input gives the same result on every machine. In the main thread a signal handler may raise, KeyboardInterrupt for one.
+bound. across: for prisms along a world axis, this axis; translations are perpendicular to it; -1: none.
+The same input gives the same result on every machine. In the main thread a signal handler may raise, for example KeyboardInterrupt.
 ValueError for a length that is negative or not finite, or for an empty surface.)");
 }
 

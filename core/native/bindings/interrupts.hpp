@@ -5,7 +5,7 @@
 
 namespace satcheck {
 
-// Ctrl-C would not be heard before the end of a long search.
+// Without this, Ctrl-C would take effect only after a long search.
 inline void raise_interrupts() {
   const nanobind::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();

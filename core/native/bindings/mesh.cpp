@@ -47,7 +47,7 @@ std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
   return vertices;
 }
 
-// False where the argument is no such array.
+// False if the argument is not such an array.
 template <class Index>
 bool read_triangles(nb::handle argument, Mesh& mesh) {
   IndexArray<Index> triangles;
@@ -158,7 +158,7 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
           },
           "triangle"_a, "The three corners of one triangle; needs no numpy.")
       .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
-      .def("sorted", &sort, ReleaseGil(), "Vertices by their coordinates, triangles by their corners: an order that a file's own does not change.")
+      .def("sorted", &sort, ReleaseGil(), "Vertices sorted by coordinates, triangles by corners. The result does not depend on the order in the file.")
       .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
 the winding. ValueError when the matrix is not affine, not finite or singular.)")
       .def("translated",
@@ -167,9 +167,9 @@ the winding. ValueError when the matrix is not affine, not finite or singular.)"
       .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
       .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
 dropped if that closes the surface.)")
-      .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The parts that share no edge, in order of their
-first triangle. crack_width: points within it may be the same; edges along such a crack count as shared.)")
-      .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.")
+      .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
+first triangle. crack_width: points this close may be the same point; edges along such a crack count as shared.)")
+      .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly. True if no triangle has an area.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
       .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
@@ -194,13 +194,13 @@ std::vector<std::optional<Bounds>> bounds_of_placed(const std::vector<const Mesh
 
 void bind_placed_bounds(nb::module_& m) {
   m.def("placed_bounds", &bounds_of_placed, "meshes"_a, "matrices"_a, "threads"_a = 0,
-        R"(The bounds of meshes[i].transformed(matrices[i]) for each i, to the bit, without placing a mesh; None where that
-raises. On `threads` threads, 0: one a core. ValueError when the lengths differ.)");
+        R"(The bounds of meshes[i].transformed(matrices[i]) for each i, equal to the bit, without placing a mesh; None if that
+raises. threads: 0: one for each core. ValueError if the lengths differ.)");
   m.def("largest_stretch", &largest_stretch, "matrix"_a,
-        "How much longer the placement, 16 entries by rows, can make a length: its largest singular value. "
-        "OverflowError where it leaves the range of numbers.");
+        "The largest factor by which the placement, 16 entries by rows, stretches a length: its largest singular value. "
+        "OverflowError if it is beyond float64.");
   m.def("largest_placed", &largest_placed, "matrix"_a, "largest"_a,
-        "An upper bound, but for rounding, of |world coordinate| for coordinates up to `largest` in the file.");
+        "An upper bound, up to rounding, of |world coordinate| for coordinates up to `largest` in the file.");
 }
 
 void bind_topology(nb::module_& m) {
@@ -241,11 +241,11 @@ changed the mesh. cracks: the number of closed cracks. topology: before these re
       .def_ro("topology", &Inspection::topology)
       .def_ro("repaired", &Inspection::repaired);
   m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(),
-        "mesh.welded().sorted(), its topology, and, where `orient` says so, oriented().");
+        "mesh.welded().sorted() and its topology; with `orient` also oriented().");
   m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a, ReleaseGil(),
-        "inspect(Mesh.from_bytes(vertices, triangles), orient), for less than the two.");
+        "inspect(Mesh.from_bytes(vertices, triangles), orient), but faster than both calls.");
   m.def("with_cracks_closed", &with_cracks_closed, "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
-        R"(The inspection with cracks closed: places where neighbouring faces miss each other by at most the width, file units.
+        R"(The inspection with cracks closed: gaps between neighbouring faces that are at most `width` wide, file units.
 Triangles are added; none is changed.)");
 }
 

@@ -60,7 +60,7 @@ std::vector<Vec2> to_points(const Points2& points) {
   return out;
 }
 
-// One Python class a kind, all with the layout of Shape.
+// One Python class for each kind, all with the layout of Shape.
 struct HullShape : Shape {};
 struct BoxShape : Shape {};
 struct SphereShape : Shape {};
@@ -71,7 +71,7 @@ struct EllipsoidShape : Shape {};
 
 void bind_hull_points(nb::module_& m) {
   nb::class_<HullPoints>(m, "HullPoints",
-                         R"(The vertices of a mesh that can be corners of its convex hull wherever an affine map puts it.)")
+                         R"(The vertices of a mesh that can be corners of its convex hull after any affine map.)")
       .def(nb::new_([](const Mesh& mesh) { return find_hull_points(mesh); }), nb::arg("mesh"),
            nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("count", [](const HullPoints& h) { return h.points.size(); })
@@ -83,9 +83,9 @@ void bind_hull_points(nb::module_& m) {
             return HullShape{std::move(*shape)};
           },
           nb::arg("matrix"), nb::call_guard<nb::gil_scoped_release>(),
-          R"(The hull of the mesh placed by a 4x4 matrix, 16 numbers by rows, as a shape: what Mesh.transformed and then
-convex_hull give, without sorting anything. None where rounding may have brought further vertices to its
-surface. Raises what Mesh.transformed does.)");
+          R"(The hull of the mesh placed by a 4x4 matrix, 16 numbers by rows, as a shape. Same as Mesh.transformed followed by
+convex_hull, but without sorting. None if rounding may have brought further vertices to its surface. Raises what
+Mesh.transformed raises.)");
 }
 
 template <class Kind, class Make>
@@ -175,6 +175,6 @@ void satcheck::bind_core(nb::module_& m) {
   bind_pairs(m);
   bind_polygons(m);
   bind_climb(m);
-  m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one question and ends: memory that is freed is kept for what comes next, where the
-allocator can do that.)");
+  m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one query and ends: freed memory is kept for later allocations, if the allocator can do
+that.)");
 }

@@ -14,11 +14,11 @@ using namespace nb::literals;
 namespace satcheck {
 
 void bind_overlap(nb::module_& m) {
-  nb::class_<OverlapComponent>(m, "OverlapComponent", R"(A connected component of what two solids have in common. bounds: least and greatest corner; point: of its
-boundary, rounded. triangles: that take part in its boundary; curves: along which the surfaces cross there,
-curve_length in all. volume: in float64, volume_error: about how far off it is. a_through_b: a connected piece of A's surface within B joins two pieces of B's surface within A, as
-a pin through a plate joins the places where it enters and leaves; None: faces that lie in each other leave it open, or
-it is not resolved. resolved: False where a surface meets itself here.)")
+  nb::class_<OverlapComponent>(m, "OverlapComponent", R"(A connected component of the overlap of two solids. bounds: least and greatest corner; point: of its
+boundary, rounded. triangles: number of triangles that bound it; curves: along which the surfaces cross there;
+curve_length: their total length. volume: in float64; volume_error: its approximate error. a_through_b: a connected piece of A's surface within B joins two pieces of B's surface within A, as
+a pin through a plate joins the places where it enters and leaves; None: coincident faces leave it open, or
+it is not resolved. resolved: False if a surface meets itself here.)")
       .def_prop_ro("bounds",
                    [](const OverlapComponent& c) { return std::make_pair(to_tuple(c.bounds.min), to_tuple(c.bounds.max)); })
       .def_prop_ro("point", [](const OverlapComponent& c) { return to_tuple(c.point); })
@@ -31,13 +31,13 @@ it is not resolved. resolved: False where a surface meets itself here.)")
       .def_ro("b_through_a", &OverlapComponent::b_through_a)
       .def_ro("resolved", &OverlapComponent::resolved);
   nb::class_<OverlapComponents>(m, "OverlapComponents",
-                                "components: by the least corner of their bounds. resolved: False where there may be others, or fewer.")
+                                "components: by the least corner of their bounds. resolved: False if their number may differ.")
       .def_ro("resolved", &OverlapComponents::resolved)
       .def_ro("components", &OverlapComponents::components, nb::rv_policy::reference_internal);
   m.def("overlap_components", &overlap_components, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
-        R"(The connected components of what two solids have in common, by exact predicates. Of surfaces that are not closed
-nothing is resolved. max_pairs: of triangles that meet; more are not resolved. Swapping a and b changes the letters,
-nothing else.)");
+        R"(The connected components of the overlap of two solids, by exact predicates. Surfaces that are not closed are not
+resolved. max_pairs: limit on pairs of triangles that meet; more are not resolved. Swapping a and b only swaps the
+fields of a and b.)");
   m.def("passes_through", &passes_through, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
         "Whether one of two solids passes through the other at a component of their overlap; None: not resolved.");
 }

@@ -108,7 +108,7 @@ void bind_pair_result(nb::module_& m) {
       });
 }
 
-// An array over the field of all results, without a copy; for a field that the query does not compute, one row again and again.
+// A view of one field of all results, without a copy. If the query does not compute the field, one row is repeated.
 template <auto Member, class T, std::size_t Width>
 nb::object array(nb::handle self) {
   static_assert(sizeof(Field<Member>) == Width * sizeof(T));
@@ -170,7 +170,7 @@ PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a,
 
 namespace satcheck {
 
-// Documented where they are called: core/pairs.py.
+// core/pairs.py documents these functions.
 void bind_pairs(nb::module_& m) {
   bind_pair_result(m);
   bind_pair_results(m);

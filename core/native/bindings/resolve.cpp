@@ -32,7 +32,7 @@ Answer find_least_motion(const std::vector<bool>& movable, const std::vector<Pai
   walls.reserve(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const auto [a, b] = bodies[k];
-    if (a >= movable.size() || b >= movable.size()) throw std::invalid_argument("a wall is of no body");
+    if (a >= movable.size() || b >= movable.size()) throw std::invalid_argument("a wall names a body that does not exist");
     if (!movable[a] && !movable[b]) throw std::invalid_argument("both bodies of a wall stay");
     const auto& n = normals[k];
     walls.push_back({a, b, {n[0], n[1], n[2]}, least[k]});

@@ -36,12 +36,12 @@ void bind_one_surface(nb::module_& m) {
            [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
              new (self) Surface(make_surface(mesh, solid, sheets ? OpenParts::sheets : OpenParts::filled));
            },
-           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError if it is not. sheets: parts with a rim have no inside; other holes have some
+           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: the mesh is closed; ValueError if it is not. sheets: parts with a rim have no inside; other holes have some
 fill.)")
       .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
                    nb::rv_policy::reference_internal)
       .def_ro("solid", &Surface::solid)
-      .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
+      .def_ro("refitted", &Surface::refitted, "Whether the tree has the structure of another surface's tree.")
       .def("closed",
            [](const Surface& s) {
              if (s.solid) return std::make_tuple(s, std::vector<Surface>{});
@@ -69,7 +69,7 @@ anew if the triangles differ, or if rounding has merged two vertices.)")
              if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
              return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
            },
-           "triangle"_a, ReleaseGil(), R"(Whether all of the triangle is boundary of the closed body: it is no face inside the material, and meets other
+           "triangle"_a, ReleaseGil(), R"(Whether the whole triangle is boundary of the closed body: it is not a face inside the material, and meets other
 triangles of the surface only at shared corners and edges.)")
       .def("nearest",
            [](const Surface& s, const Tuple3& point) {
@@ -120,8 +120,8 @@ void bind_mesh_distance(nb::module_& m) {
       .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
   m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
-        R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
-another has a distance from its surface, too, so call mesh_relation first.)");
+        R"(The least distance of two surfaces in float64, with witness points; inf if it exceeds `limit`. A body inside
+another also has a distance from its surface, so call mesh_relation first.)");
   m.def("compare_gap",
         [](const Surface& a, const Surface& b, double length) {
           if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");

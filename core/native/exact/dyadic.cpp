@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLimbBits = 32;
 constexpr std::uint64_t kLimbMask = 0xFFFFFFFF;
-// Of a float64: mantissa * 2^(biased exponent - bias), where the mantissa has 53 bits.
+// The format of a float64: mantissa * 2^(biased exponent - bias); the mantissa has 53 bits.
 constexpr int kFractionBits = 52;
 constexpr int kExponentMask = 0x7FF;
 constexpr int kExponentBias = 1075;

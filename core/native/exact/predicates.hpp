@@ -71,8 +71,8 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
 // Whether the three points lie on one line (or coincide).
 bool collinear(Vec3 a, Vec3 b, Vec3 c);
 
-// (b - a) x (c - a) with a relative error below 1e-14 of its length, however thin the triangle; zero
-// exactly when the points are collinear.
+// (b - a) x (c - a) with a relative error below 1e-14 of its length, even for thin triangles; zero exactly if the
+// points are collinear.
 Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
 
 // a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.

@@ -189,7 +189,7 @@ Dyadic flat_area(Vec3 u, Vec3 v, Vec3 p, int axis) {
   return (v[i] - ui) * (p[j] - uj) - (v[j] - uj) * (p[i] - ui);
 }
 
-// Of p over the plane of t, times twice the area of t.
+// The height of p over the plane of t, times twice the area of t.
 Dyadic height(const Corners& t, Vec3 p) {
   const Dyadic ax = t[0].x, ay = t[0].y, az = t[0].z;
   const Dyadic ux = t[1].x - ax, uy = t[1].y - ay, uz = t[1].z - az;

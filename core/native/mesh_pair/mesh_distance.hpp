@@ -15,7 +15,7 @@ struct MeshDistance {
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;
 };
 
-// Of a triangle of each surface.
+// A test of one triangle of each surface.
 using TrianglePairTest = std::function<bool(std::uint32_t, std::uint32_t)>;
 
 // Distance of the two surfaces, 0 if they meet; a body inside the other has a distance, too. counts: only pairs that

@@ -13,7 +13,7 @@
 namespace satcheck {
 
 struct Evidence {
-  std::uint32_t triangle_a, triangle_b;  // kNoTriangle where there is none
+  std::uint32_t triangle_a, triangle_b;  // kNoTriangle: none
   Vec3 point;                            // rounded
 };
 

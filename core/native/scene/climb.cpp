@@ -165,7 +165,7 @@ class Climber {
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
-    // The overlap is disproved, whatever the distance is.
+    // The overlap is disproved for any value of the distance.
     climb_.hulls->outcome = Outcome::separated;
     return true;
   }
