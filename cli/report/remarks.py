@@ -11,7 +11,7 @@ from satcheck.cli.report.lines import YELLOW
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     counted,
-    is_lost,
+    is_unusable,
     issue_line,
     past_holes,
     place,
@@ -149,7 +149,7 @@ def _of_bodies(report: Report) -> Iterator[str]:
 
 
 def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
-    if is_lost(body):
+    if is_unusable(body):
         return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
     if body.health is None or not body.health.holes or not swept:
         return []

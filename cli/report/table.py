@@ -24,7 +24,7 @@ from satcheck.cli.report.remarks import remarks
 from satcheck.cli.report.stack import stacked
 from satcheck.cli.report.summary import counts_line
 from satcheck.cli.report.verdict import next_step, verdict_line
-from satcheck.cli.report.words import counted, is_lost, past_holes
+from satcheck.cli.report.words import counted, is_unusable, past_holes
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
@@ -81,8 +81,8 @@ def render(
 def _listed(report: Report) -> Sequence[Finding]:
     """What could be examined; of more than LISTED_PAIRS only what is not plainly separated, at rest
     and on the way."""
-    lost = {body.id for body in report.bodies if is_lost(body)}
-    findings = [f for f in report.findings if f.a not in lost and f.b not in lost]
+    unusable = {body.id for body in report.bodies if is_unusable(body)}
+    findings = [f for f in report.findings if f.a not in unusable and f.b not in unusable]
     if len(findings) > LISTED_PAIRS:
         findings = [f for f in findings if _is_told(f)]
     return findings

@@ -15,7 +15,7 @@ from satcheck.cli.report.words import (
     in_motion,
     interval,
     is_hit,
-    is_lost,
+    is_unusable,
     past_holes,
     with_unit,
 )
@@ -207,8 +207,8 @@ def _after_failure(report: Report, written: bool) -> str:
 
 def _open(report: Report) -> str:
     """What may decide the questions that are open, but for those of bodies that cannot be used."""
-    lost = {body.id for body in report.bodies if is_lost(body)}
-    asked = [f for f in report.findings if f.undecided and not lost & {f.a, f.b}]
+    unusable = {body.id for body in report.bodies if is_unusable(body)}
+    asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
     if not asked:
         return ""
     if any(issue.code == UNITS_UNKNOWN for issue in report.issues):

@@ -62,8 +62,8 @@ def contacts(finding: Finding) -> str:
     return ", ".join(counts) or "none"
 
 
-def is_lost(body: BodyReport) -> bool:
-    """Could not be read or placed; why is an error issue."""
+def is_unusable(body: BodyReport) -> bool:
+    """Whether the body could not be read or placed. An error issue says why."""
     return body.triangles is None
 
 
