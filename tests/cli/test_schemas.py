@@ -67,6 +67,7 @@ def test_certificates_of_shapes(tmp_path: Path, turn: dict[str, Any]) -> None:
 
 
 COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
+    "axes": (("axes", *PUSHED), "axes"),
     "check": (
         ("--volume", "--contacts", "--components", "--cross-check", "--clearance", "1", *PUSHED),
         "report",
