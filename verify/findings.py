@@ -76,11 +76,11 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
         depth or (covered and mtv), mtv, distance or exact == "touching", directed or mtv
     )
     most = proven_depth(finding, replace(proven, depth=depth))
-    thickest = _check_thickness(finding, certificate, pair, request, most)
-    proven = _with_thickness(proven, finding, request, thickest, rounding)
+    thickest = _check_thickness(finding, certificate, pair, error, most)
+    proven = _with_thickness(proven, finding, error, thickest, rounding)
     if relation != exact:
         near = max(clearance - error.farther, Fraction(0))
-        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven, request.across)
+        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
     if exact not in OVERLAPS and not hulls_apart:
         check_holes(a, b, max(tolerance, clearance))
         check_pieces(a, b)
@@ -106,14 +106,14 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
 def _with_thickness(
     proven: ProvenFields,
     finding: Finding,
-    request: Request,
+    error: CurveError,
     thickest: Fraction | None,
     rounding: Rounding,
 ) -> ProvenFields:
     """thickest: a proven upper bound of the thickness; None: there is none."""
     return replace(
         proven,
-        ball=finding.thickness_bounds is not None and request.across is None,
+        ball=finding.thickness_bounds is not None and not error.closer,
         thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
     )
 
@@ -181,15 +181,17 @@ def _check_thickness(
     finding: Finding,
     certificate: Certificate,
     pair: Pair,
-    request: Request,
+    error: CurveError,
     depth: Fraction | None,
 ) -> Fraction | None:
     """An upper bound of the thickness, as far as one is proven. Rejects a ball that is not in both
-    bodies. depth: a bound of the depth; no overlap is thicker than it is deep."""
+    bodies. depth: a bound of the depth; no overlap is thicker than it is deep. The prisms of a
+    check in a plane are higher than wide: the largest ball in both has the diameter of the largest
+    disc. Of curves nothing is proven."""
     cells = certificate.thickness
-    if finding.thickness is None or request.across is not None:
+    if finding.thickness is None or error.closer:
         if not isinstance(cells, UnsetType):
-            raise Rejected("cells, and no thickness in space")
+            raise Rejected("cells, and no thickness of polyhedra")
         return depth
     if finding.ball is not None:
         for body in (pair.a, pair.b):
@@ -220,7 +222,6 @@ def _check_band(
     tolerance: Fraction,
     clearance: Fraction,
     proven: ProvenFields,
-    across: int | None,
 ) -> None:
     """Checks the proof that the relation differs from the exact one."""
     relation, exact = finding.relation, finding.exact_relation
@@ -232,7 +233,7 @@ def _check_band(
     elif not (
         exact in OVERLAPS
         and relation == "touching"
-        and _is_in_band(finding, certificate.band, pair, bodies, band, proven, across)
+        and _is_in_band(finding, certificate.band, pair, bodies, band, proven)
     ):
         raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
@@ -244,7 +245,6 @@ def _is_in_band(
     bodies: tuple[Placed, Placed],
     band: Fraction,
     proven: ProvenFields,
-    across: int | None,
 ) -> bool:
     """Whether a way out of the overlap is within the tolerance, or surfaces that may be off explain
     it."""
@@ -257,8 +257,8 @@ def _is_in_band(
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
     if not isinstance(proof.excuse, UnsetType):
-        if across is not None:
-            raise Rejected("an excuse in space, and a check in a plane")
+        if curve_error(*bodies).closer:
+            raise Rejected("an excuse of polygons, and not of their curves")
         is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
         return True
     move = vector(given(proof.move, "move"))

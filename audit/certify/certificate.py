@@ -265,7 +265,7 @@ class _Maker:
         """Of an overlap that is thinner than it is deep."""
         answer, finding = self.examined.answer, self.finding
         thickness = None if answer is None else answer.thickness
-        if thickness is None or thickness.proof is None or self.across is not None:
+        if thickness is None or thickness.proof is None:
             return None
         if finding.mtv_verified and finding.depth is not None and thickness.upper >= finding.depth:
             return None

@@ -27,8 +27,8 @@ def excuse(pair: Pair) -> Excuse | NoCertificate:
     """Of a pair that surfaces which may be off explain."""
     if not may_be_explained(pair):
         return NoCertificate("no evidence was found that the overlap is within the touch band")
-    if pair.settings.planar is not None:
-        return NoCertificate("a touch by its thickness in a plane is not certified")
+    if pair.closer:
+        return NoCertificate("a touch of curves by their thickness is not certified")
     found = [ball_in(pair, body, off) for off, body in surfaces(pair)]
     balls = [InnerBall(one.centre, one.radius) for one in found if one.centre is not None]
     interval = deeper(pair, prove=True)

@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
-from satcheck.audit.figures.thickness import why_not_thick
+from satcheck.audit.figures.thickness import across, why_not_thick
 from satcheck.audit.tolerances import EXACT_WIDTH
 
 if TYPE_CHECKING:
@@ -122,6 +122,6 @@ def _search(
         less_a=off[0],
         less_b=off[1],
         limit=limit,
-        across=pair.settings.across,
+        across=across(pair, prove=prove),
         prove=prove,
     )

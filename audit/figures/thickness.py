@@ -77,7 +77,7 @@ def search(
         width=width,
         work=work,
         limit=limit,
-        across=pair.settings.across,
+        across=across(pair, prove=pair.settings.certificate),
         prove=pair.settings.certificate,
     )
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
@@ -86,6 +86,12 @@ def search(
     else:
         trace.record(STAGE, interval.stop, by)
     return interval
+
+
+def across(pair: Pair, *, prove: bool) -> int:
+    """The axis to search along. What is to be proven is searched in space: prisms are higher than
+    they are wide, so that the largest ball in both has the diameter of the largest disc."""
+    return -1 if prove else pair.settings.across
 
 
 def _thickness_of(interval: core.ThicknessInterval) -> Thickness:

@@ -119,6 +119,9 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "a sheet across": meshes(unit_box(), moved(sheet(), 0.5, 0.25, 0.5), depth=True),
     "in parts": meshes(pieces(unit_box(), unit_box(5.0)), unit_box(2.0), clearance=1.5),
     "in a plane": meshes(bracket(), unit_box(5.5, 1.5, 1.0), depth=True, planar="xy"),
+    "thinner than deep in a plane": meshes(
+        bracket(), unit_box(1.5, 1.5, 1.0, edge=2.0), depth=True, planar="xy"
+    ),
     "apart in a plane": meshes(bracket(), unit_box(2.5, 2.5, 9.0), clearance=1.0, planar="xy"),
     "rules": SCENE,
     "curved": CURVED,

@@ -35,8 +35,9 @@ def made_of(folder: Path, a: Mesh, b: Mesh, **settings: Any) -> Json:
         (unit_box(), wedge(), {"tolerance": 1.001 * WEDGE_THICKNESS}),
         (bracket(), KEY, {"surface_tolerance": 0.0625}),
         (KEY, bracket(), {"tolerance": 0.125, "depth": True}),
+        (bracket(), KEY, {"surface_tolerance": 0.0625, "planar": "xy"}),
     ],
-    ids=["a surface tolerance", "with its depth", "the touch band", "a key", "a deep key"],
+    ids=["a surface tolerance", "its depth", "the touch band", "a key", "a deep key", "in a plane"],
 )
 def test_what_is_explained_is_certified(
     tmp_path: Path, a: Mesh, b: Mesh, settings: dict[str, Any]
