@@ -89,9 +89,8 @@ nb::bytes read_file(int descriptor, std::size_t size) {
     Py_DECREF(room);
     raise_os_error(failure);
   }
-  if (have < size) _PyBytes_Resize(&room, static_cast<Py_ssize_t>(have));
-  if (room == nullptr) nb::raise_python_error();
-  return nb::steal<nb::bytes>(room);
+  const nb::bytes whole = nb::steal<nb::bytes>(room);
+  return have < size ? nb::bytes(bytes, have) : whole;  // the stable interface has no resize
 }
 
 ReadOutcome read_stl_in_pieces(int descriptor, std::size_t size) {
