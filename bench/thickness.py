@@ -1,6 +1,7 @@
 """The thickness of overlaps on pairs of known thickness: right, narrow enough, and how fast.
 
     python -m bench.thickness DATA [--budget 10] [--width 0.01] [--pairs] [--only NAME]
+    python -m bench.thickness --flush [--budget 1]
 
 DATA: a folder with pairs.json, its meshes, and thickness/thickness.json, whose `pairs` and `fits`
 have bounds of the true thickness and `weighted` decisions: is a point deeper than eA in A and eB in
@@ -19,6 +20,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from bench.depth_interval import say
 from satcheck import core
@@ -133,14 +136,58 @@ def report(measured: list[Measured], overlapping: list[Measured]) -> None:
     say(f"median of overlapping pairs: {1e3 * thickness:.1f} ms, depth {1e3 * depth:.1f} ms")
 
 
+def sphere_and_mould(level: int) -> tuple[Any, Any]:
+    """A ball of 20 * 4**level triangles, and a block with its hollow."""
+    import trimesh
+
+    ball: Any = trimesh.creation.icosphere(subdivisions=level)
+    hollow = ball.copy()
+    hollow.invert()
+    block: Any = trimesh.creation.box((4, 4, 4))
+    return ball, trimesh.util.concatenate([block, hollow])
+
+
+def measure_flush(work: int, width: float) -> None:
+    import trimesh
+
+    def surface(mesh: Any) -> core.Surface:
+        return core.Surface(core.Mesh(np.array(mesh.vertices), np.array(mesh.faces)), True)
+
+    transformations: Any = trimesh.transformations
+    moves = {
+        "as it is": np.eye(4),
+        "moved by 1e-6": transformations.translation_matrix((1e-6, 0, 0)),
+        "larger by 1e-6": np.diag((1 + 1e-6, 1 + 1e-6, 1 + 1e-6, 1)),
+        "turned by 0.01": transformations.rotation_matrix(0.01, (1, 2, 3)),
+    }
+    for level in (4, 5, 6):
+        ball, mould = sphere_and_mould(level)
+        hollow = surface(mould)
+        for name, matrix in moves.items():
+            moved = surface(ball.copy().apply_transform(matrix))
+            start = time.perf_counter()
+            found = core.search_thickness(moved, hollow, width=width, work=work)
+            seconds = time.perf_counter() - start
+            say(
+                f"{len(ball.faces):6} triangles, {name:15} {found.lower:12.6g} {found.upper:12.6g} "
+                f"{1e3 * seconds:8.1f} ms {found.boxes:7} boxes  {found.stop}"
+            )
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("data", type=Path)
+    parser.add_argument("data", type=Path, nargs="?")
+    parser.add_argument("--flush", action="store_true")
     parser.add_argument("--budget", type=float, default=10.0)
     parser.add_argument("--width", type=float, default=0.01)
     parser.add_argument("--pairs", action="store_true")
     parser.add_argument("--only", default="")
     given = parser.parse_args()
+    if given.flush:
+        measure_flush(int(given.budget * WORK_PER_SECOND), given.width)
+        return
+    if given.data is None:
+        sys.exit("DATA or --flush is needed")
     truth_file = given.data / "thickness" / "thickness.json"
     if not truth_file.exists():
         sys.exit(f"there is no {truth_file}")

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 
 from satcheck.core import Mesh, Surface, search_thickness
 from tests.core.voxel_solids import VoxelSolid, box
@@ -123,3 +124,81 @@ def test_slivers_between_long_triangles() -> None:
         )
         assert found.stop == "decided"
         assert (found.lower > 0) == is_real
+
+
+def sphere_and_mould(*, shift: float = 0.0, larger: float = 1.0) -> tuple[Surface, Surface]:
+    """A ball of 5,120 triangles that is moved across one of them, and a block with its hollow."""
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    points, faces = np.array(ball.vertices), np.array(ball.faces, np.uint32)
+    block = box((-2, -2, -2), (2, 2, 2)).mesh()
+    hollow = faces[:, ::-1] + np.uint32(len(block.vertices))
+    corners = np.vstack((np.array(block.vertices), points))
+    mould = Mesh(corners, np.vstack((np.array(block.triangles, np.uint32), hollow)))
+    moved = larger * points + shift * ball.face_normals[0]
+    return Surface(Mesh(moved, faces), True), Surface(mould, True)
+
+
+@pytest.mark.parametrize("swap", [False, True])
+def test_a_flush_sphere_is_proven_at_once(swap: bool) -> None:
+    pair = sphere_and_mould()
+    found = search_thickness(*(pair[::-1] if swap else pair), width=0.01, work=WORK)
+    assert found.stop == "narrow"
+    assert found.upper <= 1e-10  # rounding, 256 roundoffs of the size a few times
+
+
+@pytest.mark.parametrize("shift", [1e-3, 1e-6, 1e-9])
+def test_a_sphere_moved_in_its_mould(shift: float) -> None:
+    """A move across a triangle makes a slab over it. No ball in both is thicker, for that move back
+    frees the sphere."""
+    found = search_thickness(*sphere_and_mould(shift=shift), width=0.01, work=2 * WORK)
+    assert found.lower <= shift * (1 + 1e-6)
+    assert shift * (1 - 1e-6) <= found.upper <= 3 * shift
+
+
+def test_a_sphere_too_large_for_its_mould() -> None:
+    """Each triangle is a slab of `growth` times its height above the centre, at most 1."""
+    growth = 1e-6
+    found = search_thickness(*sphere_and_mould(larger=1 + growth), width=0.01, work=2 * WORK)
+    assert found.lower <= growth * (1 + 1e-6)
+    assert 0.99 * growth <= found.upper <= 3 * growth
+
+
+def waves(*, up: bool, shift: float = 0.0) -> Surface:
+    """A block of the unit square that ends in waves, above or below them."""
+    n = 40
+    grid = np.linspace(0, 1, n + 1)
+    x, y = (a.ravel() for a in np.meshgrid(grid, grid, indexing="ij"))
+    heights = (0.1 * np.sin(7 * x) * np.cos(5 * y) + shift, np.full_like(x, 1.0 if up else -1.0))
+    points = np.vstack([np.column_stack((x, y, z)) for z in heights])
+    place = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    a, b, c, d = (
+        part.ravel() for part in (place[:-1, :-1], place[1:, :-1], place[1:, 1:], place[:-1, 1:])
+    )
+    far = len(x)
+    ring = np.concatenate((place[:-1, 0], place[-1, :-1], place[:0:-1, -1], place[0, :0:-1]))
+    after = np.roll(ring, -1)
+    faces = np.vstack(
+        [
+            np.column_stack(t)
+            for t in (
+                (a, b, c),
+                (a, c, d),
+                (a + far, c + far, b + far),
+                (a + far, d + far, c + far),
+                (after, ring, ring + far),
+                (after, ring + far, after + far),
+            )
+        ]
+    )
+    return Surface(Mesh(points, (faces[:, ::-1] if up else faces).astype(np.uint32)), True)
+
+
+def test_flush_waves_and_waves_pressed_together() -> None:
+    """Waves of 3,200 triangles. Pressed together they overlap by no more than they were moved."""
+    flush = search_thickness(waves(up=False), waves(up=True), width=0.01, work=WORK)
+    assert flush.upper <= 1e-9
+    pressed = search_thickness(
+        waves(up=False), waves(up=True, shift=-0.01), width=0.01, work=4 * WORK
+    )
+    assert 0 < pressed.lower <= 0.01
+    assert pressed.upper <= 0.03

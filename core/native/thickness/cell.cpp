@@ -165,7 +165,7 @@ std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double sca
     }
     if (!below || !above) return std::nullopt;
     const std::vector<Crossing> cut = crossings(cell, tried, beyond, scale);
-    const auto worst = std::max_element(cut.begin(), cut.end(), [](const Crossing& p, const Crossing& q) { return p.error < q.error; });
+    const auto worst = std::max_element(cut.begin(), cut.end(), [](const auto& p, const auto& q) { return p.error < q.error; });
     if (worst->error <= error) return Halves{part(cell, tried, beyond, cut, 1), part(cell, tried, beyond, cut, -1), tried};
     // An edge that is almost in the plane: past its nearer end.
     const double down = beyond[worst->below], up = beyond[worst->above];

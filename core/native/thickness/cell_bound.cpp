@@ -12,6 +12,7 @@
 #include "mesh/nearest_point.hpp"
 #include "thickness/cell_cut.hpp"
 #include "thickness/matrix_game.hpp"
+#include "thickness/void_bound.hpp"
 
 namespace satcheck {
 namespace {
@@ -30,10 +31,14 @@ constexpr double kPlaneTolerance = 1e-3;
 constexpr double kHopeless = 0.5;
 // A void is split off, leaving a layer of this share of what is enough.
 constexpr double kLayer = 0.25;
+// With more patches a cell is crowded; with fewer the void between them is looked at, if it may make the bound smaller
+// by this factor.
+constexpr std::size_t kCrowd = 64;
+constexpr double kWorthwhile = 0.12;
+// A point in front of a patch is that far from it, as a share of the size of the cell.
+constexpr double kInFront = 0.02;
 // Where a column is the depth of the game's point, it counts this much although the bound may not rest on it.
 constexpr double kNearestWeight = 0.5;
-// From so many patches on, the tree of the surface has the nearest one sooner than a list.
-constexpr std::size_t kManyPatches = 256;
 
 struct Nearest {
   double depth = INFINITY;
@@ -51,6 +56,7 @@ class CellBound {
     for (const Cell::Corner& corner : cell_.corners) middle_ = middle_ + corner.at;
     middle_ = middle_ * (1.0 / static_cast<double>(cell_.corners.size()));
     for (const Cell::Corner& corner : cell_.corners) radius_ = larger(radius_, norm(corner.at - middle_));
+    if (record_ == nullptr && is_crowded()) return;
     for (int body = 0; body < 2; ++body) {
       if (is_outside(body)) {
         open_.bound = floor_;
@@ -58,6 +64,9 @@ class CellBound {
         return;
       }
     }
+    if (record_ == nullptr) bound_by_voids();
+    if (open_.bound <= enough_) return;
+    list_patches();
     const double bound = solve() + rounding_of_sum() + cell_.error;
     if (bound < open_.bound) {
       if (record_ != nullptr) record_->set_bound(open_.node, std::move(terms_));
@@ -71,26 +80,86 @@ class CellBound {
  private:
   // All that is no farther from the cell than its points can be deep in the body.
   Aabb reach_of(int body) const {
-    const double reach = open_.bound + bodies_.less(body) + 2 * bodies_.rounding();
-    const Vec3 wide{reach, reach, reach};
-    return {box_.min - wide, box_.max + wide};
+    return bodies_.widened(box_, open_.bound + bodies_.less(body) + 2 * bodies_.rounding());
   }
 
-  // Leaves out patches too far away to matter. Whether the body has no point inside the cell.
+  // Whether the body has no point inside the cell.
   bool is_outside(int body) {
     const auto side = static_cast<std::size_t>(body);
-    PatchList& near = open_.near[side];
-    const Aabb around = reach_of(body);
-    work_done += kFilterWork * near.size();
-    std::erase_if(near, [&](std::uint32_t i) { return !meet(bodies_.box(body, i), around); });
     if (open_.inside[side]) return false;
+    const PatchList& near = open_.is_listed ? open_.near[side] : met_[side] = bodies_.patches_at(body, box_);
+    PatchList met;
+    work_done += kFilterWork * near.size();
     for (const std::uint32_t i : near) {
-      if (may_meet(body, i)) met_[side].push_back(i);
+      if (may_meet(body, i)) met.push_back(i);
     }
+    met_[side] = std::move(met);
     if (!met_[side].empty()) return false;
-    if (bodies_.is_outside(body, middle_)) return true;
+    if (is_void_at_middle(body)) return true;
     open_.inside[side] = bodies_.is_inside(body, middle_);
     return false;
+  }
+
+  bool is_void_at_middle(int body) {
+    auto& known = void_at_middle_[static_cast<std::size_t>(body)];
+    if (!known) known = bodies_.is_outside(body, middle_);
+    return *known;
+  }
+
+  // Whether many patches run through the cell around a point outside of the body: no point is deeper than it is far from
+  // there. What is near to it follows from the parts of the cell.
+  bool is_crowded() {
+    for (int body = 0; body < 2; ++body) {
+      if (open_.is_listed && open_.near[static_cast<std::size_t>(body)].size() <= kCrowd) continue;
+      if (bodies_.patches_at(body, box_, kCrowd + 1).size() <= kCrowd || !is_void_at_middle(body)) continue;
+      open_.bound = std::fmin(open_.bound, radius_ + cell_.error + bodies_.rounding() - bodies_.less(body));
+      return true;
+    }
+    return false;
+  }
+
+  // Lists the patches near enough to matter.
+  void list_patches() {
+    for (int body = 0; body < 2; ++body) {
+      PatchList& near = open_.near[static_cast<std::size_t>(body)];
+      const Aabb around = reach_of(body);
+      if (!open_.is_listed) near = bodies_.patches_at(body, around);
+      work_done += kFilterWork * near.size();
+      std::erase_if(near, [&](std::uint32_t i) { return !meet(bodies_.box(body, i), around); });
+    }
+    open_.is_listed = true;
+  }
+
+  // Around a point outside of either body.
+  void bound_by_voids() {
+    for (int body = 0; body < 2; ++body) {
+      const auto side = static_cast<std::size_t>(body);
+      if (met_[side].empty() || met_[side].size() > kCrowd) continue;
+      const auto hollow = hollow_of(body);
+      if (!hollow) continue;
+      const CellVoid here{cell_, body, met_[side], *hollow, open_.is_listed ? &open_.near[1 - side] : nullptr};
+      const double bound = bound_around(here, bodies_, kWorthwhile * std::fmin(open_.bound, radius_));
+      open_.bound = std::fmin(open_.bound, bound);
+    }
+  }
+
+  // A point of the cell outside of the body: its middle, or one a little in front of the nearest patch.
+  std::optional<Vec3> hollow_of(int body) {
+    if (is_void_at_middle(body)) return middle_;
+    const ConvexPatches& patches = bodies_.patches(body);
+    Vec3 front;
+    double least = INFINITY;
+    for (const std::uint32_t i : met_[static_cast<std::size_t>(body)]) {
+      const Vec3 on = patches.nearest(patches.patches[i], middle_);
+      if (norm(on - middle_) >= least) continue;
+      least = norm(on - middle_);
+      front = on + patches.patches[i].normal * (kInFront * radius_);
+    }
+    const double close = cell_.error + bodies_.rounding();
+    for (const HalfSpace& side : cell_.sides) {
+      if (dot(side.normal, front) > side.height - close) return std::nullopt;
+    }
+    return bodies_.is_outside(body, front) ? std::optional(front) : std::nullopt;
   }
 
   // Whether the patch may have a point in the interior of the cell.
@@ -233,7 +302,8 @@ class CellBound {
   void choose_cut() {
     if (outside_ >= 0) {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
-      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_[static_cast<std::size_t>(outside_)], point_, layer);
+      const PatchList& met = met_[static_cast<std::size_t>(outside_)];
+      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met, point_, layer);
     }
     if (!open_.cut) open_.cut = cut_at_gap(gap());
   }
@@ -280,6 +350,7 @@ class CellBound {
   double floor_ = 0, floor_of_game_ = 0;
   Vec3 middle_;        // a point of the cell
   double radius_ = 0;  // no point of it is farther from there
+  std::array<std::optional<bool>, 2> void_at_middle_;
   PatchLists met_;  // patches that may meet the cell
   std::optional<MatrixGame> game_;
   std::vector<Column> columns_;

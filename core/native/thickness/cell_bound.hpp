@@ -14,7 +14,8 @@ namespace satcheck {
 struct OpenCell {
   double bound = INFINITY;  // of the depth of its points
   Cell cell;
-  PatchLists near;                    // patches that can be nearest to a point of it
+  PatchLists near;                    // patches that can be nearest to a point of it, and others
+  bool is_listed = false;             // `near` is known
   std::vector<Column> columns;        // that the bound of the cell it comes from rests on
   std::array<bool, 2> inside{};       // all of it is inside the body
   std::optional<HalfSpace> cut;       // where to split it

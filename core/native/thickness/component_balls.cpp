@@ -33,8 +33,16 @@ struct Plane {
   double depth(Vec3 p) const { return height - dot(normal, p); }
 };
 
-// Nothing of points in one plane.
+std::vector<Plane> box_planes(const std::vector<Vec3>& points) {
+  Aabb box;
+  for (const Vec3 p : points) box.include(p);
+  return {{{1, 0, 0}, box.max.x}, {{0, 1, 0}, box.max.y}, {{0, 0, 1}, box.max.z},
+          {{-1, 0, 0}, -box.min.x}, {{0, -1, 0}, -box.min.y}, {{0, 0, -1}, -box.min.z}};
+}
+
+// Nothing of points in one plane. Of many points, the sides of their box.
 std::vector<Plane> hull_planes(const std::vector<Vec3>& points) {
+  if (points.size() > kMostHullPoints) return box_planes(points);
   const Polytope polytope = convex_hull(points);
   std::vector<Plane> planes;
   if (polytope.dimension < 3) return planes;

@@ -8,8 +8,11 @@
 
 namespace satcheck {
 
+// The hull of more points is no sliver, and is not looked at.
+inline constexpr std::size_t kMostHullPoints = 5000;
+
 // Of each component. upper: the diameter of the largest ball in its convex hull, which is its thickness where it is
-// convex, as slivers between facets are. centre: of that ball; lower: how thick the overlap of the solids is around it,
+// convex, as slivers between facets are; of components with many corners, that in their box. centre: of that ball; lower: how thick the overlap of the solids is around it,
 // and 0 where it does not lie in both, or may belong to another component.
 std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& b, const OverlapComponents& overlap);
 

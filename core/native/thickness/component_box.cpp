@@ -6,6 +6,7 @@
 
 #include "base/tolerances.hpp"
 #include "convex/convex_hull.hpp"
+#include "thickness/component_balls.hpp"
 
 namespace satcheck {
 namespace {
@@ -45,6 +46,7 @@ Vec3 thinnest(const std::vector<Vec3>& points, const std::vector<Vec3>& directio
 }
 
 Mat3 axes_of(const std::vector<Vec3>& points) {
+  if (points.size() > kMostHullPoints) return {};
   const Polytope hull = convex_hull(points);
   if (hull.dimension < 3) return {};
   const Vec3 first = thinnest(hull.vertices, hull.face_normal, {});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "thickness/component_balls.hpp"
@@ -14,6 +13,9 @@ namespace {
 // Of triangles that meet; more take longer than they are worth.
 constexpr std::size_t kMostPairs = 100'000;
 
+// A hull that is thicker than all of the overlap by this factor says nothing about its component.
+constexpr double kThicker = 2;
+
 class ComponentSearch {
  public:
   ComponentSearch(const OverlapComponents& overlap, std::vector<ThicknessInterval> balls, const ThicknessGoal& goal,
@@ -22,24 +24,22 @@ class ComponentSearch {
 
   ThicknessInterval run() {
     const double known = best_.upper;
-    for (const ThicknessInterval& ball : balls_) take_ball(ball);
-    double upper = best_.lower;
-    for (const std::size_t k : thickest_first()) {
-      const double hull = hull_bound(k);
-      if (hull <= enough() || left_ == 0) {  // and so are those after it
-        upper = std::fmax(upper, hull);
-        break;
-      }
-      upper = std::fmax(upper, std::fmin(hull, upper_end(k)));
+    for (const ThicknessInterval& ball : balls_) {
+      take_ball(ball);
+      upper_.push_back(hull_bound(ball));
     }
+    narrow([&](std::size_t open) { return left_ / open; });
+    narrow([&](std::size_t) { return left_; });
+    double upper = best_.lower;
+    for (const double of_one : upper_) upper = std::fmax(upper, of_one);
     best_.upper = std::fmax(std::fmin(known, upper), best_.lower);
     return best_;
   }
 
  private:
   // Of 2 min(d_A - e_A, d_B - e_B) in a component; rounded up.
-  double hull_bound(std::size_t k) const {
-    return std::nextafter(balls_[k].upper - 2 * std::fmin(goal_.less_a, goal_.less_b), INFINITY);
+  double hull_bound(const ThicknessInterval& ball) const {
+    return std::nextafter(ball.upper - 2 * std::fmin(goal_.less_a, goal_.less_b), INFINITY);
   }
 
   void take_ball(const ThicknessInterval& ball) {
@@ -62,11 +62,20 @@ class ComponentSearch {
     return goal_.limit ? std::fmax(narrow, *goal_.limit) : narrow;
   }
 
-  std::vector<std::size_t> thickest_first() const {
-    std::vector<std::size_t> order(balls_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](auto p, auto q) { return balls_[p].upper > balls_[q].upper; });
-    return order;
+  // All components that leave the goal open, the thickest first. share: of the work, by how many they are.
+  template <class Share>
+  void narrow(Share share) {
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < upper_.size(); ++k) {
+      if (upper_[k] > enough()) open.push_back(k);
+    }
+    std::stable_sort(open.begin(), open.end(), [&](auto p, auto q) { return upper_[p] > upper_[q]; });
+    for (std::size_t i = 0; i < open.size() && left_ > 0; ++i) {
+      double& upper = upper_[open[i]];
+      if (upper <= enough()) break;  // and so are those after it
+      share_ = share(open.size() - i);
+      upper = std::fmin(upper, upper_end(open[i]));
+    }
   }
 
   // Proven, of a component that is searched.
@@ -75,7 +84,7 @@ class ComponentSearch {
     goal.within = box_around(overlap_.components[k]);
     goal.limit = enough();
     ThicknessInterval interval = searched(goal);
-    if (!goal_.limit && interval.lower > *goal.limit && left_ > 0) {
+    if (!goal_.limit && interval.lower > *goal.limit && share_ > 0) {
       goal.limit.reset();
       interval = searched(goal);
     }
@@ -83,9 +92,10 @@ class ComponentSearch {
   }
 
   ThicknessInterval searched(ThicknessGoal& goal) {
-    goal.work = left_;
+    goal.work = share_;
     const ThicknessInterval interval = search_(goal);
     left_ -= std::min(left_, interval.work);
+    share_ -= std::min(share_, interval.work);
     best_.work += interval.work;
     best_.boxes += interval.boxes;
     if (interval.found) take_point(interval);
@@ -96,8 +106,10 @@ class ComponentSearch {
   std::vector<ThicknessInterval> balls_;
   const ThicknessGoal& goal_;
   ThicknessInterval best_;
+  std::vector<double> upper_;  // of each component
   const SearchWithin& search_;
-  std::uint64_t left_;
+  std::uint64_t left_;       // of the work
+  std::uint64_t share_ = 0;  // of that, for one component
 };
 
 }  // namespace
@@ -106,7 +118,13 @@ std::optional<ThicknessInterval> search_components(const Surface& a, const Surfa
                                                    const ThicknessInterval& known, const SearchWithin& search) {
   const OverlapComponents overlap = overlap_components(a, b, kMostPairs);
   if (!overlap.resolved) return std::nullopt;
-  return ComponentSearch(overlap, component_balls(a, b, overlap), goal, known, search).run();
+  std::vector<ThicknessInterval> balls = component_balls(a, b, overlap);
+  const auto is_thick = [&](const ThicknessInterval& ball) {
+    return ball.upper - 2 * std::fmin(goal.less_a, goal.less_b) > kThicker * known.upper;
+  };
+  const auto thick = static_cast<std::uint64_t>(std::count_if(balls.begin(), balls.end(), is_thick));
+  if (thick * known.work > goal.work) return std::nullopt;
+  return ComponentSearch(overlap, std::move(balls), goal, known, search).run();
 }
 
 }  // namespace satcheck

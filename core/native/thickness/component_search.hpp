@@ -11,8 +11,9 @@ namespace satcheck {
 using SearchWithin = std::function<ThicknessInterval(const ThicknessGoal&)>;
 
 // The hull of a component bounds its thickness at once. `search` is called for components whose hulls leave the goal open,
-// the thickest hull first, with their boxes and what is left of the work. known: an interval of the whole overlap.
-// Nothing where the components are not resolved.
+// the thickest hull first, with their boxes and their share of the work. known: an interval of the whole overlap.
+// Nothing where the components are not resolved, or where many hulls are much thicker than what is known: each of
+// these components takes as long as the whole overlap took.
 std::optional<ThicknessInterval> search_components(const Surface& a, const Surface& b, const ThicknessGoal& goal,
                                                    const ThicknessInterval& known, const SearchWithin& search);
 

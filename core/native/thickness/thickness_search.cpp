@@ -21,8 +21,8 @@ namespace {
 // Measured steps of a cell, and steps between two calls of poll().
 constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
 
-// Of work, until the components of the overlap are looked at.
-constexpr std::uint64_t kPatience = 10'000'000;
+// Of work, until the components of the overlap are looked at: at least, and for each triangle.
+constexpr std::uint64_t kPatience = 10'000'000, kPatiencePerTriangle = 2000;
 
 // Bounds below this many roundings are not divided further: rounding keeps them above 0.
 constexpr double kNoise = 1024;
@@ -32,11 +32,6 @@ constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
 
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
-
-Aabb common_box(const Aabb& a, const Aabb& b) {
-  return {{std::fmax(a.min.x, b.min.x), std::fmax(a.min.y, b.min.y), std::fmax(a.min.z, b.min.z)},
-          {std::fmin(a.max.x, b.max.x), std::fmin(a.max.y, b.max.y), std::fmin(a.max.z, b.max.z)}};
-}
 
 bool smaller_bound(const std::unique_ptr<OpenCell>& a, const std::unique_ptr<OpenCell>& b) {
   return a->bound != b->bound ? a->bound < b->bound : a->number > b->number;
@@ -121,7 +116,7 @@ class Search {
     }
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
-    root.near = bodies_.find_patches(root.cell.box(), reach, kFlatness * half);
+    bodies_.make_patches(root.cell.box(), reach, kFlatness * half);
     box_ = box;
     if (record_) root.node = record_->add_root();
     add(std::make_unique<OpenCell>(std::move(root)));
@@ -171,7 +166,8 @@ class Search {
     if (record_) nodes = record_->divide(parent.node, halves->plane);
     for (Cell* part : {&halves->below, &halves->above}) {
       const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
-      auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.columns, parent.inside, {}, 0, node});
+      auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.is_listed,
+                                                       parent.columns, parent.inside, {}, 0, node});
       add(std::move(child));
     }
   }
@@ -243,12 +239,13 @@ ThicknessStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& go
 ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
   const bool has_components = goal.across < 0 && !goal.prove && !goal.within;
-  if (!has_components || goal.work <= kPatience) return search_either_way(a, b, goal);
+  const std::uint64_t patience = kPatience + kPatiencePerTriangle * (a.mesh.triangles.size() + b.mesh.triangles.size());
+  if (!has_components || goal.work <= patience) return search_either_way(a, b, goal);
   ThicknessGoal next = goal;
-  next.work = kPatience;
+  next.work = patience;
   const ThicknessInterval first = search_either_way(a, b, next);
   if (first.stop != ThicknessStop::work_spent) return first;
-  next.work = goal.work - kPatience;
+  next.work = goal.work - patience;
   const auto search = [&](const ThicknessGoal& of_one) { return search_either_way(a, b, of_one); };
   std::optional<ThicknessInterval> interval = search_components(a, b, next, first, search);
   if (!interval) return search_either_way(a, b, goal);

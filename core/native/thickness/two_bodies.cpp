@@ -23,6 +23,32 @@ Vec3 farthest_corner(const Aabb& box, Vec3 along) {
   return {along.x > 0 ? box.max.x : box.min.x, along.y > 0 ? box.max.y : box.min.y, along.z > 0 ? box.max.z : box.min.z};
 }
 
+// Of a convex polygon, the largest normal . x in the box: the polygon, cut by the six sides of the box where that may
+// make it smaller than `enough`.
+double farthest_in(std::vector<Vec3> shape, const Aabb& box, Vec3 normal, double enough) {
+  const auto farthest = [&] {
+    double most = -INFINITY;
+    for (const Vec3 p : shape) most = larger(most, dot(normal, p));
+    return most;
+  };
+  if (farthest() <= enough) return farthest();
+  std::vector<Vec3> cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const double wall = sign > 0 ? box.max[axis] : -box.min[axis];
+      cut.clear();
+      for (std::size_t i = 0; i < shape.size(); ++i) {
+        const Vec3 p = shape[i], q = shape[(i + 1) % shape.size()];
+        const double s = sign * p[axis] - wall, t = sign * q[axis] - wall;
+        if (s <= 0) cut.push_back(p);
+        if ((s < 0 && t > 0) || (s > 0 && t < 0)) cut.push_back(p + (q - p) * (s / (s - t)));
+      }
+      std::swap(shape, cut);
+    }
+  }
+  return farthest();
+}
+
 }  // namespace
 
 TwoBodies::TwoBodies(const Surface& a, const Surface& b, const ThicknessGoal& goal)
@@ -41,8 +67,13 @@ bool TwoBodies::counts(int body, std::uint32_t triangle) const {
   return box.min[across_] != box.max[across_];
 }
 
-PatchLists TwoBodies::find_patches(const Aabb& box, double reach, double flatness) {
-  PatchLists lists;
+Aabb TwoBodies::widened(const Aabb& box, double reach) const {
+  const auto along = [&](int axis) { return axis == across_ ? 0.0 : reach; };
+  const Vec3 wide{along(0), along(1), along(2)};
+  return {box.min - wide, box.max + wide};
+}
+
+void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
   const Vec3 wide{reach, reach, reach};
   for (int body = 0; body < 2; ++body) {
     const Surface& from = surface(body);
@@ -53,11 +84,21 @@ PatchLists TwoBodies::find_patches(const Aabb& box, double reach, double flatnes
     });
     std::sort(triangles.begin(), triangles.end());
     work_done += 20 * kDistanceWork * triangles.size();
-    const auto side = static_cast<std::size_t>(body);
-    patches_[side] = convex_patches(from.mesh, triangles, flatness);
-    for (std::uint32_t i = 0; i < patches_[side].patches.size(); ++i) lists[side].push_back(i);
+    patches_[static_cast<std::size_t>(body)] = convex_patches(from.mesh, triangles, flatness);
   }
-  return lists;
+}
+
+PatchList TwoBodies::patches_at(int body, const Aabb& box, std::size_t most) const {
+  PatchList list;
+  const Surface& from = surface(body);
+  visit_box(from.bvh, from.mesh, box, [&](std::uint32_t t) {
+    const std::uint32_t i = patches(body).patch_of[t];
+    if (i != kNoPatch) list.push_back(i);
+    return list.size() < most;
+  });
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
 }
 
 double TwoBodies::value(const Column& column, Vec3 p) const {
@@ -88,27 +129,47 @@ double TwoBodies::clearance(int body, Vec3 p) const {
   return least - rounding_;
 }
 
-// The largest normal . x of a patch's points in the box: the outline, cut by the six sides of the box.
-double TwoBodies::farthest_in(int body, std::uint32_t number, const Aabb& box, Vec3 normal) const {
-  const Patch& from = patch(body, number);
-  const Vec3* outline = patches(body).outlines.data() + from.first;
-  std::vector<Vec3> shape(outline, outline + from.count), cut;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {1.0, -1.0}) {
-      const double wall = sign > 0 ? box.max[axis] : -box.min[axis];
-      cut.clear();
-      for (std::size_t i = 0; i < shape.size(); ++i) {
-        const Vec3 p = shape[i], q = shape[(i + 1) % shape.size()];
-        const double s = sign * p[axis] - wall, t = sign * q[axis] - wall;
-        if (s <= 0) cut.push_back(p);
-        if ((s < 0 && t > 0) || (s > 0 && t < 0)) cut.push_back(p + (q - p) * (s / (s - t)));
-      }
-      std::swap(shape, cut);
+double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough) const {
+  if (near.size() >= kManyPatches) return farthest_in_tree(body, box, normal, least, enough);
+  const auto compare = [&](std::uint32_t number) {
+    const Patch& from = patch(body, number);
+    const Aabb& around = this->box(body, number);
+    if (dot(normal, farthest_corner(around, normal)) <= least || !meet(around, box)) return;
+    const Vec3* outline = patches(body).outlines.data() + from.first;
+    least = larger(least, farthest_in({outline, outline + from.count}, box, normal, enough) + from.slack);
+  };
+  for (const std::uint32_t number : near) {
+    work_done += kSideWork;
+    compare(number);
+    if (least > enough) break;
+  }
+  return least;
+}
+
+double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough) const {
+  const Surface& from = surface(body);
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty() && least <= enough) {
+    const BvhNode& node = from.bvh.nodes[stack.back()];
+    stack.pop_back();
+    work_done += kNodeWork;
+    if (!meet(node.box, box) || dot(normal, farthest_corner(common_box(node.box, box), normal)) <= least) continue;
+    if (!node.is_leaf()) {
+      const bool left_first = dot(normal, farthest_corner(from.bvh.nodes[node.first].box, normal)) >
+                              dot(normal, farthest_corner(from.bvh.nodes[node.first + 1].box, normal));
+      stack.push_back(node.first + (left_first ? 1 : 0));
+      stack.push_back(node.first + (left_first ? 0 : 1));
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::uint32_t t = from.bvh.order[i];
+      if (patches(body).patch_of[t] == kNoPatch || !meet(box_at(from.bvh, from.mesh, i), box)) continue;
+      work_done += kSideWork;
+      const Corners c = corners(from.mesh, t);
+      least = larger(least, farthest_in({c.begin(), c.end()}, box, normal, larger(least, enough)));
     }
   }
-  double most = -INFINITY;
-  for (const Vec3 p : shape) most = larger(most, dot(normal, p));
-  return most;
+  return least;
 }
 
 std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, const Aabb& box, const PatchList& near,
@@ -118,19 +179,7 @@ std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, co
   for (const double sign : {1.0, -1.0}) {
     const Vec3 normal = from.normal * sign;
     const double plane = dot(normal, from.origin) + from.slack;
-    double height = plane;
-    for (const std::uint32_t other : near) {
-      work_done += kSideWork;
-      const Aabb& around = this->box(body, other);
-      const double bulge = patch(body, other).slack;  // of its triangles, beyond its outline; the box has it
-      if (other == number || dot(normal, farthest_corner(around, normal)) <= height || !meet(around, box)) continue;
-      double farthest = -INFINITY;
-      const Vec3* outline = patches(body).outlines.data() + patch(body, other).first;
-      for (std::uint32_t i = 0; i < patch(body, other).count; ++i) farthest = larger(farthest, dot(normal, outline[i]));
-      if (farthest > plane + tolerance) farthest = farthest_in(body, other, box, normal);
-      height = larger(height, farthest + bulge);
-      if (height > plane + tolerance) break;
-    }
+    double height = farthest(body, box, normal, near, plane, plane + tolerance);
     if (height > plane + tolerance) continue;
     height += rounding_;
     const Vec3 corner = farthest_corner(box, normal);

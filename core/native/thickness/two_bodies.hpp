@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "thickness/thickness_search.hpp"
 
 namespace satcheck {
+
+// From so many patches on, the tree of the surface has the ones in a place sooner than a list.
+inline constexpr std::size_t kManyPatches = 256;
 
 using PatchList = std::vector<std::uint32_t>;
 using PatchLists = std::array<PatchList, 2>;  // of either body
@@ -23,6 +27,12 @@ struct Column {
   double sign;    // the plane's normal is that of the patch, times this
 };
 
+// What two boxes that meet have in common.
+inline Aabb common_box(const Aabb& a, const Aabb& b) {
+  return {{std::fmax(a.min.x, b.min.x), std::fmax(a.min.y, b.min.y), std::fmax(a.min.z, b.min.z)},
+          {std::fmin(a.max.x, b.max.x), std::fmin(a.max.y, b.max.y), std::fmin(a.max.z, b.max.z)}};
+}
+
 class TwoBodies {
  public:
   TwoBodies(const Surface& a, const Surface& b, const ThicknessGoal& goal);
@@ -34,11 +44,16 @@ class TwoBodies {
   double less(int body) const { return less_[static_cast<std::size_t>(body)]; }
   const Surface& surface(int body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
   const ConvexPatches& patches(int body) const { return patches_[static_cast<std::size_t>(body)]; }
+  // All that is no farther from the box than that; in the plane, in its directions.
+  Aabb widened(const Aabb& box, double reach) const;
   const Aabb& box(int body, std::uint32_t i) const { return patches(body).boxes[i]; }
   const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
 
   // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp.
-  PatchLists find_patches(const Aabb& box, double reach, double flatness);
+  void make_patches(const Aabb& box, double reach, double flatness);
+
+  // Of the patches that were made, those with a triangle whose box meets this one: of the first `most` such triangles.
+  PatchList patches_at(int body, const Aabb& box, std::size_t most = kNoPatch) const;
 
   // With less() of the body taken off.
   double value(const Column& column, Vec3 p) const;
@@ -50,13 +65,17 @@ class TwoBodies {
   // The distance from p to the nearest triangle of the body, from below.
   double clearance(int body, Vec3 p) const;
 
+  // The largest normal . x of the body's points in the box, or `least`: whichever is larger, rounding not included.
+  // Anything above `enough` where it is larger than that. near: the patches of the body that meet the box, and others.
+  double farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough) const;
+
   // The patch's plane as a column, where the body, of which `near` are the patches, has nothing beyond it in the box.
   // tolerance: by how much it may reach beyond the patch's own plane.
   std::optional<Column> plane_column(int body, std::uint32_t patch, const Aabb& box, const PatchList& near, double tolerance) const;
 
  private:
   bool counts(int body, std::uint32_t triangle) const;
-  double farthest_in(int body, std::uint32_t patch, const Aabb& box, Vec3 normal) const;
+  double farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough) const;
 
   std::array<const Surface*, 2> surfaces_;
   std::array<double, 2> less_;
