@@ -10,6 +10,7 @@ from tempfile import mkdtemp
 from typing import Any
 
 import click
+from click.core import ParameterSource
 from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
@@ -75,8 +76,8 @@ def command(
     """Show a report in 3-D, from its mesh files.
 
     REPORT is a JSON report of a check. The mesh files are read again, and a file that has changed
-    since is named. Without an output the page opens in the browser. Where surfaces cross is shown
-    if the check had --contacts.
+    since is named. Without an output the page opens in the browser; -o takes .html, .png and .glb.
+    Where surfaces cross is shown if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.
@@ -92,9 +93,13 @@ def command(
     document = Document()
     stated = replace(stated, issues=(*issues, *stated.issues))
     split = parts or stated.settings.accuracy == "parts"
-    if output is not None or not pictures:
+    named = _is_named("output")
+    if named or not pictures:
         content = render(form, stated, scene, split=split, cache=cache)
-        _show(content, document) if output is None else write_file(output, content)
+        if named:
+            document.deliver(lambda _: content, output, utf8=True)
+        else:
+            _show(content, document)
     write_pictures(pictures, stated, scene)
     return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
 
@@ -114,6 +119,12 @@ def _of_asset(document: AssetsReport, path: Path, asset: str | None) -> Report:
         files = ", ".join(each.file for each in document.assets)
         raise click.UsageError(f"{path} has several assets: name one with --asset: {files}")
     return named[0].report
+
+
+def _is_named(option: str) -> bool:
+    """Also as standard output."""
+    source = click.get_current_context().get_parameter_source(option)
+    return source is not ParameterSource.DEFAULT
 
 
 def _show(content: bytes | str, document: Document) -> None:

@@ -44,6 +44,13 @@ def test_without_a_display_the_page_is_named(folder: Path) -> None:
     shutil.rmtree(page.parent)
 
 
+def test_the_page_goes_to_standard_output(folder: Path) -> None:
+    satcheck(*PUSHED, "-o", "report.json", cwd=folder)
+    ran = satcheck("view", "report.json", "-o", "-", cwd=folder)
+    assert (ran.code, ran.err) == (0, "")
+    assert page_data(ran.out)["findings"]
+
+
 def test_a_changed_file_is_named_and_drawn_as_it_is_now(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
     shutil.copy(SAMPLES / "l_bracket.obj", folder / "box.obj")
