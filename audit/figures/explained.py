@@ -72,10 +72,9 @@ def _reach(pair: Pair, limit: float) -> tuple[Explained, str] | None:
     part does."""
     most = MOST_REACH * sum(pair.off)
     for off, body, other in (((0.0, most), pair.a, pair.b), ((most, 0.0), pair.b, pair.a)):
-        if pair.settings.across >= 0:
-            interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
-            reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit
-        else:
+        interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
+        reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit
+        if reaches is None and pair.settings.across < 0:
             work = pair.settings.thickness_work
             reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
         if reaches:
