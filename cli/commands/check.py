@@ -53,25 +53,16 @@ from satcheck.cli.options import (
     top_option,
     units_option,
 )
-from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.output import Document
 from satcheck.cli.pictures import refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.progress import Bar
+from satcheck.cli.rendering import Shown, rendered, tell
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import render as render_for_ci
-from satcheck.cli.report.json import document as json_document
-from satcheck.cli.report.json import render as render_json
-from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
-from satcheck.cli.report.summary import counts_line
-from satcheck.cli.report.verdict import next_step, verdict_line
-from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene import Scene
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Pose
 
-
-# With -o at most this many warnings are repeated on stderr.
-WARNINGS = 5
 # Up to this, a check ends before the garbage collector could pay.
 SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
@@ -318,21 +309,16 @@ def command(
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
+    shown = Shown(explain=explain, timings=options["timings"], top=top, cache=options["cache"])
     if output is not None or not quiet:
         document.deliver(
-            lambda page: (
-                _picture(result, scene, form, cache=options["cache"])
-                if form in PICTURES and isinstance(result, Report)
-                else _render(
-                    result, form, page, explain=explain, timings=options["timings"], top=top
-                )
-            ),
+            lambda page: rendered(result, scene, form, page, shown),
             output,
             utf8=form != "table",
         )
     if isinstance(result, Report):
         write_pictures(pictures, result, scene)
-    _tell(result, scene, None if quiet else output)
+    tell(result, scene, None if quiet else output)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
 
@@ -392,55 +378,3 @@ def _check_poses(
 ) -> Samples:
     with Bar("poses") as bar:
         return replace(check_poses(scene, poses, settings, progress=bar), seed=seed)
-
-
-def _picture(report: Report, scene: Scene, form: str, *, cache: bool) -> str | bytes:
-    from satcheck.cli.report.picture import render
-
-    return render(form, report, scene, split=report.settings.accuracy == "parts", cache=cache)
-
-
-def _render(
-    result: Report | Samples,
-    form: str,
-    page: Page,
-    *,
-    explain: bool,
-    timings: bool,
-    top: int | None,
-) -> str | list[str]:
-    if isinstance(result, Samples):
-        if form == "json":
-            return json_document(result.to_dict(timings))
-        from satcheck.cli.report.samples import render as render_samples
-
-        return render_samples(result, page, top=top)
-    if form == "json":
-        return render_json(result, timings=timings)
-    if form in CI_FORMATS:
-        return render_for_ci({"satcheck": result}, form)
-    from satcheck.cli.report.table import render as render_table
-
-    return render_table(result, page, explain=explain, timings=timings, top=top)
-
-
-def _tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
-    """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
-    told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
-    for issue in result.issues:
-        if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
-            talk(f"satcheck: {issue_line(issue)}")
-    if output is None:
-        return
-    if isinstance(result, Samples):
-        talk(samples_counts(result))
-        summary = samples_verdict(result)
-    else:
-        summary = " ".join([verdict_line(result), *next_step(result, written=True)])
-        warnings = [issue for issue in result.issues if issue.severity == "warning"]
-        for issue in warnings[:WARNINGS]:
-            talk(f"satcheck: {issue_line(issue)}")
-        if len(warnings) > WARNINGS:
-            talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
-        talk(counts_line(result))
-    talk(f"{summary} Report: {output}")

@@ -1,0 +1,86 @@
+"""The result of a check in the format that was chosen, and what stderr says about it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from msgspec import Struct
+
+from satcheck.audit import Report
+from satcheck.audit.samples import Samples
+from satcheck.cli.options import PICTURES
+from satcheck.cli.output import Page, talk
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.json import render as render_json
+from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
+from satcheck.cli.report.summary import counts_line
+from satcheck.cli.report.verdict import next_step, verdict_line
+from satcheck.cli.report.words import counted, issue_line
+from satcheck.scene import Scene
+
+# With -o at most this many warnings are repeated on stderr.
+WARNINGS = 5
+
+
+class Shown(Struct, frozen=True):
+    """What a table shows: the steps of each pair (explain), times, the worst rows only (top).
+
+    cache: a picture may read and write the cache of convex parts.
+    """
+
+    explain: bool
+    timings: bool
+    top: int | None
+    cache: bool
+
+
+def rendered(
+    result: Report | Samples, scene: Scene, form: str, page: Page, shown: Shown
+) -> str | bytes | list[str]:
+    """Formats are imported here, as they are needed: a table brings rich."""
+    if isinstance(result, Samples):
+        return _samples(result, form, page, shown)
+    if form == "json":
+        return render_json(result, timings=shown.timings)
+    if form in CI_FORMATS:
+        return render_for_ci({"satcheck": result}, form)
+    if form in PICTURES:
+        from satcheck.cli.report.picture import render as render_picture
+
+        parts = result.settings.accuracy == "parts"
+        return render_picture(form, result, scene, split=parts, cache=shown.cache)
+    from satcheck.cli.report.table import render as render_table
+
+    return render_table(result, page, explain=shown.explain, timings=shown.timings, top=shown.top)
+
+
+def _samples(result: Samples, form: str, page: Page, shown: Shown) -> str | list[str]:
+    if form == "json":
+        return json_document(result.to_dict(shown.timings))
+    from satcheck.cli.report.samples import render as render_samples
+
+    return render_samples(result, page, top=shown.top)
+
+
+def tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
+    """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
+    told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
+    for issue in result.issues:
+        if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
+            talk(f"satcheck: {issue_line(issue)}")
+    if output is None:
+        return
+    if isinstance(result, Samples):
+        talk(samples_counts(result))
+        summary = samples_verdict(result)
+    else:
+        summary = " ".join([verdict_line(result), *next_step(result, written=True)])
+        warnings = [issue for issue in result.issues if issue.severity == "warning"]
+        for issue in warnings[:WARNINGS]:
+            talk(f"satcheck: {issue_line(issue)}")
+        if len(warnings) > WARNINGS:
+            talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
+        talk(counts_line(result))
+    talk(f"{summary} Report: {output}")
