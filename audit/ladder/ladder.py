@@ -5,7 +5,7 @@ aabb -> obb -> hull -> triangles, or hull -> parts at --accuracy parts. The clim
 that proves a gap beyond `gap_limit`. The highest allowed rung always answers. An answer that it
 cannot prove is an estimate, and can only err towards "penetrating".
 
-The core climbs and derives the verdict (`core/native/scene/verdict.hpp`). This module adds the
+The core climbs and derives the verdict (`core/native/ladder/verdict.hpp`). This module adds the
 rungs that the core does not have: curved shapes, outlines in a plane, convex parts.
 """
 

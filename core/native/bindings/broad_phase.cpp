@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mesh/bvh.hpp"
-#include "scene/broad_phase.hpp"
+#include "ladder/broad_phase.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -15,10 +15,10 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "scene/climb.hpp"
-#include "scene/rung_words.hpp"
-#include "scene/touch_proof.hpp"
-#include "scene/words.hpp"
+#include "ladder/climb.hpp"
+#include "ladder/rung_words.hpp"
+#include "ladder/touch_proof.hpp"
+#include "ladder/words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

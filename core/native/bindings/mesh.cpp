@@ -25,8 +25,8 @@
 #include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
-#include "scene/placed_bounds.hpp"
-#include "scene/stretch.hpp"
+#include "ladder/placed_bounds.hpp"
+#include "ladder/stretch.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -14,7 +14,7 @@
 #include "convex/sat_polygon.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
-#include "scene/words.hpp"
+#include "ladder/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;

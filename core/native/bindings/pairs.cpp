@@ -11,7 +11,7 @@
 #include "base/numeric_range.hpp"
 #include "convex/batch.hpp"
 #include "convex/signed_comparison.hpp"
-#include "scene/words.hpp"
+#include "ladder/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;

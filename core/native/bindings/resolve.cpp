@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "scene/least_motion.hpp"
+#include "ladder/least_motion.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

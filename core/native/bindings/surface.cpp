@@ -20,7 +20,7 @@
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/reach.hpp"
-#include "scene/words.hpp"
+#include "ladder/words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

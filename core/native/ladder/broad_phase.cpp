@@ -2,7 +2,7 @@
 // Hierarchical Structure for Rapid Interference Detection" (1996), the simultaneous descent, on the tree of
 // bvh.cpp. Unlike a sweep along an axis, it takes time near n log n if there are few pairs. Each box is grown outward
 // by its reach, so that the walk misses no pair. The gap of the boxes themselves then decides.
-#include "scene/broad_phase.hpp"
+#include "ladder/broad_phase.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "scene/touch_proof.hpp"
+#include "ladder/touch_proof.hpp"
 
 #include <algorithm>
 

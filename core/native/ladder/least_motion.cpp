@@ -2,7 +2,7 @@
 // or back, until the wall is just kept. A wall never moves them back by more than it has moved them apart so far. Every
 // step is lengthened, after Colin W. Cryer, "The solution of a quadratic programming problem using systematic
 // overrelaxation" (1971), which suits chains of bodies.
-#include "scene/least_motion.hpp"
+#include "ladder/least_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

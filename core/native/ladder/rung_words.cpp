@@ -1,8 +1,8 @@
-#include "scene/rung_words.hpp"
+#include "ladder/rung_words.hpp"
 
 #include <charconv>
 
-#include "scene/words.hpp"
+#include "ladder/words.hpp"
 
 namespace satcheck {
 namespace {

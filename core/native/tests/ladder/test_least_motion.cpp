@@ -1,5 +1,5 @@
 // The shortest translations that keep walls, against answers by hand.
-#include "scene/least_motion.hpp"
+#include "ladder/least_motion.hpp"
 
 #include <cmath>
 

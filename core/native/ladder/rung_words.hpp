@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/climb.hpp"
+#include "ladder/climb.hpp"
 
 namespace satcheck {
 

@@ -1,6 +1,6 @@
 // Carried boxes hold what they carry, and an axis that is said to separate does: held against the convex solver on
 // the same boxes, and against their corners.
-#include "scene/oriented_box.hpp"
+#include "ladder/oriented_box.hpp"
 
 #include <random>
 

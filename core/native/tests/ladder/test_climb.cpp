@@ -1,7 +1,7 @@
 // Which rungs run for a pair and what they hand over; many at once answer as one by one, and a body that cannot be
 // made takes its own pairs with it, and no others.
 #include "mesh/transform.hpp"
-#include "scene/climb.hpp"
+#include "ladder/climb.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // The test is that of box_axes.hpp, on fewer words: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree" (1996), 15 axes.
 // The products of edges are not scaled to unit length, because the rounding of a projection does not shrink with it.
-#include "scene/oriented_box.hpp"
+#include "ladder/oriented_box.hpp"
 
 #include <algorithm>
 

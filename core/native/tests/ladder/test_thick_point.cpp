@@ -1,5 +1,5 @@
 // A point deep in two bodies: met where they overlap by more, never where they overlap by less.
-#include "scene/thick_point.hpp"
+#include "ladder/thick_point.hpp"
 
 #include "convex/shape.hpp"
 #include "mesh/topology.hpp"

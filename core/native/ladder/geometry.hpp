@@ -10,7 +10,7 @@
 
 #include "mesh/hull_points.hpp"
 #include "mesh/surface.hpp"
-#include "scene/oriented_box.hpp"
+#include "ladder/oriented_box.hpp"
 
 namespace satcheck {
 

@@ -5,7 +5,7 @@
 
 #include "convex/narrow_phase.hpp"
 #include "mesh_pair/mesh_pair.hpp"
-#include "scene/way_within.hpp"
+#include "ladder/way_within.hpp"
 
 namespace satcheck {
 

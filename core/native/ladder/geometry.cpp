@@ -1,6 +1,6 @@
 #include "convex/convex_hull.hpp"
 #include "mesh/transform.hpp"
-#include "scene/geometry.hpp"
+#include "ladder/geometry.hpp"
 
 #include "mesh/convexity.hpp"
 

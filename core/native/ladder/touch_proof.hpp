@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh_pair/mesh_pair.hpp"
-#include "scene/geometry.hpp"
+#include "ladder/geometry.hpp"
 
 namespace satcheck {
 

@@ -1,5 +1,5 @@
 // Each rung that ran has its words, in the order of the ladder, and no other.
-#include "scene/rung_words.hpp"
+#include "ladder/rung_words.hpp"
 
 #include "tests/check.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/thick_point.hpp"
+#include "ladder/thick_point.hpp"
 
 #include <cmath>
 

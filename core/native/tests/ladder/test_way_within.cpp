@@ -1,7 +1,7 @@
 // A way out of the touch band: off one wall and out of a corner of three, none of what is deeper, none without a
 // place to start from; and what is found has freed A.
 #include "mesh/transform.hpp"
-#include "scene/way_within.hpp"
+#include "ladder/way_within.hpp"
 
 #include <cmath>
 

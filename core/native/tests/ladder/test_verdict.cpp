@@ -1,9 +1,9 @@
 // The verdict from what the rungs found, put together by hand: what settles a pair, what is proven, what stays open.
-#include "scene/verdict.hpp"
+#include "ladder/verdict.hpp"
 
 #include <cmath>
 
-#include "scene/climb.hpp"
+#include "ladder/climb.hpp"
 #include "tests/check.hpp"
 
 using namespace satcheck;

@@ -1,4 +1,4 @@
-#include "scene/climb.hpp"
+#include "ladder/climb.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,9 +9,9 @@
 #include "base/tolerances.hpp"
 #include "convex/hulls_apart.hpp"
 #include "mesh_pair/open_surfaces.hpp"
-#include "scene/broad_phase.hpp"
-#include "scene/thick_point.hpp"
-#include "scene/touch_proof.hpp"
+#include "ladder/broad_phase.hpp"
+#include "ladder/thick_point.hpp"
+#include "ladder/touch_proof.hpp"
 
 namespace satcheck {
 namespace {

@@ -10,9 +10,9 @@
 #include "convex/narrow_phase.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
-#include "scene/geometry.hpp"
-#include "scene/verdict.hpp"
-#include "scene/way_within.hpp"
+#include "ladder/geometry.hpp"
+#include "ladder/verdict.hpp"
+#include "ladder/way_within.hpp"
 
 namespace satcheck {
 

@@ -1,4 +1,4 @@
-#include "scene/way_within.hpp"
+#include "ladder/way_within.hpp"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@
 #include "mesh/topology.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
-#include "scene/touch_proof.hpp"
+#include "ladder/touch_proof.hpp"
 
 namespace satcheck {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "mesh_pair/contact.hpp"
-#include "scene/geometry.hpp"
+#include "ladder/geometry.hpp"
 
 namespace satcheck {
 

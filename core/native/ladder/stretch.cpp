@@ -1,4 +1,4 @@
-#include "scene/stretch.hpp"
+#include "ladder/stretch.hpp"
 
 #include <algorithm>
 #include <cmath>

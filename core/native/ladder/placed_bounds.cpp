@@ -1,7 +1,7 @@
 // Coordinates are first computed in plain float64. Only those that could be the largest or the smallest, or could
 // overflow, are computed exactly as in transform().
 #include "mesh/transform.hpp"
-#include "scene/placed_bounds.hpp"
+#include "ladder/placed_bounds.hpp"
 
 #include <stdexcept>
 

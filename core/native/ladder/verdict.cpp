@@ -1,9 +1,9 @@
-#include "scene/verdict.hpp"
+#include "ladder/verdict.hpp"
 
 #include <cmath>
 
 #include "convex/signed_comparison.hpp"
-#include "scene/climb.hpp"
+#include "ladder/climb.hpp"
 
 namespace satcheck {
 namespace {
