@@ -182,7 +182,7 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
     proven = shown = verdict.proven
     reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
     if pair.excuses and relation in OVERLAPS:
-        reason = reason or _unexcused(pair)
+        reason = reason or _unexcused(pair, band)
     if pair.closer:
         from satcheck.audit.figures import curve_error
 
@@ -201,11 +201,11 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
     )
 
 
-def _unexcused(pair: Pair) -> str | None:
+def _unexcused(pair: Pair, band: Band) -> str | None:
     """The reason why a surface tolerance does not apply; None: it applies."""
     from satcheck.audit.figures.thickness import why_not_thick
 
-    why_not = why_not_thick(pair)
+    why_not = why_not_thick(pair) or band.unexcused
     return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
 
 

@@ -38,23 +38,24 @@ def may_be_explained(pair: Pair) -> bool:
 
 
 def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> tuple[Explained, str]:
-    """Of an overlap of closed bodies, and the question that is open if it is undecided.
-    nanoseconds: what was spent before."""
+    """Of an overlap of closed bodies, with the open question if it is undecided, and why it is not
+    excused. nanoseconds: what was spent before."""
     result, detail = _decided(pair)
     off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
-    told = f"{detail} is open; the surfaces are off by" if result == "undecided" else detail
-    trace.add_since(STAGE, result, f"{told} {off}", nanoseconds)
+    told = f"{detail} is open" if result == "undecided" else detail
+    joint = " " if result in ("within", "deeper") else "; the surfaces are off by "
+    trace.add_since(STAGE, result, f"{told}{joint}{off}", nanoseconds)
     return result, detail
 
 
 def _decided(pair: Pair) -> tuple[Explained, str]:
-    """The result, and what is said before the lengths."""
+    """The result, and what is said of it: "within" and "deeper" are followed by the lengths."""
     for length, body in surfaces(pair):
         if not ball_in(pair, body, length).lower > 0:
-            return "not excused", f"{body.id} is not known to be thicker than its tolerance:"
+            return "not excused", f"{body.id} is not known to be thicker than its tolerance"
     through = core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
     if through:
-        return "not excused", "one body passes through the other, which is no matter of"
+        return "not excused", "one body passes through the other"
     limit = limit_of(pair)
     interval = deeper(pair, prove=False)
     if interval.lower > limit:
@@ -78,7 +79,7 @@ def _reach(pair: Pair, limit: float) -> tuple[Explained, str] | None:
             work = pair.settings.thickness_work
             reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
         if reaches:
-            return "not excused", f"a thin part of {body.id} reaches {most:.3g} deep, more than"
+            return "not excused", f"a thin part of {body.id} reaches more than {most:.3g} deep"
         if reaches is None:
             return "undecided", f"whether a thin part of {body.id} reaches {most:.3g} deep"
     return None

@@ -15,6 +15,7 @@ import math
 from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
@@ -57,17 +58,25 @@ Side = Literal["open", "within", "deeper", "hidden"]
 class Band(Struct, frozen=True):
     """Whether an overlap is within the tolerance. side: as of core.Climb.band. move: a translation
     of A, at most the tolerance long, after which it is free; None: none was found. why: it is
-    hidden."""
+    hidden. unexcused: why surfaces that may be off do not explain it; None: not known."""
 
     side: Side
     move: Vector | None = None
     why: str = "rounding hides whether the overlap is within the tolerance"
+    unexcused: str | None = None
 
 
 def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     """For an overlap."""
+    explained = None if verdict.climb is None else _explained(pair, verdict.climb, trace)
+    if isinstance(explained, Band):
+        return explained
+    return replace(_by_moves(pair, verdict, trace), unexcused=explained)
+
+
+def _by_moves(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     if verdict.signed_distance is not None:
-        return _band_of_convex(pair, verdict, verdict.signed_distance, trace)
+        return _band_of_convex(pair, verdict, verdict.signed_distance)
     if not pair.may("exact"):
         return Band("within" if estimate_is_within(pair, trace) else "open")
     if max(pair.off) == 0:
@@ -80,26 +89,23 @@ def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     return _band_of_meshes(pair, verdict.climb, trace)
 
 
-def _explained(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Band | None:
-    """Of closed bodies, whatever the way out; None: not decided. nanoseconds: spent before."""
+def _explained(pair: Pair, climb: core.Climb, trace: Trace) -> Band | str | None:
+    """Of closed bodies that hold no ball thicker than the tolerance, whatever the way out. A text:
+    why nothing excuses the overlap; None: not decided."""
     from satcheck.audit.figures.explained import explain, may_be_explained
 
-    if not may_be_explained(pair):
+    if climb.thick is not False or climb.band == "within" or not may_be_explained(pair):
         return None
-    side, question = explain(pair, trace, nanoseconds)
+    side, detail = explain(pair, trace, climb.band_nanoseconds)
     if side == "within" or side == "deeper":
         return Band(side)
-    if side == "undecided" and pair.excuses:
-        return Band("hidden", why=question)
-    return None
+    if side == "undecided":
+        return Band("hidden", why=detail) if pair.excuses else None
+    return detail
 
 
-def _band_of_convex(
-    pair: Pair, verdict: Verdict, signed: core.PairResult | Signed, trace: Trace
-) -> Band:
+def _band_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Band:
     climb = verdict.climb
-    if climb is not None and climb.thick is False and climb.band != "within":
-        return _explained(pair, trace) or Band(climb.band or "open")
     return Band(_side_by_depth(pair, signed) if climb is None else climb.band or "open")
 
 
@@ -119,10 +125,6 @@ def _band_of_meshes(pair: Pair, climb: core.Climb, trace: Trace) -> Band:
     """What the core found, and where that leaves the band open, what a search finds."""
     cost = climb.band_nanoseconds
     band = Band(climb.band or "open", climb.way_out)
-    if climb.thick is False and band.side != "within":
-        explained = _explained(pair, trace, cost)
-        if explained is not None:
-            return explained
     if band.side == "deeper":
         deep = (
             "a point lies deeper in both" if climb.thick else f"at least {climb.deepest:.3g} deep"

@@ -81,12 +81,18 @@ def test_a_body_as_thin_as_its_tolerance_excuses_nothing(tmp_path: Path) -> None
     found = only(tmp_path, plate, wedge(0.0625), surface_tolerance=0.0625)
     assert found.relation == "penetrating"
     assert "is not known to be thicker" in told(found)
+    assert found.reason == (
+        "the surface tolerance excuses nothing: a is not known to be thicker than its tolerance"
+    )
 
 
 def test_a_body_that_passes_through_excuses_nothing(tmp_path: Path) -> None:
     found = only(tmp_path, PLATE, SPIKE, surface_tolerance=0.05)
     assert found.relation == "penetrating"
     assert "passes through" in told(found)
+    assert found.reason == (
+        "the surface tolerance excuses nothing: one body passes through the other"
+    )
 
 
 # A block with a fin, 0.02 thick, that reaches 0.8 into another block.
@@ -114,6 +120,8 @@ def test_a_thin_part_that_reaches_deep_excuses_nothing(
         found = only(tmp_path, *pair, **off)
         assert found.relation == "penetrating"
         assert "a thin part" in told(found)
+        why = None if "tolerance" in off else "the surface tolerance excuses nothing: a thin part"
+        assert (found.reason or "")[: len(why or "")] == (why or "")
 
 
 @pytest.mark.parametrize(("reach", "relation"), [(0.156, "touching"), (0.164, "penetrating")])
