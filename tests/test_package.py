@@ -2,8 +2,10 @@
 
 import inspect
 import pydoc
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -72,3 +74,12 @@ def test_the_import_alone_loads_no_room() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert run.stdout == "['satcheck._version']\n"
+
+
+def test_the_action_runs_no_code_of_the_checked_repository() -> None:
+    """`python -m` finds modules in the current folder, unless it is isolated."""
+    action = (Path(__file__).parents[1] / "action.yml").read_text(encoding="utf-8")
+    before = re.findall(r"(\S+) -m (?:venv|pip)\b", action)
+    assert before == ["-I", "-I"]
+    script = action.partition("runs:")[2]
+    assert "${{ inputs." not in "".join(re.findall(r"run: \|\n((?: {8}.*\n)+)", script))
