@@ -183,6 +183,14 @@ def test_csv() -> None:
     assert rows[0]["depth"] == ""
 
 
+@pytest.mark.parametrize("name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
+def test_a_name_in_csv_is_no_formula(name: str) -> None:
+    body = replace(BLOCK, id=name, file=f"{name}.obj")
+    (row,) = csv.DictReader(io.StringIO(of_block(body, "csv"), newline=""))
+    assert (row["a"], row["file_a"]) == (f"'{name}", f"'{name}.obj")
+    assert row["mtv_x"] == "-1.0"  # a number, which begins as it has to
+
+
 def test_json_lines() -> None:
     head, *findings = [json.loads(line) for line in render({"all": MIXED}, "jsonl").splitlines()]
     assert (head["record"], head["schema"]) == ("report", "satcheck.report/1")

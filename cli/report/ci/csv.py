@@ -1,5 +1,9 @@
 """CSV (RFC 4180): a row for each finding that the reports list, and for each error of
-an input."""
+an input.
+
+A spreadsheet takes a cell that begins with one of `=+-@` for a formula, whatever its quotes. A text
+that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +35,8 @@ _FIELDS = (
     "reason",
 )
 _ENDS = ("thickness_lower", "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+# The begin of a formula.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 _COLUMNS = ("asset", *_FIELDS, *_ENDS)
 
 
@@ -41,10 +47,15 @@ def render(reports: Mapping[str, Report]) -> str:
     for name, report in reports.items():
         files = {body.id: body.file for body in report.bodies}
         for finding in report.findings:
-            writer.writerow([name, *_values(finding), files[finding.a], files[finding.b]])
+            row = [name, *_values(finding), files[finding.a], files[finding.b]]
+            writer.writerow(map(_cell, row))
         errors = [issue for issue in report.issues if issue.severity == "error"]
-        writer.writerows(_of_issue(name, issue, files) for issue in errors)
+        writer.writerows(map(_cell, _of_issue(name, issue, files)) for issue in errors)
     return text.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
 
 
 def _of_issue(asset: str, issue: Issue, files: Mapping[str, str]) -> list[str | None]:
