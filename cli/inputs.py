@@ -62,15 +62,15 @@ def refuse_early(
     _refuse_first_word(inputs.paths[0])
     if output is None:
         return
-    if not output.absolute().parent.is_dir():
+    if not os.path.isdir(output.absolute().parent):
         raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
     read = (*inputs.paths, *inputs.pose, *map(str, inputs.rules), *known)
-    if any(_is_same_file(output, path) for path in read):
+    if any(is_same_file(output, path) for path in read):
         raise click.UsageError(f"{option} {output} would overwrite an input")
 
 
-def _is_same_file(output: Path, path: str) -> bool:
+def is_same_file(output: Path, path: str | Path) -> bool:
     try:
         return output.samefile(path)
     except OSError:  # one of them does not exist yet

@@ -146,11 +146,11 @@ def abandon(stream: TextIO) -> None:
 
 def _is_standard_output(path: Path) -> bool:
     """By its name: where the descriptor of that leads is not where documents go."""
-    if not path.is_symlink() and "fd" not in path.parts:
-        return False
     try:
+        if not path.is_symlink() and "fd" not in path.parts:
+            return False
         return str(last_link(path)) in _STANDARD_OUTPUT
-    except OSError:
+    except OSError:  # the attempt to write says why
         return False
 
 

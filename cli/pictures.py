@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from satcheck.cli.inputs import Inputs, refuse_early
+import click
+
+from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
 from satcheck.cli.output import write_file
 
 if TYPE_CHECKING:
@@ -23,9 +25,18 @@ def taken_pictures(options: dict[str, Any]) -> Pictures:
     return {form: path for form in _OPTIONS if (path := options.pop(form)) is not None}
 
 
-def refuse_pictures(pictures: Pictures, inputs: Inputs, baseline: Path | None = None) -> None:
+def refuse_pictures(
+    pictures: Pictures, inputs: Inputs, output: Path | None, baseline: Path | None = None
+) -> None:
+    """output: the file of the report. No file may overwrite an input or another output."""
+    written = {} if output is None else {"-o": output}
     for form, path in pictures.items():
-        refuse_early(inputs, path, baseline, option=f"--{form}")
+        option = f"--{form}"
+        refuse_early(inputs, path, baseline, option=option)
+        for other, file in written.items():
+            if is_same_file(path, file):
+                raise click.UsageError(f"{option} {path} would overwrite the file of {other}")
+        written[option] = path
 
 
 def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:

@@ -277,7 +277,7 @@ def command(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
     pictures = taken_pictures(options)
-    refuse_pictures(pictures, inputs, baseline)
+    refuse_pictures(pictures, inputs, output, baseline)
     if pictures or form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"

@@ -85,7 +85,7 @@ def command(
     form = form_of(None, output, PICTURES) if output else "html"
     pictures, inputs = taken_pictures(options), Inputs((str(report),))
     refuse_early(inputs, output)
-    refuse_pictures(pictures, inputs)
+    refuse_pictures(pictures, inputs, output)
     stated = _report_of(report, asset)
     scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
     for issue in issues:

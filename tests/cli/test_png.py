@@ -169,3 +169,13 @@ def test_a_picture_overwrites_no_input(tmp_path: Path) -> None:
     assert satcheck(*PUSHED, "--png", str(SAMPLES / "box.obj")).code == 2
     assert satcheck(*PUSHED, "--png", str(tmp_path / "none" / "x.png")).code == 2
     assert satcheck("arm.urdf", "--sample", "2", "--png", str(tmp_path / "x.png")).code == 2
+
+
+def test_a_picture_overwrites_no_other_output(tmp_path: Path) -> None:
+    report = tmp_path / "x.html"
+    ran = satcheck(*PUSHED, "-o", str(report), "--png", str(tmp_path / "." / "x.html"))
+    assert (ran.code, report.exists()) == (2, False)
+    assert "would overwrite the file of -o" in ran.err
+    ran = satcheck(*PUSHED, "--png", str(report), "--glb", str(report))
+    assert (ran.code, report.exists()) == (2, False)
+    assert "would overwrite the file of --png" in ran.err

@@ -160,6 +160,13 @@ def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     assert (tmp_path / "b.off").read_bytes() == cube
 
 
+@pytest.mark.parametrize("name", ["x" * 300 + ".json", "x" * 300 + "/report.json"])
+def test_a_name_that_is_too_long_is_no_internal_error(tmp_path: Path, name: str) -> None:
+    done = satcheck(*PUSHED, "-o", str(tmp_path / name))
+    assert done.code == 2
+    assert "[cannot-write]" in done.err
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
 def test_a_name_that_is_no_utf8_is_only_a_name(tmp_path: Path) -> None:
     odd = os.fsdecode(b"b\xff.off")
