@@ -19,6 +19,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
+from satcheck.scene.path_kind import exists, is_folder
 from satcheck.scene.scene_builder import Split
 
 
@@ -62,7 +63,7 @@ def refuse_early(
     _refuse_first_word(inputs.paths[0])
     if output is None:
         return
-    if not os.path.isdir(output.absolute().parent):
+    if not is_folder(output.absolute().parent):
         raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
     read = (*inputs.paths, *inputs.pose, *map(str, inputs.rules), *known)
@@ -184,7 +185,7 @@ def _advice(paths: Sequence[str]) -> list[str]:
 
     lines = [str(advice) for advice in about_paths(paths)]
     first = paths[0]
-    if "." in first or Path(first).exists():
+    if "." in first or exists(first):
         return lines
     from difflib import get_close_matches
 

@@ -19,6 +19,7 @@ from satcheck.cli.report.picture import FORMATS as PICTURE_FORMATS
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
 from satcheck.scene.loading.source import FORMATS as MESHES
+from satcheck.scene.path_kind import is_folder
 from satcheck.scene.units import MICROMETRES, Length, parse_length
 
 FORMATS = ("table", "json")
@@ -165,7 +166,7 @@ def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> 
         name, _equals, folder = text.partition("=")
         if not name or not folder:
             raise click.BadParameter(f"{text!r} should be NAME=DIR")
-        if not Path(folder).is_dir():
+        if not is_folder(folder):
             raise click.BadParameter(f"{folder!r} is no folder")
         packages[name] = Path(folder)
     return packages

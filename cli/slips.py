@@ -19,6 +19,7 @@ from satcheck.cli.commands import COMMANDS
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.path_kind import exists, is_file, is_folder
 
 if TYPE_CHECKING:
     import click
@@ -56,7 +57,7 @@ class _Pattern(str):
 def about_first_word(word: str) -> Advice | None:
     """Of a word that is no file: `check` and `help` are words of other programs."""
     words = sys.argv[1:]
-    if Path(word).exists() or word not in words:
+    if exists(word) or word not in words:
         return None
     rest = [each for each in words if each != word]
     if word == "check":
@@ -82,7 +83,7 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
 
 def about_paths(paths: Sequence[str]) -> list[Advice]:
     """Of folders, patterns, and files that do not exist or are given twice."""
-    bad = [path for path in paths if not Path(path).is_file()]
+    bad = [path for path in paths if not is_file(path)]
     near = {path: [other] for path in bad if (other := _nearest(path)) is not None}
     advice = [Advice("did you mean", _replacing(near))] if near else []
     advice += [each for path in bad[:MOST_PATHS] for each in _about_path(path)]
@@ -107,7 +108,7 @@ def about_one_body(path: str, components: int) -> list[Advice]:
 
 
 def _about_path(path: str) -> Iterator[Advice]:
-    if Path(path).is_dir():
+    if is_folder(path):
         yield from _about_folder(path)
     elif _PATTERN.intersection(path):
         yield from _about_pattern(path)
@@ -156,7 +157,7 @@ def _all(folder: Path, ending: str) -> _Pattern:
 def _nearest(path: str) -> str | None:
     """A file of the same folder with nearly the same name."""
     wanted = Path(path)
-    if wanted.is_dir() or _PATTERN.intersection(path):
+    if is_folder(path) or _PATTERN.intersection(path):
         return None
     names = {file.name.lower(): file.name for file in _listed(wanted.parent) if file.is_file()}
     same = [name for name in names if Path(name).stem == wanted.stem.lower()]

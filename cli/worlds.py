@@ -34,6 +34,7 @@ from satcheck.report.config import StatedConfig
 from satcheck.report.report import without_timings
 from satcheck.scene import Scene
 from satcheck.scene.loader import read_rules
+from satcheck.scene.path_kind import is_folder
 
 # The files of a world, in the order in which they are read; the first one names it.
 World = tuple[str, ...]
@@ -123,7 +124,7 @@ def _check(
 def _refuse_folder(name: str) -> None:
     """Only a folder that cannot be listed is among the assets."""
     try:
-        if Path(name).is_dir():
+        if is_folder(name):
             next(Path(name).iterdir(), None)
     except OSError as error:
         raise SatcheckError(

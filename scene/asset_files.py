@@ -10,6 +10,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.input_kind import SCENE_SUFFIXES
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.path_kind import exists, is_folder
 
 _ALWAYS = frozenset((*FORMATS, ".urdf"))
 # Other JSON and TOML files lie in most folders.
@@ -44,9 +45,9 @@ def content_of(path: Path) -> bytes | None:
 
 
 def _meant_by(name: str, endings: frozenset[str]) -> list[str]:
-    if Path(name).is_dir():
+    if is_folder(name):
         assets = sorted(_below(name, endings))
-    elif _PATTERN.intersection(name) and not Path(name).exists():
+    elif _PATTERN.intersection(name) and not exists(name):
         _refuse_pattern(name)
         root = Path(name).anchor
         matches = Path(root).glob(str(Path(name).relative_to(root)))

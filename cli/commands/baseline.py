@@ -16,6 +16,7 @@ from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import read_report
 from satcheck.report.baseline import Baseline
 from satcheck.report.report import Report
+from satcheck.scene.path_kind import exists
 
 file_argument = click.argument("file", metavar="BASELINE", type=click.Path(path_type=Path))
 reports_argument = click.argument(
@@ -45,7 +46,7 @@ def command() -> None:
 @reason_option
 def write(file: Path, reports: Sequence[Path], reason: str) -> None:
     """Write a new baseline with the failing findings of reports."""
-    if file.exists():
+    if exists(file):
         raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
     _update(file, Baseline(), reports, reason)
 

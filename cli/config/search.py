@@ -18,11 +18,16 @@ def nearest_config(folder: Path) -> Path | None:
     """In this folder or above it: the nearest satcheck.toml or pyproject.toml with [tool.satcheck].
     In one folder satcheck.toml comes first. Raises SatcheckError: `bad-config`."""
     for place in (folder, *folder.parents):
-        if (place / CONFIG).is_file():
+        if _is_there(place / CONFIG):
             return place / CONFIG
-        if (place / PROJECT).is_file() and _has_table(place / PROJECT):
+        if _is_there(place / PROJECT) and _has_table(place / PROJECT):
             return place / PROJECT
     return None
+
+
+def _is_there(path: Path) -> bool:
+    """A link that leads nowhere counts: its options are not passed over, reading it fails."""
+    return path.is_file() or path.is_symlink()
 
 
 def _has_table(path: Path) -> bool:

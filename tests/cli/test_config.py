@@ -97,6 +97,16 @@ def test_the_nearest_file_counts(folder: Path) -> None:
     assert in_effect("--no-config", cwd=folder / "sub")["jobs"] == ("0", "default")
 
 
+def test_a_link_that_leads_nowhere_is_not_passed_over(folder: Path) -> None:
+    """It may hold what makes a check fail, such as a clearance."""
+    config(folder, "depth = false\n")
+    (folder / "sub" / "satcheck.toml").symlink_to("gone.toml")
+    ran = satcheck(*(f"../{name}" for name in PUSHED), cwd=folder / "sub")
+    assert ran.code == 2
+    assert "satcheck.toml: cannot be read" in ran.err
+    assert "[bad-config]" in ran.err
+
+
 def test_show_says_where_options_come_from(folder: Path) -> None:
     config(folder, 'changed-since = "main"\nno-cache = true\nstate = ["a", "b"]\n')
     shown = in_effect("--no-depth", "--clearance", "2mm", cwd=folder)

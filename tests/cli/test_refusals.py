@@ -167,6 +167,14 @@ def test_a_name_that_is_too_long_is_no_internal_error(tmp_path: Path, name: str)
     assert "[cannot-write]" in done.err
 
 
+@pytest.mark.parametrize("before", [(), ("each",), ("axes",), ("--package",)])
+def test_a_path_that_is_too_long_is_no_internal_error(before: tuple[str, ...]) -> None:
+    name = f"a={'x' * 300}" if before == ("--package",) else f"{'x' * 300}.obj"
+    done = satcheck(*before, name, "box.obj")
+    assert done.code == 2
+    assert "internal error" not in done.out + done.err
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
 def test_a_name_that_is_no_utf8_is_only_a_name(tmp_path: Path) -> None:
     odd = os.fsdecode(b"b\xff.off")
