@@ -80,12 +80,8 @@ def cells_in(
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
         partners.setdefault(s, []).append(t)
-    chosen = sorted(partners)
-    for region, vertex in _regions(a, set(partners)):
-        if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
-            chosen += region
     total = 0
-    for t, own in _with_own_partners(a, chosen):
+    for t, own in _with_own_partners(a, chosen(a, b, set(partners), wanted)):
         corners = a.corners(t)
         normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
         if not any(normal):
@@ -96,6 +92,15 @@ def cells_in(
         if total > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
         yield CutTriangle(t, corners, normal, cells)
+
+
+def chosen(a: Exact, b: Exact, touching: set[int], wanted: Callable[[bool], bool]) -> list[int]:
+    """The triangles of A that touch B, and those of the regions that are wanted."""
+    triangles = sorted(touching)
+    for region, vertex in _regions(a, touching):
+        if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
+            triangles += region
+    return triangles
 
 
 def sides_of_cell(triangle: CutTriangle, cell: list[Plane], a: Exact, b: Exact) -> Sides:

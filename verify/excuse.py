@@ -2,7 +2,8 @@
 
 The surface of each body may be off by half of the touch band, or by its surface tolerance where
 that is more. An overlap is explained where no point lies deeper than that in both. Nothing is
-explained where a body is no thicker than that, and where one body passes through the other.
+explained where a body is no thicker than that, where one body passes through the other, and where
+the surface of one body reaches deep into the other.
 """
 
 from __future__ import annotations
@@ -14,8 +15,13 @@ from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.passing import neither_passes
+from satcheck.verify.reach import reaches_no_deeper
 from satcheck.verify.relations import Pair
+from satcheck.verify.surfaces import meeting
 from satcheck.verify.thickness import at_most, holds_ball
+
+# No surface may reach deeper into the other body than this, times what both may be off.
+MOST_REACH = 4
 
 
 def is_explained(
@@ -29,4 +35,8 @@ def is_explained(
             raise Rejected("a body is not shown to be thicker than its surface may be off")
         holds_ball(body, ball.centre, radius)
     at_most(excuse.cells, pair.a, pair.b, EXACT_WIDTH * max(off_a, off_b) / 2, (off_a, off_b))
-    neither_passes(pair)
+    contacts = meeting(pair.a, pair.b)
+    neither_passes(pair, contacts)
+    most = MOST_REACH * (off_a + off_b) * (1 + EXACT_WIDTH)
+    reaches_no_deeper(pair.a, pair.b, contacts, most)
+    reaches_no_deeper(pair.b, pair.a, [(t, s) for s, t in contacts], most)

@@ -19,7 +19,6 @@ from typing import Any
 from satcheck.verify.cells import Sides, cells_in, in_space, sides_of_cell
 from satcheck.verify.exact import Point, Rejected, cross, dot
 from satcheck.verify.relations import Pair
-from satcheck.verify.surfaces import meeting
 
 MOST_CELLS = 10_000
 Line = tuple[Any, Any]
@@ -38,12 +37,13 @@ class Face:
 Stretch = tuple[Fraction, Fraction, Face]  # where along a line its edge starts and ends
 
 
-def neither_passes(pair: Pair) -> None:
+def neither_passes(pair: Pair, contacts: list[tuple[int, int]]) -> None:
     """Rejects two solids unless it is proven that neither passes through the other: whether faces
-    that lie in both surfaces belong to both, or to none."""
+    that lie in both surfaces belong to both, or to none. contacts: all pairs of triangles that
+    meet."""
     lines: dict[Line, list[Stretch]] = {}
     has_shared = False
-    for face, polygon in _bounding(pair):
+    for face, polygon in _bounding(pair, contacts):
         has_shared |= face.shared
         for k, p in enumerate(polygon):
             line, *ends = _on_line(polygon[k - 1], p)
@@ -69,9 +69,8 @@ def _no_piece_joins_two(around: list[list[Face]]) -> None:
                 raise Rejected("one body passes through the other")
 
 
-def _bounding(pair: Pair) -> Iterator[tuple[Face, list[Point]]]:
+def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Face, list[Point]]]:
     """With the corners of each."""
-    contacts = meeting(pair.a, pair.b)
     views = (pair.a, pair.b, contacts), (pair.b, pair.a, [(t, s) for s, t in contacts])
     count = 0
     for body, (x, y, pairs) in enumerate(views):

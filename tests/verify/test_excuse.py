@@ -12,7 +12,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from tests.audit.figures.test_explained import PLATE, SPIKE
+from tests.audit.figures.test_explained import BLOCK, FINNED, PLATE, SPIKE, joined, moved
 from tests.audit.figures.test_thickness import WEDGE_THICKNESS, wedge
 from tests.audit.shapes import Mesh, box, bracket, unit_box, write
 from tests.verify.honest import document
@@ -131,6 +131,7 @@ def test_nothing_excuses_what_passes_through_or_is_all_error(tmp_path: Path) -> 
     cases = {
         "passes through": (PLATE, SPIKE, 0.0625 - 2.0**-10),
         "thicker": (box((-1, -1, 0.9), (2, 2, 1.0)), wedge(0.0625), 0.0625),
+        "reaches deep": (joined(moved(FINNED[0], 3.0), FINNED[1]), BLOCK, 0.02),
     }
     for why, (a, b, off) in cases.items():
         made = made_of(tmp_path, a, b, surface_tolerance=off)

@@ -11,6 +11,7 @@ from satcheck import core
 from satcheck.verify import Rejected
 from satcheck.verify.passing import neither_passes
 from satcheck.verify.relations import Pair
+from satcheck.verify.surfaces import meeting
 from tests.audit.certify.test_thickness import prism
 from tests.audit.figures.test_explained import PLATE, SPIKE
 from tests.audit.figures.test_thickness import wedge
@@ -71,7 +72,7 @@ PAIRS: dict[str, tuple[Mesh, Mesh, str | None]] = {
 
 def rejected(pair: Pair) -> str | None:
     try:
-        neither_passes(pair)
+        neither_passes(pair, meeting(pair.a, pair.b))
     except Rejected as why:
         return str(why)
     return None
