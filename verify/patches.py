@@ -132,14 +132,15 @@ def patch_of(patch: Face | Plane, body: Exact, frame: Frame) -> Piece | Side:
     if len(corners) == 1:
         floats = body.world.vertices[body.world.triangles[numbers]]
         return Piece(corners, Fraction(0), floats, body.k)
-    return _joined(numbers, corners, body)
+    return joined(numbers, corners, body)
 
 
 def _normal(t: Corners) -> IntVector:
     return cross(sub(t[1], t[0]), sub(t[2], t[0]))
 
 
-def _joined(numbers: list[int], corners: list[Corners], body: Exact) -> Piece:
+def joined(numbers: list[int], corners: list[Corners], body: Exact) -> Piece:
+    """The hull of triangles that fill one. Rejects others."""
     normal = next((n for t in corners if any(n := _normal(t))), (0, 0, 0))
     across = max(range(3), key=lambda k: abs(normal[k]))
     if normal[across] == 0:
