@@ -99,6 +99,7 @@ def test_what_the_hook_gets_is_checked(gated: Path) -> None:
 
 def test_the_hook_is_about_every_format_that_needs_no_option() -> None:
     hooks = (TOP / ".pre-commit-hooks.yaml").read_text()
+    assert hooks.count('args: ["--"]') == hooks.count("entry:")  # no name is an option
     pattern = next(line for line in hooks.splitlines() if "files:" in line)
     endings = pattern[pattern.index(r"\.(") + 3 : pattern.rindex(")")].split("|")
     assert {f".{ending}" for ending in endings} == {*FORMATS, ".urdf"}
