@@ -22,7 +22,7 @@ def severity(finding: Finding) -> Severity:
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:
     """By severity, then the thicker overlap, then the deeper one."""
-    return sorted(findings, key=_rank)
+    return sorted(findings, key=rank)
 
 
 def groups_of(findings: Iterable[Finding]) -> list[list[Finding]]:
@@ -35,7 +35,8 @@ def groups_of(findings: Iterable[Finding]) -> list[list[Finding]]:
     return list(groups.values())
 
 
-def _rank(finding: Finding) -> tuple[int, int, float, float]:
+def rank(finding: Finding) -> tuple[float, ...]:
+    """The lower the worse."""
     return (SEVERITIES.index(severity(finding)), *_size(finding))
 
 

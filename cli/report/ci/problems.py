@@ -4,11 +4,13 @@ of the inputs, the worst first."""
 from __future__ import annotations
 
 import os
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
 from satcheck.cli.report.numbers import number, vector
+from satcheck.cli.report.order import rank, severity
 from satcheck.cli.report.words import in_motion, interval, is_hit, with_unit
 from satcheck.report.bodies import Place
 from satcheck.report.report import OVERLAPS
@@ -35,7 +37,7 @@ KINDS = {
 class Problem(NamedTuple):
     """kind: a key of KINDS, or the code of an issue. places: where each body is stated, in their
     order, or where the issue is; at least one. id: that of the finding; of an issue its code and
-    its body. size: the thickness and the depth of an overlap. state: beside a baseline.
+    its body. rank: that of the finding; an issue comes last. state: beside a baseline.
     """
 
     level: Level
@@ -44,20 +46,19 @@ class Problem(NamedTuple):
     places: tuple[Place, ...]
     bodies: tuple[str, ...]
     id: str
-    size: tuple[float, float] = (0.0, 0.0)
+    rank: tuple[float, ...] = (inf,)
     state: BaselineState | None = None
 
 
 def problems(reports: Mapping[str, Report]) -> list[Problem]:
-    """Of all reports, the worst first: by level, then the thicker overlap, then the deeper one.
+    """Of all reports, the worst first: by level, then findings as a table has them, then issues.
     With several reports each message and each id names its asset."""
     listed = [
         _naming(asset, problem) if len(reports) > 1 else problem
         for asset, report in reports.items()
         for problem in _of_report(report)
     ]
-    listed.sort(key=lambda problem: problem.size, reverse=True)
-    return sorted(listed, key=lambda problem: LEVELS.index(problem.level))
+    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), problem.rank))
 
 
 def _naming(asset: str, problem: Problem) -> Problem:
@@ -121,11 +122,9 @@ def near(file: str) -> str:
 
 
 def _level(finding: Finding) -> Level | None:
-    """None: no problem. A finding that a baseline holds, unchanged, is a note."""
-    if finding.baseline_state == "unchanged":
-        return "note"
-    severity = finding.severity
-    return severity if severity in ("error", "warning", "note") else None
+    """None: no problem."""
+    level = severity(finding)
+    return level if level in ("error", "warning", "note") else None
 
 
 def _of_finding(
@@ -139,7 +138,7 @@ def _of_finding(
         tuple(places[body] for body in bodies),
         bodies,
         finding.id,
-        (finding.thickness or 0.0, finding.depth or 0.0),
+        rank(finding),
         finding.baseline_state,
     )
 

@@ -9,12 +9,12 @@ from msgspec import to_builtins
 
 from satcheck.cli.report.ci.problems import sentence
 from satcheck.cli.report.components import facts
+from satcheck.cli.report.order import severity, worst_first
 from satcheck.cli.report.picture.geometry import geometry
 from satcheck.cli.report.picture.packing import packed_points
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
-from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -58,9 +58,9 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
 
 
 def listed(report: Report) -> list[Finding]:
-    """Findings with something to see, the worst first: the graver, the thicker, the deeper."""
+    """Findings with something to see, the worst first."""
     shown = (f for f in report.findings if f.severity != "none" or f.undecided is not None)
-    return sorted(shown, key=_rank)
+    return worst_first(shown)
 
 
 def can_be_drawn(scene: Scene) -> bool:
@@ -81,11 +81,6 @@ def require_drawable(scene: Scene) -> None:
     """Raises SatcheckError (`not-drawable`) if coordinates are too large for a picture."""
     if not can_be_drawn(scene):
         raise SatcheckError("not-drawable", "there is no picture: coordinates are too large for it")
-
-
-def _rank(finding: Finding) -> tuple[int, float, float]:
-    rank = SEVERITIES.index(finding.severity)
-    return rank, -(finding.thickness or 0.0), -(finding.depth or 0.0)
 
 
 def lines_of(finding: Finding) -> list[list[tuple[float, float, float]]]:
@@ -127,7 +122,7 @@ def _shown(
         "a": numbers.get(finding.a),
         "b": numbers.get(finding.b),
         "relation": finding.relation,
-        "severity": finding.severity,
+        "severity": severity(finding),
         "text": sentence(finding, unit),
         "mtv": finding.mtv,
         "axis": finding.normal,

@@ -1,0 +1,63 @@
+"""Every output puts the same finding first."""
+
+from __future__ import annotations
+
+import pytest
+from msgspec.structs import replace
+
+from satcheck.cli.output import PLAIN_PAGE
+from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.picture.data import listed
+from satcheck.cli.report.table import render as render_table
+from satcheck.cli.report.verdict import verdict_line
+from satcheck.report.report import Finding, Report
+from tests.cli.reports import BLOCK, PENETRATING, report
+
+NAMES = ("block", "thin", "deep", "known")
+
+
+def overlap(b: str, thickness: float | None, depth: float) -> Finding:
+    bounds = None if thickness is None else (thickness, thickness)
+    return replace(
+        PENETRATING,
+        id=f"block|{b}",
+        b=b,
+        depth=depth,
+        depth_bounds=(depth, depth),
+        thickness=thickness,
+        thickness_bounds=bounds,
+    )
+
+
+THIN = overlap("thin", 0.033, 0.5)
+DEEP = overlap("deep", None, 0.15)
+KNOWN = replace(overlap("known", 0.9, 0.9), baseline_state="unchanged")
+
+
+def of(*findings: Finding) -> Report:
+    bodies = tuple(replace(BLOCK, id=name, name=name) for name in NAMES)
+    return report(*findings, bodies=bodies)
+
+
+REPORT = of(KNOWN, THIN, DEEP)
+
+
+def test_the_depth_stands_for_a_thickness_that_is_unknown() -> None:
+    assert [finding.b for finding in listed(REPORT)] == ["deep", "thin", "known"]
+
+
+@pytest.mark.parametrize("form", ["sarif", "github", "markdown"])
+def test_formats_of_ci(form: str) -> None:
+    assert order(render_for_ci({"all": REPORT}, form), "{} and {}") == ["deep", "thin", "known"]
+
+
+def test_table_and_verdict() -> None:
+    table = render_table(REPORT, PLAIN_PAGE, explain=False, timings=False)
+    assert order(table, "{} │ {}") == ["deep", "thin", "known"]
+    assert order(verdict_line(of(THIN, DEEP)), "{} and {}") == ["deep", "thin"]
+
+
+def order(text: str, pair: str) -> list[str]:
+    """The second bodies, as their pairs follow each other in the text."""
+    places = {name: text.find(pair.format("block", name)) for name in NAMES[1:]}
+    return sorted((name for name in places if places[name] >= 0), key=places.__getitem__)
