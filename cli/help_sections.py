@@ -11,7 +11,7 @@ import click
 MANY = 15
 OTHER = "Other options"
 # The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
-_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\]]*x[<>][^\]]*(?=\])")
+_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
     "What to check": "bodies pairs changed_since split merge planar units allow_open "

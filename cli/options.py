@@ -20,7 +20,7 @@ from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
 from satcheck.scene.loading.source import FORMATS as MESHES
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.units import MICROMETRES, Length, parse_length
+from satcheck.scene.units import MICROMETRES, Length, parse_length, unit_of
 
 FORMATS = ("table", "json")
 # Formats of one report or of many.
@@ -136,14 +136,21 @@ def in_units_of(value: Length, declared: str | None, option: str) -> float:
 
 
 def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
-    """options: values of fields of Settings; a Length is converted to the units of the scene."""
-    values: dict[str, Any] = {
-        name: in_units_of(value, scene.units, f"--{name.replace('_', '-')}")
-        if isinstance(value, Length)
-        else value
-        for name, value in options.items()
-    }
+    """options: values of fields of Settings; a Length is converted to the units of the scene. A
+    body alone has no pair that a length could be about: its units do not matter."""
+    lengths = {name: value for name, value in options.items() if isinstance(value, Length)}
+    values = {name: value for name, value in options.items() if name not in lengths}
+    if len(scene.bodies) + len(scene.unreadable) > 1 or unit_of(scene.units):
+        values |= {n: in_units_of(each, scene.units, _origin(n)) for n, each in lengths.items()}
     return Settings(**values)
+
+
+def _origin(name: str) -> str:
+    """What the user wrote: `--clearance`, or `satcheck.toml:1: clearance`."""
+    from satcheck.cli.config.source import origin
+
+    ctx = click.get_current_context(silent=True)
+    return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
 
 
 def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:

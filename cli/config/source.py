@@ -71,6 +71,17 @@ def is_from_config(ctx: click.Context, option: click.Parameter) -> bool:
     return ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
 
 
+def origin(ctx: click.Context, name: str) -> str | None:
+    """`satcheck.toml:3: clearance`; None: the value of this option is not from the config file."""
+    from satcheck.cli.config.values import key_of
+
+    file = config_of(ctx)
+    option = next((param for param in ctx.command.params if param.name == name), None)
+    if file is None or not isinstance(option, click.Option) or not is_from_config(ctx, option):
+        return None
+    return f"{file.where(key_of(option))}: {key_of(option)}"
+
+
 def refuse_value(ctx: click.Context, error: click.BadParameter) -> NoReturn:
     """Raises `bad-config` for a value that click refuses, if the config file has it."""
     from satcheck.cli.config.values import key_of

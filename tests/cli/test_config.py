@@ -231,3 +231,19 @@ def test_a_project_without_the_table_costs_no_parser(folder: Path) -> None:
     config(folder, text, "pyproject.toml")
     names = imported(*PUSHED, code=1, cwd=folder)
     assert {"tomllib", "satcheck.cli.config.values"} & names == set()
+
+
+def test_a_length_with_a_unit_matters_only_where_there_is_a_pair(folder: Path) -> None:
+    config(folder, 'fail-on = "error"\nclearance = "2mm"\n')
+    assert satcheck("each", ".", cwd=folder).code == 0
+    told = "satcheck.toml:2: clearance 2mm: no units are declared"
+    scene = '[[bodies]]\nid = "{0}"\nmesh = "{1}"\n'
+    pair = [scene.format(*names) for names in zip("ab", PUSHED, strict=True)]
+    config(folder, "".join(['schema = "satcheck.scene/1"\n', *pair]), "pair.toml")
+    for files in (PUSHED, ("each", "pair.toml")):
+        ran = satcheck(*files, cwd=folder)
+        assert (ran.code, told in ran.err) == (2, True), ran.err
+    given = satcheck(*PUSHED, "--clearance", "3mm", cwd=folder)
+    assert "--clearance 3mm: no units are declared" in given.err
+    config(folder, 'clearance = "2mm"\nunits = "mm"\n')
+    assert satcheck(*PUSHED, cwd=folder).code == 1
