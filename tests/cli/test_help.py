@@ -117,4 +117,6 @@ def test_help_has_headings_and_stays_short() -> None:
         assert f"{heading}:" in lines
     assert len(lines) <= 145
     assert max(map(len, lines)) <= 80
-    assert "x<" not in "".join(lines)
+    text = "".join(lines)
+    assert "x<" not in text
+    assert text.count("[") == text.count("]")
