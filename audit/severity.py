@@ -91,6 +91,11 @@ def fails(finding: Finding, fail_on: FailOn) -> bool:
     return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
 
 
+def is_failure(finding: Finding, fail_on: FailOn) -> bool:
+    """Whether the check fails by it: a baseline does not hold it unchanged."""
+    return fails(finding, fail_on) and finding.baseline_state != "unchanged"
+
+
 def by_rule(judgement: Judgement, request: Request) -> Judgement:
     """An error gets the severity that a rule sets for its pair."""
     if judgement.severity != "error" or request.severity is None:

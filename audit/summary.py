@@ -12,7 +12,7 @@ from msgspec import convert, to_builtins
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.severity import fails
+from satcheck.audit.severity import is_failure
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
@@ -97,7 +97,7 @@ def verdict_of(report: Report) -> Verdict:
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
     """A failure stays a failure even if other pairs are undecided. A check without pairs never
     passes. A finding that a baseline contains, unchanged, does not fail."""
-    if any(fails(f, fail_on) for f in findings if f.baseline_state != "unchanged"):
+    if any(is_failure(finding, fail_on) for finding in findings):
         return "fail"
     unchecked = any(finding.undecided is not None for finding in findings)
     return "incomplete" if unchecked or not counts.asked else "pass"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import fails
+from satcheck.audit.severity import is_failure
 from satcheck.cli.report.limits import limits
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.order import severity, worst_first
@@ -90,8 +90,7 @@ def _is_ruled(finding: Finding) -> bool:
 
 def _failing(report: Report) -> list[Finding]:
     fail_on = report.settings.fail_on
-    failing = [f for f in report.findings if fails(f, fail_on) and f.baseline_state != "unchanged"]
-    return worst_first(failing)
+    return worst_first(f for f in report.findings if is_failure(f, fail_on))
 
 
 def _failed(report: Report) -> str:

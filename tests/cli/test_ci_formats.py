@@ -183,6 +183,18 @@ def test_csv() -> None:
     assert rows[0]["depth"] == ""
 
 
+def test_csv_tells_what_a_baseline_accepts() -> None:
+    states = ("unchanged", "new", "worse", "undecided", None)
+    findings = [replace(PENETRATING, baseline_state=state) for state in states]
+    text = render({"all": scene_report(*findings, TOUCH)}, "csv")
+    rows = list(csv.DictReader(io.StringIO(text, newline="")))
+    assert [(row["baseline"], row["fails"]) for row in rows] == [
+        ("unchanged", "false"), ("new", "true"), ("worse", "true"), ("undecided", "true"),
+        ("", "true"), ("", "false"), ("", ""),
+    ]  # fmt: skip
+    assert rows[0]["mtv_verified"] == "true"
+
+
 @pytest.mark.parametrize("name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
 def test_a_name_in_csv_is_no_formula(name: str) -> None:
     body = replace(BLOCK, id=name, file=f"{name}.obj")

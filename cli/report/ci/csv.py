@@ -11,6 +11,8 @@ import csv
 import io
 from typing import TYPE_CHECKING, Any
 
+from satcheck.audit.severity import is_failure
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -35,9 +37,11 @@ _FIELDS = (
     "reason",
 )
 _ENDS = ("thickness_lower", "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+# Beside a baseline; and whether the check fails by the finding.
+_VERDICT = ("baseline", "fails")
 # The begin of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
-_COLUMNS = ("asset", *_FIELDS, *_ENDS)
+_COLUMNS = ("asset", *_FIELDS, *_ENDS, *_VERDICT)
 
 
 def render(reports: Mapping[str, Report]) -> str:
@@ -47,14 +51,17 @@ def render(reports: Mapping[str, Report]) -> str:
     for name, report in reports.items():
         files = {body.id: body.file for body in report.bodies}
         for finding in report.findings:
-            row = [name, *_values(finding), files[finding.a], files[finding.b]]
-            writer.writerow(map(_cell, row))
+            files_of_both = (files[finding.a], files[finding.b])
+            verdict = (finding.baseline_state, is_failure(finding, report.settings.fail_on))
+            writer.writerow(map(_cell, [name, *_values(finding), *files_of_both, *verdict]))
         errors = [issue for issue in report.issues if issue.severity == "error"]
         writer.writerows(map(_cell, _of_issue(name, issue, files)) for issue in errors)
     return text.getvalue()
 
 
 def _cell(value: Any) -> Any:
+    if isinstance(value, bool):
+        return str(value).lower()
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
 
 
