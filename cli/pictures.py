@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from satcheck.audit.samples import Samples
 from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
 from satcheck.cli.output import write_file
 
@@ -45,3 +46,23 @@ def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:
 
     for form, path in pictures.items():
         write_file(path, render(form, report, scene))
+
+
+def files_line(
+    report: Report | Samples, scene: Scene, form: str, output: Path | None, pictures: Pictures
+) -> str:
+    """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file."""
+    named = [] if output is None or form in _OPTIONS else [f"Report: {output}"]
+    files = pictures if output is None or form not in _OPTIONS else {form: output, **pictures}
+    if not isinstance(report, Samples):
+        named += [f"{_what(kind, report, scene)}: {path}" for kind, path in files.items()]
+    return ". ".join(named)
+
+
+def _what(form: str, report: Report, scene: Scene) -> str:
+    from satcheck.cli.report.picture.data import drawn_finding
+
+    if form == "glb":
+        return "Model"
+    finding = drawn_finding(report, scene)
+    return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"

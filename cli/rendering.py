@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from msgspec import Struct
 
 from satcheck.audit import Report
@@ -64,13 +62,16 @@ def _samples(result: Samples, form: str, page: Page, shown: Shown) -> str | list
     return render_samples(result, page, top=shown.top)
 
 
-def tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
-    """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
+def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -> None:
+    """Errors of the run on stderr, and the files it wrote. written: the report is in a file, so
+    also the warnings and the summary."""
     told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
     for issue in result.issues:
         if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
             talk(f"satcheck: {issue_line(issue)}")
-    if output is None:
+    if not written:
+        if files:
+            talk(files)
         return
     if isinstance(result, Samples):
         talk(samples_counts(result))
@@ -83,4 +84,4 @@ def tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
         if len(warnings) > WARNINGS:
             talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
         talk(counts_line(result))
-    talk(f"{summary} Report: {output}")
+    talk(f"{summary} {files}")

@@ -54,7 +54,7 @@ from satcheck.cli.options import (
     units_option,
 )
 from satcheck.cli.output import Document
-from satcheck.cli.pictures import refuse_pictures, taken_pictures, write_pictures
+from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Shown, rendered, tell
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
@@ -318,7 +318,8 @@ def command(
         )
     if isinstance(result, Report):
         write_pictures(pictures, result, scene)
-    tell(result, scene, None if quiet else output)
+    files = "" if quiet else files_line(result, scene, form, output, pictures)
+    tell(result, scene, files, written=output is not None and not quiet)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
 

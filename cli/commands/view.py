@@ -28,7 +28,7 @@ from satcheck.cli.options import (
     picture_options,
 )
 from satcheck.cli.output import Document, talk, write_file
-from satcheck.cli.pictures import refuse_pictures, taken_pictures, write_pictures
+from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.report.picture import render
 from satcheck.cli.report.words import issue_line
 from satcheck.cli.report_file import read_report
@@ -101,6 +101,8 @@ def command(
         else:
             _show(content, document)
     write_pictures(pictures, stated, scene)
+    if pictures:
+        talk(files_line(stated, scene, form, None, pictures))
     return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
 
 

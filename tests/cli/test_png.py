@@ -156,13 +156,26 @@ def test_beside_the_report_and_in_its_place(tmp_path: Path) -> None:
     ran = satcheck(*PUSHED, "--png", str(beside))
     assert ran.code == 1
     assert "penetrating" in ran.out
-    assert satcheck(*PUSHED, "-o", str(instead)).code == 1
+    assert ran.err == f"Image of box and box_pushed: {beside}\n"
+    ran = satcheck(*PUSHED, "-o", str(instead))
+    assert ran.code == 1
+    assert ran.err.endswith(f". Image of box and box_pushed: {instead}\n")
     assert beside.read_bytes() == instead.read_bytes()
     report, later = tmp_path / "report.json", tmp_path / "later.png"
     satcheck("--contacts", *PUSHED, "-o", str(report))
     ran = satcheck("view", str(report), "--png", str(later))
     assert (ran.code, ran.out) == (0, "")
+    assert ran.err == f"Image of box and box_pushed: {later}\n"
     assert later.read_bytes() == beside.read_bytes()
+
+
+def test_the_closing_line_names_every_file(tmp_path: Path) -> None:
+    report, image, model = (str(tmp_path / f"x.{end}") for end in ("json", "png", "glb"))
+    files = ("-o", report, "--png", image, "--glb", model)
+    ran = satcheck(*PUSHED, *files)
+    named = f"Report: {report}. Image of box and box_pushed: {image}. Model: {model}"
+    assert ran.err.splitlines()[-1].endswith(named)
+    assert satcheck(*PUSHED, *files, "--quiet").err == ""
 
 
 def test_a_picture_overwrites_no_input(tmp_path: Path) -> None:

@@ -63,6 +63,12 @@ def listed(report: Report) -> list[Finding]:
     return worst_first(shown)
 
 
+def drawn_finding(report: Report, scene: Scene) -> Finding | None:
+    """What an image shows: the worst finding whose bodies are there."""
+    ids = {body.id for body in scene.bodies}
+    return next((f for f in listed(report) if f.a in ids and f.b in ids), None)
+
+
 def can_be_drawn(scene: Scene) -> bool:
     try:
         bounds = [body.world_mesh().bounds for body in scene.bodies]

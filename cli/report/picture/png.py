@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from satcheck.cli.report.picture.data import lines_of, listed, require_drawable, up_of
+from satcheck.cli.report.picture.data import drawn_finding, lines_of, require_drawable, up_of
 from satcheck.cli.report.picture.marks import arrow_of, ball_of, sphere_around
 from satcheck.cli.report.picture.raster import Kind, Triangles, drawn
 
@@ -62,7 +62,7 @@ class _View(NamedTuple):
 def render(report: Report, scene: Scene) -> bytes:
     require_drawable(scene)
     bodies = {body.id: body for body in scene.bodies}
-    finding = next((f for f in listed(report) if f.a in bodies and f.b in bodies), None)
+    finding = drawn_finding(report, scene)
     pair = [bodies[finding.a], bodies[finding.b]] if finding else list(bodies.values())
     view = _view(pair, bool(finding), up_of(scene))
     corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
