@@ -10,7 +10,6 @@ from typing import Any, Self
 import click
 from msgspec import Struct
 
-from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted, issue_line
@@ -19,7 +18,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.path_kind import exists, is_folder
+from satcheck.scene.path_kind import is_folder
 from satcheck.scene.scene_builder import Split
 
 
@@ -177,17 +176,9 @@ def _refuse_first_word(word: str) -> None:
 
 
 def _advice(paths: Sequence[str]) -> list[str]:
-    """Lines about paths that look like slips. The first word is a path unless it names a command; a
-    misspelt command is a missing path."""
+    """Lines about paths that look like slips."""
     if all(map(os.path.isfile, paths)) and len(set(paths)) == len(paths):
         return []
     from satcheck.cli.slips import about_paths
 
-    lines = [str(advice) for advice in about_paths(paths)]
-    first = paths[0]
-    if "." in first or exists(first):
-        return lines
-    from difflib import get_close_matches
-
-    near = get_close_matches(first, COMMANDS, n=1)
-    return lines + [f"satcheck: did you mean the command `satcheck {name}`?" for name in near]
+    return [str(advice) for advice in about_paths(paths)]

@@ -37,6 +37,7 @@ _ALIASES: Mapping[str, tuple[str, ...]] = {
     "threads": ("--jobs",),
     "distance": ("--clearance",),
     "out": ("-o",),
+    "output-format": ("--format",),
 }
 
 
@@ -82,12 +83,18 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
 
 
 def about_paths(paths: Sequence[str]) -> list[Advice]:
-    """Of folders, patterns, and files that do not exist or are given twice."""
+    """Of a misspelt command, folders, patterns, and files that do not exist or are given twice."""
+    if command := _about_command(paths[0]):
+        return [command]
     bad = [path for path in paths if not is_file(path)]
     near = {path: [other] for path in bad if (other := _nearest(path)) is not None}
     advice = [Advice("did you mean", _replacing(near))] if near else []
+    folders = list(filter(is_folder, bad))
+    if len(folders) > 1:
+        advice += _about_folders(folders)
+        bad = [path for path in bad if path not in folders]
     advice += [each for path in bad[:MOST_PATHS] for each in _about_path(path)]
-    files = Counter(os.path.realpath(path) for path in paths if path not in bad)
+    files = Counter(os.path.realpath(path) for path in paths if is_file(path))
     twice = next((path for path in paths if files[os.path.realpath(path)] > 1), None)
     if twice is not None and Path(twice).suffix.lower() in FORMATS:
         pieces = _line(["--split", "components", twice])
@@ -107,6 +114,15 @@ def about_one_body(path: str, components: int) -> list[Advice]:
     return advice
 
 
+def _about_command(word: str) -> Advice | None:
+    """Of the first word, which is a path unless it names a command."""
+    if not _is_check() or "." in word or exists(word) or _nearest(word) is not None:
+        return None
+    near = get_close_matches(word, COMMANDS, n=1)
+    rest = [each for each in sys.argv[1:] if each != word]
+    return Advice(f"did you mean the command {near[0]}", _line([*near, *rest])) if near else None
+
+
 def _about_path(path: str) -> Iterator[Advice]:
     if is_folder(path):
         yield from _about_folder(path)
@@ -123,6 +139,17 @@ def _about_folder(path: str) -> Iterator[Advice]:
         purpose = f"to check its {count} {ending} files against each other"
         if count > 1:
             yield Advice(purpose, _replacing({path: [_all(Path(path), ending)]}))
+
+
+def _about_folders(paths: Sequence[str]) -> Iterator[Advice]:
+    """Of several: a line for all of them, as a line for one of them would fail at the next."""
+    if _is_check():
+        yield Advice("to check each file in the folders by itself", _line(["each", *sys.argv[1:]]))
+        return
+    endings = {path: Counter(file.suffix for file in _meshes(Path(path))) for path in paths}
+    if all(endings.values()):
+        files = {path: [_all(Path(path), max(e, key=e.__getitem__))] for path, e in endings.items()}
+        yield Advice("to name the files in the folders", _replacing(files))
 
 
 def _about_pattern(path: str) -> Iterator[Advice]:

@@ -52,11 +52,20 @@ def _meant_by(name: str, endings: frozenset[str]) -> list[str]:
         root = Path(name).anchor
         matches = Path(root).glob(str(Path(name).relative_to(root)))
         assets = sorted(path.as_posix() for path in matches if path.is_file())
+        if not assets:
+            raise _no_match(name)
     else:
         return [name]
     if not assets:
         raise SatcheckError("no-assets", f"{name}: it has no mesh, scene or robot")
     return assets
+
+
+def _no_match(pattern: str) -> SatcheckError:
+    """To be raised."""
+    deeper = (Path(pattern).parent / "**" / Path(pattern).name).as_posix()
+    hint = "" if "**" in pattern else f": {deeper} searches sub-folders too"
+    return SatcheckError("no-assets", f"{pattern}: the pattern matches no file here{hint}")
 
 
 def _refuse_pattern(name: str) -> None:

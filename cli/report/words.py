@@ -25,7 +25,8 @@ def counted(count: int, singular: str, plural: str | None = None) -> str:
 def issue_line(issue: Issue | InputIssue) -> str:
     """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr."""
     where = issue.body or issue.file
-    named = f"{where}: " if where and not issue.message.startswith(where) else ""
+    known = tuple(filter(None, (where, issue.file)))
+    named = f"{where}: " if known and not issue.message.startswith(known) else ""
     return f"{issue.severity}: {named}{issue.message} [{issue.code}]"
 
 

@@ -61,12 +61,19 @@ def test_patterns_and_names_from_standard_input(assets: Path) -> None:
     assert verdicts(named.out) == {"gripper.glb": "fail"}
 
 
-@pytest.mark.parametrize("name", ["empty", "*.glb"])
-def test_nothing_to_check_is_an_error(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("empty", "no mesh, scene or robot"),
+        ("*.glb", "*.glb: the pattern matches no file here: **/*.glb searches sub-folders too"),
+        ("empty/**/*.glb", "empty/**/*.glb: the pattern matches no file here [no-assets]"),
+    ],
+)
+def test_nothing_to_check_is_an_error(name: str, told: str, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     ran = satcheck("each", name, cwd=tmp_path)
     assert ran.code == 2
-    assert "no mesh, scene or robot" in ran.err
+    assert told in ran.err
 
 
 def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
@@ -183,11 +190,14 @@ def test_a_folder_that_cannot_be_listed_is_an_error(assets: Path) -> None:
 
 
 def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> None:
+    bodies = [f'[[bodies]]\nid = "{name}"\nmesh = "props/box.obj"\n' for name in "ab"]
+    (assets / "pair.toml").write_text("".join(['schema = "satcheck.scene/1"\n', *bodies]))
     ran = satcheck("each", str(assets), "--clearance", "1mm", "--format", "json")
     document = json.loads(ran.out)
     issues = {Path(each["file"]).name: each["report"]["issues"] for each in document["assets"]}
-    assert [issue["code"] for issue in issues["box.obj"]] == ["bad-setting"]
-    assert "--units" in issues["box.obj"][0]["message"]
+    assert [issue["code"] for issue in issues["pair.toml"]] == ["bad-setting"]
+    assert "--units" in issues["pair.toml"][0]["message"]
+    assert issues["box.obj"] == []  # a body alone has no pair that the length is about
 
 
 @on_posix

@@ -21,6 +21,9 @@ def folder(tmp_path: Path) -> Path:
     parts.mkdir()
     for name in ("box.obj", "kettle.obj"):
         shutil.copy(SAMPLES / name, parts / name)
+    level = tmp_path / "level"
+    level.mkdir()
+    shutil.copy(SAMPLES / "cube.off", level / "cube.off")
     return tmp_path
 
 
@@ -45,6 +48,9 @@ def expanded(command: str, folder: Path) -> list[str]:
         (["help", "resolve"], ["resolve --help"]),
         (["--json", "box.obj", "cube.off"], ["--format json box.obj cube.off"]),
         (["box.obj", "cube.off", "--html"], ["box.obj cube.off -o report.html"]),
+        (["box.obj", "cube.off", "--output-format", "json"], ["box.obj cube.off --format json"]),
+        (["level", "my parts"], ["each level 'my parts'"]),
+        (["eac", "my parts"], ["each 'my parts'"]),
         (["box.obj", "cube.off", "--formt=json"], ["box.obj cube.off --format json"]),
         (["*.glb"], ["ring.glb", "each '*.glb'"]),
         (["*.stl"], ["box_flush.stl box_pushed.stl", "each '*.stl'"]),
@@ -67,7 +73,16 @@ def test_a_slip_is_answered_with_a_command(
 
 
 @pytest.mark.parametrize(
-    "typed", [["my parts"], ["box.obj"], ["--json", "box.obj", "cube.off"], ["*.stl"], ["*.dae"]]
+    "typed",
+    [
+        ["my parts"],
+        ["level", "my parts"],
+        ["eac", "my parts"],
+        ["box.obj"],
+        ["--json", "box.obj", "cube.off"],
+        ["*.stl"],
+        ["*.dae"],
+    ],
 )
 def test_what_is_advised_works(typed: list[str], folder: Path) -> None:
     said = satcheck(*typed, cwd=folder).err
@@ -81,6 +96,11 @@ def test_what_is_advised_works(typed: list[str], folder: Path) -> None:
 def test_a_file_named_like_a_word_of_other_programs_can_be_checked(folder: Path) -> None:
     shutil.copy(SAMPLES / "box.obj", folder / "check.obj")
     assert satcheck("check.obj", "cube.off", cwd=folder).code == 0
+
+
+def test_an_error_names_a_file_once(folder: Path) -> None:
+    said = satcheck("my parts/*.obj", cwd=folder).err
+    assert said.startswith("satcheck: error: my parts/*.obj: no such file [file-not-found]\n")
 
 
 def test_a_report_is_no_mesh(folder: Path) -> None:
