@@ -194,6 +194,41 @@ def test_the_ball_has_its_number(opened: Opened) -> None:
     assert page.locator("#labels").inner_text() == ""
 
 
+def test_the_ball_is_gone_where_the_overlap_has_ended(opened: Opened) -> None:
+    page = opened(*PUSHED)
+    page.wait_for_selector("#labels span")
+    page.locator("#slider").fill("0.5")
+    assert share(page, "yellow") > 0.001
+    page.locator("#slider").fill("1")
+    assert share(page, "yellow") == 0
+    assert page.locator("#labels").inner_text() == ""
+    page.locator("#slider").fill("0")
+    assert share(page, "yellow") > 0.001
+
+
+def test_the_list_has_the_figures_in_the_order_of_the_table(opened: Opened) -> None:
+    page = opened(*SCENES["rack"])
+    items = page.locator("#findings li")
+    assert re.search(r"penetrating, .*depth \d", items.first.inner_text())
+    names = page.evaluate("report.findings.map((each) => each.names.join(' and '))")
+    shown = [items.nth(k).locator("div").inner_text() for k in range(items.count())]
+    assert shown == names
+    assert f"FAIL: {names[0]} overlap" in page.locator("#title").inner_text()
+
+
+def test_the_headline_is_three_lines_until_it_is_asked_for(opened: Opened) -> None:
+    page = opened(*SCENES["many"])
+    lines = """() => {
+      const headline = document.getElementById("title");
+      return Math.round(headline.clientHeight / parseFloat(getComputedStyle(headline).lineHeight));
+    }"""
+    assert page.evaluate(lines) == 3
+    title = page.locator("#title")
+    assert title.get_attribute("title") == page.title()
+    title.click()
+    assert page.evaluate(lines) > 3
+
+
 def test_the_axis_shows_both_shadows(opened: Opened) -> None:
     """Two cubes of 2, of which one reaches 1 into the other."""
     page = opened(*PUSHED)

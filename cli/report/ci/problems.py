@@ -80,14 +80,7 @@ def _of_report(report: Report) -> list[Problem]:
 def sentence(finding: Finding, unit: str | None) -> str:
     """`box and lid: penetrating, thickness 0.5 mm, depth 1 mm; moving box by (-1, 0, 0) ends the
     overlap.`"""
-    parts = [f"{finding.a} and {finding.b}: {finding.relation}"]
-    figures = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
-    parts += [f"{name} {with_unit(interval(f), unit)}" for name, f in figures.items() if f]
-    if finding.distance is not None:
-        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
-    if moving := in_motion(finding, unit):
-        parts.append(f"while moving: {moving}")
-    text = ", ".join(parts)
+    text = f"{finding.a} and {finding.b}: {measured(finding, unit)}"
     if finding.mtv is not None and finding.mtv_verified:
         text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"
     if finding.baseline_state is not None:
@@ -95,6 +88,18 @@ def sentence(finding: Finding, unit: str | None) -> str:
     if finding.reason is not None:
         text += f" ({finding.reason})"
     return f"{text}."
+
+
+def measured(finding: Finding, unit: str | None) -> str:
+    """`penetrating, thickness 0.5 mm, depth 1 mm`"""
+    parts: list[str] = [finding.relation]
+    figures = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    parts += [f"{name} {with_unit(interval(f), unit)}" for name, f in figures.items() if f]
+    if finding.distance is not None:
+        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
+    if moving := in_motion(finding, unit):
+        parts.append(f"while moving: {moving}")
+    return ", ".join(parts)
 
 
 def kind_of(finding: Finding) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.cli.report.ci.problems import sentence
+from satcheck.cli.report.ci.problems import measured, sentence
 from satcheck.cli.report.components import facts
 from satcheck.cli.report.order import severity, worst_first
 from satcheck.cli.report.picture.geometry import geometry
@@ -128,9 +128,11 @@ def _shown(
         "a": numbers.get(finding.a),
         "b": numbers.get(finding.b),
         "relation": finding.relation,
+        "measured": measured(finding, unit),
         "severity": severity(finding),
         "text": sentence(finding, unit),
         "mtv": finding.mtv,
+        "ends": bool(finding.mtv_verified),
         "axis": finding.normal,
         "witness": witness and [_relative(witness[body], middle) for body in ("a", "b")],
         "ball": ball

@@ -16,7 +16,7 @@ function list(choose) {
     item.setAttribute("role", "option");
     item.setAttribute("aria-selected", "false");
     added(item, "div", `${each.names[0]} and ${each.names[1]}`);
-    added(item, "small", `${each.severity}: ${each.relation}`);
+    added(item, "small", `${each.severity}: ${each.measured}`);
     item.addEventListener("click", () => choose(number));
   });
   report.issues.forEach((text) => added(element("issues"), "li", text));

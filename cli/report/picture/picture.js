@@ -147,7 +147,7 @@ class Picture {
       if (kind === "witness" && !view.witness) continue;
       renderer.draw(shape, [...colour, 1], { mode, lit: mode === gl.POINTS ? -1 : 0 });
     }
-    if (view.ball && now.ball) {
+    if (view.ball && now.ball && !view.ended) {
       renderer.translucent(renderer.placed(this.sphere, ballRows(now.ball.centre, now.ball.radius)), [...YELLOW, 0.8]);
       labels.push([now.ball.text, now.ball.centre]);
     }

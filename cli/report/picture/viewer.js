@@ -6,6 +6,9 @@ let picture = null;
 const finding = () => report.findings[state.selected];
 const isOn = (id) => element(id).checked && !element(id).disabled;
 
+// Whether the slider has moved A so far that the overlap is gone.
+const hasEnded = (now) => Boolean(now && now.mtv && now.ends) && +element("slider").value === 1;
+
 function show() {
   if (state.pending || !picture) return;
   state.pending = true;
@@ -21,6 +24,7 @@ function paint() {
     move: now && now.mtv ? times(now.mtv, +element("slider").value) : [0, 0, 0],
     up: camera.world([0, 0, 1]),
     ink: dark ? [1, 1, 1] : [0, 0, 0],
+    ended: hasEnded(now),
     component: now && now.components[state.component],
     ...Object.fromEntries(["others", "axis", "ball", "witness"].map((id) => [id, isOn(id)])),
   });
@@ -205,7 +209,7 @@ function listen() {
 
 async function start() {
   report.findings = JSON.parse(await unpackedText(report.findings));
-  element("title").textContent = document.title = report.title;
+  element("title").textContent = element("title").title = document.title = report.title;
   element("simplified").textContent = report.simplified;
   const preferred = matchMedia("(prefers-color-scheme: dark)");
   setTheme(preferred.matches);
