@@ -126,6 +126,12 @@ def is_rules(path: str) -> bool:
     return scene is not None and not scene.bodies
 
 
+def has_only_rules(path: str) -> bool:
+    """Whether the input is a scene file with rules and without bodies. Raises SceneFileError."""
+    scene = _read_scenes([path], allow_outside=True).get(path)
+    return scene is not None and bool(scene.rules) and not scene.bodies
+
+
 def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
     return bool(scenes[path].bodies) if path in scenes else kind_of(path) != "srdf"
 

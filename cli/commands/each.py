@@ -24,9 +24,11 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import talk
 from satcheck.cli.worlds import Delivery, check_worlds
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.changed_assets import changed_since
 from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.loader import has_only_rules
 
 STANDARD_INPUT = "-"
 # What is about one world, or about one report.
@@ -98,16 +100,29 @@ def command(
 
 
 def _files(inputs: Inputs, *, planar: bool) -> list[str]:
-    """A file of rules that is given as such is no asset."""
+    """A file of rules is no asset."""
     names: list[str] = []
     for name in inputs.paths:
         names += _standard_input() if name == STANDARD_INPUT else [name]
     found = asset_files(filter(None, names), drawings=DRAWINGS if planar else ())
     rules = {os.path.realpath(path) for path in inputs.rules}
-    files = [file for file in found if os.path.realpath(file) not in rules]
+    files = [
+        file for file in found if os.path.realpath(file) not in rules and not _is_skipped(file)
+    ]
     if not files:
         raise click.UsageError("no file is named: give a folder or files")
     return files
+
+
+def _is_skipped(file: str) -> bool:
+    """Files that only have rules are told, as their rules do not count here."""
+    try:
+        skipped = has_only_rules(file)
+    except SatcheckError:  # the check of this asset says why
+        return False
+    if skipped:
+        talk(f"satcheck: {file} has only rules and is no asset: --rules {file} applies them")
+    return skipped
 
 
 def _standard_input() -> list[str]:

@@ -222,3 +222,17 @@ def test_a_page_is_of_one_check(assets: Path) -> None:
     ran = satcheck("each", str(assets), "--format", "html")
     assert ran.code == 2
     assert "'html' is not one of" in ran.err
+
+
+RULES = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "a press fit"\n'
+
+
+def test_a_file_of_rules_is_no_asset(assets: Path) -> None:
+    header = 'schema = "satcheck.scene/1"\nbodies = []\n'
+    (assets / "allowed.toml").write_text(header + RULES)
+    (assets / "empty.toml").write_text(header)
+    ran = satcheck("each", ".", "--format", "json", cwd=assets)
+    assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass", "empty.toml": "error"}
+    assert "allowed.toml has only rules and is no asset: --rules allowed.toml" in ran.err
+    alone = satcheck("each", "allowed.toml", cwd=assets)
+    assert (alone.code, "no file is named" in alone.err) == (2, True)
