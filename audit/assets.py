@@ -13,7 +13,13 @@ from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import summarise, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, asset
-from satcheck.report.report import INTERNAL_ERROR, Issue, PairCounts, Report
+from satcheck.report.report import (
+    INTERNAL_ERROR,
+    NOTHING_TO_CHECK,
+    Issue,
+    PairCounts,
+    Report,
+)
 from satcheck.scene import Scene, SceneFileError
 
 NO_PAIRS = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
@@ -28,13 +34,14 @@ def check_asset(
 ) -> Asset:
     """Checks one asset. If it cannot be loaded, the report has no bodies and the error as an issue.
 
-    An asset with a single body passes, and the report has the issues of its mesh. settings_for:
+    An asset with a single body passes, and the report has the issues of its mesh. An asset whose
+    pairs are all allowed by rules passes too, and a note says so. settings_for:
     makes the settings for a scene, because lengths may be in its units.
     places: state where scene files name the bodies of findings.
     """
     try:
         scene = load()
-        report = check(scene, settings_for(scene), least=1)
+        report = _passing_by_rules(check(scene, settings_for(scene), least=1), scene)
         return asset(file, with_stated_places(report, scene) if places else report)
     except SatcheckError as error:
         issues = [
@@ -45,6 +52,20 @@ def check_asset(
         text = f"a fault of satcheck: {type(error).__name__}: {error}"
         issues = [Issue(INTERNAL_ERROR, "error", None, file, text)]
     return asset(file, _without_bodies(issues))
+
+
+def _passing_by_rules(report: Report, scene: Scene) -> Report:
+    """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
+    Robots are left out, as their own pairs are allowed without any rule."""
+    pairs = report.summary.pairs
+    if scene.robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:
+        return report
+    issues = (
+        replace(issue, severity="note") if issue.code == NOTHING_TO_CHECK else issue
+        for issue in report.issues
+    )
+    summary = replace(report.summary, verdict="pass")
+    return replace(report, summary=summary, issues=tuple(issues))
 
 
 def _line_of(error: SatcheckError) -> int | None:

@@ -88,10 +88,11 @@ def summarise(
 
 
 def verdict_of(report: Report) -> Verdict:
-    """The verdict of a report, from its current findings."""
-    alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
+    """The verdict of a report beside a baseline, which can only excuse findings."""
     summary = report.summary
-    return "pass" if alone else _verdict(summary.pairs, report.findings, report.settings.fail_on)
+    if summary.verdict == "pass":
+        return "pass"
+    return _verdict(summary.pairs, report.findings, report.settings.fail_on)
 
 
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:

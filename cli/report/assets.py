@@ -15,15 +15,20 @@ from satcheck.cli.report.ci.problems import problems
 from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.report.assets import ASSET_VERDICTS
+from satcheck.report.report import NOTHING_TO_CHECK
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
+    from satcheck.cli.report.ci.problems import Problem
     from satcheck.report.assets import Asset, AssetsReport
+    from satcheck.report.report import Issue
 
 # Passing assets are listed up to this many assets.
 LISTED = 60
 # So many are named in the summary.
 NAMED = 3
+# Kinds of problems that make an asset incomplete.
+_OPEN = (NOTHING_TO_CHECK, "undecided")
 # Colour only repeats what the word says.
 _COLOURS = {
     "pass": "green",
@@ -70,7 +75,19 @@ def summary_line(report: AssetsReport) -> str:
     ]
     line = f"{word}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
     beside = beside_baseline(asset.report for asset in report.assets)
-    return " ".join([line, *beside, *_next_step(report)])
+    return " ".join([line, *_by_rules(report), *beside, *_next_step(report)])
+
+
+def _by_rules(report: AssetsReport) -> list[str]:
+    """`No pair of 1 passing asset was checked: rules allow them all.`"""
+    passing = (asset.report for asset in report.assets if asset.verdict == "pass")
+    count = sum(any(map(_is_unchecked, each.issues)) for each in passing)
+    named = counted(count, "passing asset")
+    return [f"No pair of {named} was checked: rules allow them all."] if count else []
+
+
+def _is_unchecked(issue: Issue) -> bool:
+    return issue.code == NOTHING_TO_CHECK
 
 
 def _next_step(report: AssetsReport) -> list[str]:
@@ -96,8 +113,7 @@ def _table(assets: list[Asset], *, unicode: bool) -> Table:
             no_wrap=name not in ("asset", "worst"),
         )
     for asset in assets:
-        report = asset.report
-        listed = [p for p in problems({asset.file: report}) if p.level != "note"]
+        report, listed = asset.report, _listed(asset)
         more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
         table.add_row(
             Text(asset.file),
@@ -107,3 +123,12 @@ def _table(assets: list[Asset], *, unicode: bool) -> Table:
             Text(f"{listed[0].message}{more}" if listed else ""),
         )
     return table
+
+
+def _listed(asset: Asset) -> list[Problem]:
+    """What the row of an asset tells, the worst first; of an incomplete one, first what is open."""
+    told = problems({asset.file: asset.report})
+    listed = [p for p in told if p.level != "note" or p.kind in _OPEN]
+    if asset.verdict == "incomplete":
+        listed.sort(key=lambda p: p.kind not in _OPEN)
+    return listed

@@ -48,11 +48,12 @@ def summary_line(report: Report) -> str:
 def verdict_line(report: Report) -> str:
     """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, depth 1 mm).`"""
     errors, left_open = _errors(report), _left_open(report)
+    unchecked = nothing_checked(report.issues)
     if report.summary.verdict == "fail":
         return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
     if report.summary.verdict == "pass" and not errors:
-        return f"PASS: {_passed(report)}."
-    if unchecked := nothing_checked(report.issues):
+        return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
+    if unchecked:
         return " ".join(["INCOMPLETE:", *unchecked, *map(_sentence, errors)])
     if left_open:
         left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"

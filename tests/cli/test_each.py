@@ -236,3 +236,64 @@ def test_a_file_of_rules_is_no_asset(assets: Path) -> None:
     assert "allowed.toml has only rules and is no asset: --rules allowed.toml" in ran.err
     alone = satcheck("each", "allowed.toml", cwd=assets)
     assert (alone.code, "no file is named" in alone.err) == (2, True)
+
+
+def overlapping(folder: Path) -> Path:
+    """A scene of box and box_pushed, which overlap."""
+    for name in ("box.obj", "box_pushed.stl"):
+        shutil.copy(SAMPLES / name, folder)
+    bodies = "".join(
+        f'[[bodies]]\nid = "{Path(name).stem}"\nmesh = "{name}"\n'
+        for name in ("box.obj", "box_pushed.stl")
+    )
+    scene = folder / "fit.toml"
+    scene.write_text(f'schema = "satcheck.scene/1"\n{bodies}')
+    (folder / "allowed.toml").write_text(RULES)
+    return scene
+
+
+@pytest.mark.parametrize("baseline", [(), ("--baseline", "known.json")])
+def test_an_asset_whose_pairs_are_all_allowed_passes_and_says_so(
+    baseline: tuple[str, ...], tmp_path: Path
+) -> None:
+    overlapping(tmp_path)
+    (tmp_path / "known.json").write_text('{"schema": "satcheck.baseline/1"}')
+    call = ("each", "fit.toml", "--rules", "allowed.toml", *baseline)
+    assert satcheck("each", "fit.toml", cwd=tmp_path).code == 1
+    ran = satcheck(*call, cwd=tmp_path)
+    assert ran.code == 0
+    assert "no pair was checked: 1 allowed by rules" in ran.out
+    last = "PASS: 1 asset: 1 passes. No pair of 1 passing asset was checked: rules allow them all."
+    assert ran.out.splitlines()[-1].startswith(last)
+    suites = satcheck(*call, "--format", "junit", cwd=tmp_path).out
+    assert "PASS: No pair was checked: 1 allowed by rules." in suites
+
+
+@pytest.mark.parametrize(
+    "line", ["check_static = false", 'ignore_within_groups = ["all"]'], ids=["static", "group"]
+)
+def test_an_asset_that_exempts_its_pairs_in_another_way_is_incomplete(
+    line: str, tmp_path: Path
+) -> None:
+    scene = overlapping(tmp_path)
+    marked = scene.read_text().replace('.obj"', '.obj"\nstatic = true\ngroups = ["all"]')
+    marked = marked.replace('.stl"', '.stl"\nstatic = true\ngroups = ["all"]')
+    scene.write_text(marked.replace("[[bodies]]", f"{line}\n[[bodies]]", 1))
+    ran = satcheck("each", "fit.toml", "--rules", "allowed.toml", cwd=tmp_path)
+    assert ran.code == 3
+    assert "no pair was checked: 1 " in ran.out
+
+
+def test_the_reason_of_an_incomplete_asset_comes_first(tmp_path: Path) -> None:
+    """Before the warning about the hole of a body."""
+    for name in ("open_box.off", "cube.off"):
+        shutil.copy(SAMPLES / name, tmp_path)
+    bodies = "".join(
+        f'[[bodies]]\nid = "{name}"\nmesh = "{name}.off"\nstatic = true\n'
+        for name in ("open_box", "cube")
+    )
+    header = 'schema = "satcheck.scene/1"\ncheck_static = false\n'
+    (tmp_path / "fit.toml").write_text(header + bodies)
+    ran = satcheck("each", "fit.toml", cwd=tmp_path)
+    assert ran.code == 3
+    assert re.search(r"no pair was checked: 1 of static bodies\s+\(and 1 more\)", ran.out)
