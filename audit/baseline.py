@@ -43,14 +43,18 @@ _OF_MOTIONS: tuple[Figure, ...] = ("motion_depth", "motion_distance")
 _GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 
 
-def beside_baseline(report: Report, baseline: Baseline, file: str, asset: str = "") -> Report:
+def beside_baseline(
+    report: Report, baseline: Baseline, file: str, assets: Sequence[str] = ("",)
+) -> Report:
     """The report with the state of each failing finding, and its verdict without unchanged ones.
 
-    file: of the baseline, to name it.
+    file: of the baseline, to name it. assets: what the baseline may call the input of the report;
+    where it knows a pair under several of these names, the first one counts.
     """
     known = {each.key: each for each in baseline.findings}
-    findings = tuple(_with_state(finding, report, known, asset) for finding in report.findings)
-    stated = StatedBaseline(file, tuple(absent_from(report, baseline, asset)))
+    findings = tuple(_with_state(finding, report, known, assets) for finding in report.findings)
+    absent = (known for asset in assets for known in absent_from(report, baseline, asset))
+    stated = StatedBaseline(file, tuple(absent))
     judged = replace(report, findings=findings, baseline=stated)
     accepted = sum(finding.baseline_state == "unchanged" for finding in findings)
     return replace(
@@ -147,11 +151,12 @@ def _with_state(
     finding: Finding,
     report: Report,
     known: Mapping[tuple[str, frozenset[str]], KnownFinding],
-    asset: str,
+    assets: Sequence[str],
 ) -> Finding:
     if not fails(finding, report.settings.fail_on):
         return finding
-    before = known.get((asset, frozenset((finding.a, finding.b))))
+    pair = frozenset((finding.a, finding.b))
+    before = next((known[asset, pair] for asset in assets if (asset, pair) in known), None)
     state: BaselineState = "new" if before is None else _compared(before, finding, report)
     return replace(finding, baseline_state=state)
 

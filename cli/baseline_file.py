@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import msgspec
@@ -36,3 +37,9 @@ def asset_key(asset: str, baseline: Path) -> str:
     it does not depend on where the command runs, nor on links that lead to a folder."""
     file = Path(asset).parent.resolve() / Path(asset).name
     return Path(os.path.relpath(file, baseline.parent.resolve())).as_posix()
+
+
+def names_in_baseline(paths: Sequence[str], baseline: Path) -> tuple[str, ...]:
+    """What a baseline may call the input of a plain check. One file is the asset that
+    `satcheck each` checks: its bodies have the same ids."""
+    return (asset_key(paths[0], baseline), "") if len(paths) == 1 else ("",)

@@ -133,7 +133,7 @@ def _refuse_folder(name: str) -> None:
 
 
 def _beside(each: Asset, known: Baseline, path: Path) -> Asset:
-    report = beside_baseline(each.report, known, str(path), asset_key(each.file, path))
+    report = beside_baseline(each.report, known, str(path), (asset_key(each.file, path),))
     return asset(each.file, report)
 
 

@@ -17,7 +17,7 @@ from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
-from satcheck.cli.baseline_file import read_baseline
+from satcheck.cli.baseline_file import names_in_baseline, read_baseline
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
@@ -300,8 +300,9 @@ def command(
     result: Report | Samples
     if poses is None:
         result = _check(scene, settings_of(options, scene))
-        if known is not None:
-            result = beside_baseline(result, known, str(baseline))
+        if known is not None and baseline is not None:
+            names = names_in_baseline(inputs.paths, baseline)
+            result = beside_baseline(result, known, str(baseline), names)
         if form != "table":
             result = with_stated_places(result, scene)
     else:

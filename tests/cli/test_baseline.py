@@ -265,6 +265,18 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert "0 removed" in repository.run("baseline", "prune", "known.json", "report.json").out
 
 
+def test_a_check_of_one_file_is_known_by_the_name_of_its_asset(tmp_path: Path) -> None:
+    repository = Repository(tmp_path)
+    repository.report()
+    repository.run("baseline", "write", "known.json", "report.json")
+    gate = ("--depth", "--baseline", "known.json")
+    ran = repository.run("gripper.glb", *gate)
+    assert (ran.code, "Baseline: 1 known finding." in ran.out) == (0, True)
+    shutil.copy(tmp_path / "gripper.glb", tmp_path / "other.glb")
+    assert "0 known findings, 1 new" in repository.run("other.glb", *gate).out
+    assert "0 known findings, 1 new" in repository.run("gripper.glb", "other.glb", *gate).out
+
+
 INDETERMINATE = {"a": "x", "b": "y", "severity": "error", "relation": "indeterminate"}
 
 
