@@ -34,7 +34,7 @@ from satcheck.report.config import StatedConfig
 from satcheck.report.report import without_timings
 from satcheck.scene import Scene
 from satcheck.scene.loader import read_rules
-from satcheck.scene.path_kind import is_folder
+from satcheck.scene.path_kind import exists, is_folder
 
 # The files of a world, in the order in which they are read; the first one names it.
 World = tuple[str, ...]
@@ -122,7 +122,9 @@ def _check(
 
 
 def _refuse_folder(name: str) -> None:
-    """Only a folder that cannot be listed is among the assets."""
+    """Only a folder that cannot be listed is among the assets, or one that does not exist."""
+    if not exists(name) and not Path(name).suffix:
+        raise SatcheckError("file-not-found", "no such file or folder", file=name)
     try:
         if is_folder(name):
             next(Path(name).iterdir(), None)

@@ -62,7 +62,8 @@ def render(report: AssetsReport, page: Page, *, top: int | None = None) -> str:
 def summary_line(report: AssetsReport) -> str:
     """`FAIL: 39 assets: 1 has errors (c.glb), 2 fail (a.glb, b.glb), 36 pass.`"""
     counts = report.counts
-    word = "PASS" if report.verdict == "pass" else "FAIL" if counts.fail else "INCOMPLETE"
+    unsure = "ERROR" if counts.error else "INCOMPLETE"
+    word = "PASS" if report.verdict == "pass" else "FAIL" if counts.fail else unsure
     parts = [
         f"{count:,} {words}{_named(report, verdict)}"
         for count, words, verdict in (

@@ -1,4 +1,4 @@
-"""The last lines of a report over many poses: its counts, then PASS, FAIL or INCOMPLETE."""
+"""The last lines of a report over many poses: its counts, then PASS, FAIL, INCOMPLETE or ERROR."""
 
 from __future__ import annotations
 
@@ -46,7 +46,9 @@ def samples_verdict(result: Samples) -> str:
     if result.verdict == "fail":
         return f"FAIL: {_failed(result)}. Next: --pose POSE -o report.html shows one pose in 3-D."
     unchecked = nothing_checked(result.issues)
-    return " ".join(["INCOMPLETE:", *(unchecked or ["no collision was found, but not proven."])])
+    failed = any(issue.severity == "error" for issue in result.issues)
+    word = "ERROR" if failed else "INCOMPLETE"
+    return " ".join([f"{word}:", *(unchecked or ["no collision was found, but not proven."])])
 
 
 def _failed(result: Samples) -> str:

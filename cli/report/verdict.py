@@ -1,4 +1,7 @@
-"""The last line of a report: PASS, FAIL or INCOMPLETE, why, and what to do next."""
+"""The last line of a report: PASS, FAIL, INCOMPLETE or ERROR, why, and what to do next.
+
+The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
+"""
 
 from __future__ import annotations
 
@@ -53,11 +56,12 @@ def verdict_line(report: Report) -> str:
         return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
     if report.summary.verdict == "pass" and not errors:
         return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
+    word = "ERROR" if errors else "INCOMPLETE"
     if unchecked:
-        return " ".join(["INCOMPLETE:", *unchecked, *map(_sentence, errors)])
+        return " ".join([f"{word}:", *unchecked, *map(_sentence, errors)])
     if left_open:
         left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
-    return f"INCOMPLETE: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+    return f"{word}: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
 
 
 def next_step(report: Report, *, written: bool = False) -> list[str]:

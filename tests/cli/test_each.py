@@ -76,6 +76,15 @@ def test_nothing_to_check_is_an_error(name: str, told: str, tmp_path: Path) -> N
     assert told in ran.err
 
 
+def test_a_missing_folder_is_an_error_and_no_body(tmp_path: Path) -> None:
+    ran = satcheck("each", "nowhere", cwd=tmp_path)
+    assert ran.code == 2
+    assert ran.out.endswith("ERROR: 1 asset: 1 has errors (nowhere).\n")
+    (row,) = (line.split() for line in ran.out.splitlines() if "no such file" in line)
+    assert row[1::2][:4] == ["nowhere", "error", "0", "0"]
+    assert "nowhere: no such file or folder [file-not-found]" in ran.err
+
+
 def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
     document = JUnitXml.fromstring(satcheck("each", str(assets), "--format", "junit").out.encode())
     suites = {Path(suite.name).name: (suite.tests, suite.failures) for suite in document}

@@ -333,7 +333,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
     )
     assert "warning: soup: 1 hole, 2 across: there, nothing is inside [not-closed]" in text
     assert "gone.obj" not in text
-    assert text.endswith("\nINCOMPLETE: 1 input could not be used.\n")
+    assert text.endswith("\nERROR: 1 input could not be used.\n")
 
 
 @pytest.mark.parametrize(
