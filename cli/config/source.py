@@ -84,14 +84,14 @@ def origin(ctx: click.Context, name: str) -> str | None:
 
 def refuse_value(ctx: click.Context, error: click.BadParameter) -> NoReturn:
     """Raises `bad-config` for a value that click refuses, if the config file has it."""
-    from satcheck.cli.config.values import key_of
+    from satcheck.cli.config.values import key_of, number_expected
 
     file = config_of(ctx)
     if file is None or not isinstance(error.param, click.Option):
         raise error
     if not is_from_config(ctx, error.param):
         raise error
-    raise file.refused(key_of(error.param), error.message)
+    raise file.refused(key_of(error.param), number_expected(error.param) or error.message)
 
 
 def _nearest() -> Path | None:

@@ -50,6 +50,19 @@ def value_of(option: click.Option, raw: Any, folder: Path) -> Any:
     return _text(option, raw, folder)
 
 
+def number_expected(option: click.Option) -> str | None:
+    """`must be a whole number, at least 0`; None: not of a number in a range."""
+    kind = option.type
+    if not isinstance(kind, click.IntRange | click.FloatRange):
+        return None
+    words = ["must be a whole number" if isinstance(kind, click.IntRange) else "must be a number"]
+    if kind.min is not None:
+        words.append(f"{'more than' if kind.min_open else 'at least'} {kind.min}")
+    if kind.max is not None:
+        words.append(f"{'less than' if kind.max_open else 'at most'} {kind.max}")
+    return ", ".join(words)
+
+
 def _text(option: click.Option, raw: Any, folder: Path) -> str:
     if isinstance(raw, bool) or not isinstance(raw, str | int | float):
         raise ValueError("a text or a number expected")
