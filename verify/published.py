@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from msgspec import ValidationError, convert, to_builtins
 
+from satcheck.report.assets import SCHEMA as ASSETS
 from satcheck.report.report import SCHEMA, Finding, Report
 from satcheck.report.schema import TIMING
 from satcheck.verify.exact import Rejected
@@ -33,6 +34,11 @@ def report_of(document: Any) -> tuple[Report, list[Finding | IllFormed]]:
     Rejected: a value of a wrong type, an unknown key or word, a missing key, or a number that is
     not finite, outside of the findings.
     """
+    if isinstance(document, dict) and document.get("schema") == ASSETS:
+        raise Rejected(
+            "it holds the reports of several assets, and certificates need the check of one: "
+            "satcheck --certificate -o REPORT.json ASSET"
+        )
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
     findings = document.get("findings")

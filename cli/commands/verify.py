@@ -85,7 +85,8 @@ def command(
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
     text = json_document(_report(result)) if form == "json" else _table(result)
-    document.deliver(lambda _: text, output, utf8=form == "json")
+    if result.certified or result.faults or form == "json" or output is not None:
+        document.deliver(lambda _: text, output, utf8=form == "json")
     if result.missing:
         talk(f"satcheck: {_missing(result, root)}")
     if not result.certified:

@@ -140,3 +140,19 @@ def test_what_has_no_end_is_not_read(tmp_path: Path) -> None:
     ran = satcheck("verify", str(tmp_path / "pipe.json"))
     assert (ran.code, ran.out) == (2, "")
     assert "is a pipe, not a file: not read [not-a-file]" in ran.err
+
+
+def test_a_report_without_certificates_gets_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    satcheck("-o", str(path), *PUSHED, "cube.off")
+    ran = satcheck("verify", str(path))
+    told = f"satcheck: {path}: no certificates: was it made with --certificate?\n"
+    assert (ran.code, ran.out, ran.err) == (2, "", told)
+
+
+def test_a_report_of_each_is_refused_with_the_command_that_has_certificates(tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    satcheck("each", "-o", str(path), *PUSHED)
+    ran = satcheck("verify", str(path))
+    assert (ran.code, ran.out) == (2, "")
+    assert "the reports of several assets, and certificates need the check of one" in ran.err
