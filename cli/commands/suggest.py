@@ -37,6 +37,8 @@ from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
 
 FORMATS = ("toml", "json", "srdf")
+# Names of files that hold rules.
+_RULES = (".toml", ".srdf")
 
 
 def _form_of(output: Path | None) -> str:
@@ -92,6 +94,10 @@ def command(
     if tolerances:
         if never or inputs.has_poses or options["planar"] or form not in (None, "json"):
             raise click.UsageError("--surface-tolerance is about meshes alone, as text or JSON")
+        if form is None and output is not None and output.suffix.lower() in _RULES:
+            raise click.UsageError(
+                f"{output}: --surface-tolerance writes text or JSON: name the file .txt or .json"
+            )
         return _surface_tolerances(inputs, form, output)
     form = form or _form_of(output)
     refuse_early(inputs, output)

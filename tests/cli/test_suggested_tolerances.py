@@ -86,3 +86,10 @@ def test_an_unreadable_body_is_an_error(tmp_path: Path) -> None:
     ran = satcheck("suggest", "--surface-tolerance", "box.obj", str(tmp_path / "gone.obj"))
     assert ran.code == 2
     assert "box: no curved surface is seen" in ran.out
+
+
+def test_prose_is_not_written_into_a_file_of_rules(tmp_path: Path) -> None:
+    path = tmp_path / "t.toml"
+    ran = satcheck("suggest", "--surface-tolerance", "box.obj", "-o", str(path))
+    assert (ran.code, path.exists()) == (2, False)
+    assert "--surface-tolerance writes text or JSON" in ran.err
