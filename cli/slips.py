@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from satcheck.cli.commands import COMMANDS
 from satcheck.core.errors import SatcheckError
@@ -29,6 +29,8 @@ MOST_FILES = 8
 # So many bad paths get advice; the others are errors alone.
 MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
+# Options about the document, not about the answer, and about many assets.
+_DELIVERY = ("form", "output", "quiet", "top", "changed_since", "color", "exit_zero")
 # What other programs call our options: a name without dashes, and what it is here.
 _ALIASES: Mapping[str, tuple[str, ...]] = {
     "html": ("-o", "report.html"),
@@ -121,6 +123,26 @@ def _about_command(word: str) -> Advice | None:
     near = get_close_matches(word, COMMANDS, n=1)
     rest = [each for each in sys.argv[1:] if each != word]
     return Advice(f"did you mean the command {near[0]}", _line([*near, *rest])) if near else None
+
+
+def check_of(file: str, ctx: click.Context) -> str:
+    """A plain check of a file, with the options of this call that change its answer."""
+    words = sys.argv[1:]
+    values, _, order = ctx.command.make_parser(ctx).parse_args(words)
+    kept: list[str] = []
+    for option in dict.fromkeys(order):
+        if option.param_type_name == "option" and option.name not in _DELIVERY:
+            kept += _as_given(option, values[option.name])
+    return _line([file, *kept])
+
+
+def _as_given(option: click.Parameter, value: Any) -> list[str]:
+    """The words of an option with the value that the parser has read."""
+    if getattr(option, "is_flag", False):
+        names = option.opts if value else option.secondary_opts
+        return names[-1:]
+    values = value if option.multiple else [value]
+    return [word for each in values for word in (option.opts[-1], str(each))]
 
 
 def _about_path(path: str) -> Iterator[Advice]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from typing import TYPE_CHECKING
 
+import click
 from rich import box
 from rich.table import Table
 from rich.text import Text
@@ -93,7 +94,17 @@ def _is_unchecked(issue: Issue) -> bool:
 
 def _next_step(report: AssetsReport) -> list[str]:
     failing = (asset.file for asset in report.assets if asset.verdict == "fail")
-    return [f"Next: satcheck {shlex.quote(file)} lists its pairs." for file in failing][:1]
+    return [f"Next: {_check_of(file)} lists its pairs." for file in failing][:1]
+
+
+def _check_of(file: str) -> str:
+    """With the options of this call, if a command renders."""
+    ctx = click.get_current_context(silent=True)
+    if ctx is None or ctx.info_name != "each":
+        return f"satcheck {shlex.quote(file)}"
+    from satcheck.cli.slips import check_of
+
+    return check_of(file, ctx)
 
 
 def _named(report: AssetsReport, verdict: str) -> str:

@@ -306,3 +306,14 @@ def test_the_reason_of_an_incomplete_asset_comes_first(tmp_path: Path) -> None:
     ran = satcheck("each", "fit.toml", cwd=tmp_path)
     assert ran.code == 3
     assert re.search(r"no pair was checked: 1 of static bodies\s+\(and 1 more\)", ran.out)
+
+
+def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "a b.glb")
+    (tmp_path / "allowed.toml").write_text(RULES)
+    options = ("--no-depth", "--rules=allowed.toml", "--clearance", "2mm", "--top", "3")
+    ran = satcheck("each", ".", *options, cwd=tmp_path)
+    (line,) = re.findall(r"Next: satcheck (.*) lists its pairs", ran.out)
+    words = shlex.split(line)
+    assert words == ["a b.glb", "--no-depth", "--rules", "allowed.toml", "--clearance", "2mm"]
+    assert satcheck(*words, cwd=tmp_path).code == 1
