@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import click
+from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.cli.baseline_file import asset_key, read_baseline
@@ -14,7 +15,7 @@ from satcheck.cli.output import Document, write_file
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import read_report
-from satcheck.report.baseline import Baseline
+from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Report
 from satcheck.scene.path_kind import exists
 
@@ -78,9 +79,23 @@ def _update(file: Path, baseline: Baseline, reports: Sequence[Path], reason: str
     known = [
         finding
         for asset, report in _named_reports(reports, file)
-        for finding in known_findings(report, asset, reason)
+        for finding in _named(known_findings(report, asset, reason), report, baseline, file)
     ]
     _write(file, baseline, updated(baseline, known))
+
+
+def _named(
+    findings: Sequence[KnownFinding], report: Report, baseline: Baseline, file: Path
+) -> Iterator[KnownFinding]:
+    """A pair of a plain check under the name of its asset, if the baseline knows it there."""
+    keys = {known.key for known in baseline.findings}
+    bodies = {body.id: body for body in report.bodies}
+    for finding in findings:
+        a, b = bodies[finding.a], bodies[finding.b]
+        homes = {each.stated_at.file if each.stated_at else each.file for each in (a, b)}
+        is_one = len(homes) == 1 and (a.stated_at is not None or a.path != b.path)
+        under = replace(finding, asset=asset_key(homes.pop(), file))
+        yield under if is_one and not finding.asset and under.key in keys else finding
 
 
 def _write(file: Path, before: Baseline, after: Baseline) -> None:

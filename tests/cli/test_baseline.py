@@ -272,6 +272,10 @@ def test_a_check_of_one_file_is_known_by_the_name_of_its_asset(tmp_path: Path) -
     gate = ("--depth", "--baseline", "known.json")
     ran = repository.run("gripper.glb", *gate)
     assert (ran.code, "Baseline: 1 known finding." in ran.out) == (0, True)
+    repository.run("gripper.glb", "--depth", "-o", "one.json")
+    assert (
+        "1 finding, 0 added" in repository.run("baseline", "update", "known.json", "one.json").out
+    )
     shutil.copy(tmp_path / "gripper.glb", tmp_path / "other.glb")
     assert "0 known findings, 1 new" in repository.run("other.glb", *gate).out
     assert "0 known findings, 1 new" in repository.run("gripper.glb", "other.glb", *gate).out
