@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from satcheck.core.worker import WorkerTimeout
 from satcheck.scene import load_scene
 from satcheck.scene.loading import limits
+from satcheck.scene.loading.reading_children import ReadingChildren
 from tests.scene import files, graphs
 
 
@@ -249,11 +251,18 @@ def test_the_child_process_gives_the_same_nodes(tmp_path, monkeypatch):
         assert here.units == there.units
 
 
-def test_limits_of_the_child_hold_for_nodes_too(tmp_path):
+def test_limits_of_the_child_hold_for_nodes_too(tmp_path, monkeypatch):
+    """The child never answers: a real one may answer before any limit, however short."""
+
+    def wait(_children, module, _request, *, seconds):
+        raise WorkerTimeout(module, seconds)
+
+    monkeypatch.setattr(ReadingChildren, "ask", wait)
     path = tmp_path / "a.3mf"
     path.write_bytes(files.threemf())
-    (issue,) = load_scene([path], seconds_per_file=1e-9).issues
+    (issue,) = load_scene([path], seconds_per_file=0.25).issues
     assert issue.code == "reader-timeout"
+    assert "0.25 s" in issue.message
 
 
 def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
