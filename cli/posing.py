@@ -9,7 +9,7 @@ import click
 
 from satcheck.cli.inputs import Inputs
 from satcheck.scene import Scene
-from satcheck.scene.robot import Pose, joint_samples, pose_of_states, read_poses
+from satcheck.scene.robot import Pose, joint_samples, pose_of_states, posed, read_poses
 
 
 def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
@@ -35,3 +35,11 @@ def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
         return {**base, **given[0]}
     listed = [pose for poses in given for pose in (poses if isinstance(poses, list) else [poses])]
     return [{**base, **pose} for pose in listed] if listed else base
+
+
+def posed_once(scene: Scene, inputs: Inputs, several: str) -> Scene:
+    """The scene in the one pose of the options. several: the UsageError where they give more."""
+    pose = poses_of(scene, inputs)
+    if isinstance(pose, list):
+        raise click.UsageError(several)
+    return posed(scene, pose)

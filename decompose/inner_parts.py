@@ -1,8 +1,9 @@
 """Finds convex bodies proven to lie inside a solid mesh, one for each of its convex parts.
 
-A part sticks out of the mesh a little. The part, or a region of it that the mesh's surface does not
-enter (up to rounding), is scaled about its centre until it is strictly inside. If a factor fits,
-every smaller factor fits. The exact mesh relation of the scaled copy with rounded vertices decides.
+A convex part may be slightly larger than the mesh. The first candidate is the part itself. The
+second is a region of the part that the surface does not enter (up to rounding). A candidate is
+scaled about its centre until it is strictly inside. If a factor fits, every smaller factor fits.
+The exact mesh relation of the scaled copy with rounded vertices decides.
 """
 
 from __future__ import annotations

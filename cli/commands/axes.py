@@ -118,13 +118,9 @@ def command(
 def _posed(scene: Scene, inputs: Inputs) -> Scene:
     if not inputs.has_poses:
         return scene
-    from satcheck.cli.posing import poses_of
-    from satcheck.scene.robot import posed
+    from satcheck.cli.posing import posed_once
 
-    pose = poses_of(scene, inputs)
-    if isinstance(pose, list):
-        raise click.UsageError("axes are those of one pose: give one --pose")
-    return posed(scene, pose)
+    return posed_once(scene, inputs, "axes are those of one pose: give one --pose")
 
 
 def _render(result: AxesReport, form: str, page: Page) -> str:

@@ -36,7 +36,7 @@ from satcheck.cli.options import (
     units_option,
 )
 from satcheck.cli.output import Document, Page, talk, write_file
-from satcheck.cli.posing import poses_of
+from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line
@@ -44,7 +44,6 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.moved_file import moved_scene_file, scene_file_of, stray_mesh
-from satcheck.scene.robot import posed
 from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
@@ -182,10 +181,7 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
 def _posed(scene: Scene, inputs: Inputs) -> Scene:
     if not inputs.has_poses:
         return scene
-    pose = poses_of(scene, inputs)
-    if isinstance(pose, list):
-        raise click.UsageError("resolve takes one pose, which places the links")
-    return posed(scene, pose)
+    return posed_once(scene, inputs, "resolve takes one pose, which places the links")
 
 
 def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:

@@ -1,7 +1,8 @@
 // Method: branch and bound over boxes in the space of translations, least norm first. A forbidden set is a convex set
-// of translations that are proven to leave an overlap (overlap_proof.hpp). A box is dropped when one set contains all
-// of it, or all of it that is short enough to matter. If no set contains a point near the box's nearest point, the
-// search tests the meshes there: if they are free, this is an upper bound; if they overlap, this proves a new set.
+// of translations that are proven to leave an overlap (overlap_proof.hpp). Translations longer than the upper bound do
+// not matter. A box is dropped when one set contains all of its translations that matter. The search tests the meshes
+// near the box's nearest point if no set contains that place. If they are free, this is an upper bound. If they
+// overlap, this proves a new set.
 #include "depth/depth_search.hpp"
 
 #include <algorithm>
