@@ -33,6 +33,19 @@ def ring(n: int, inner: float, outer: float, low: float, high: float) -> Mesh:
     return points, [(i + k, i + m, j + m, j + k) for i, j in around for k, m in after]
 
 
+def random_rods(seed: int) -> list[Mesh]:
+    """Two rods of three to seven corners, at random through each other."""
+    random = np.random.default_rng(seed)
+    rods = []
+    for n in random.integers(3, 8, 2):
+        points, faces = prism(int(n), 1.0, 0.0, -2.0, 2.0)
+        turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
+        turn *= np.sign(np.linalg.det(turn))
+        placed = np.array(points) @ turn.T + random.uniform(-0.8, 0.8, 3)
+        rods.append(([tuple(p) for p in placed.tolist()], faces))
+    return rods
+
+
 BAR = box((-1, 0.25, 0.25), (2, 0.75, 0.75))
 NAIL = box((0.25, 0.25, 0.75), (0.75, 0.75, 2.0))
 THROUGH = "one body passes through the other"
@@ -87,15 +100,7 @@ def test_what_passes_is_rejected_and_so_is_what_is_not_simple(name: str, swapped
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_core_sees_the_same(seed: int) -> None:
-    """Rods of three to seven corners, at random through each other."""
-    random = np.random.default_rng(seed)
-    rods = []
-    for n in random.integers(3, 8, 2):
-        points, faces = prism(int(n), 1.0, 0.0, -2.0, 2.0)
-        turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
-        turn *= np.sign(np.linalg.det(turn))
-        placed = np.array(points) @ turn.T + random.uniform(-0.8, 0.8, 3)
-        rods.append(([tuple(p) for p in placed.tolist()], faces))
+    rods = random_rods(seed)
     pair = pair_of(*rods)
     worlds = pair.a.world, pair.b.world
     meshes = [core.Mesh(w.vertices, w.triangles.astype(np.int32)) for w in worlds]

@@ -15,7 +15,7 @@ from satcheck.verify.surfaces import meeting
 from tests.audit.certify.test_thickness import prism
 from tests.audit.shapes import Mesh, box, bracket, unit_box
 from tests.verify.test_cover import pair_of
-from tests.verify.test_passing import ring
+from tests.verify.test_passing import random_rods, ring
 
 DEEP = "a thin part of a body reaches deep into the other one"
 FIN = box((-1.5, -0.01, -0.5), (0.75, 0.01, 0.5))
@@ -65,15 +65,7 @@ def test_it_gives_up_with_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_core_sees_the_same(seed: int) -> None:
-    """Prisms of three to seven corners, at random into each other."""
-    random = np.random.default_rng(seed)
-    rods = []
-    for n in random.integers(3, 8, 2):
-        points, faces = prism(int(n), 1.0, 0.0, -2.0, 2.0)
-        turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
-        turn *= np.sign(np.linalg.det(turn))
-        placed = np.array(points) @ turn.T + random.uniform(-0.8, 0.8, 3)
-        rods.append(([tuple(p) for p in placed.tolist()], faces))
+    rods = random_rods(seed)
     worlds = [exact.world for exact in (lambda p: (p.a, p.b))(pair_of(*rods))]
     meshes = [core.Mesh(w.vertices, w.triangles.astype(np.int32)) for w in worlds]
     solid = core.Surface(meshes[1], solid=True)
