@@ -54,6 +54,12 @@ def check_asset(
     return asset(file, _without_bodies(issues))
 
 
+def lost_asset(file: str, error: SatcheckError) -> Asset:
+    """An asset whose check was ended by its process or by a limit: nothing is known about it."""
+    message = f"{file}: its check was lost, twice: {error.message}"
+    return asset(file, _without_bodies([Issue(error.code, "warning", None, file, message)]))
+
+
 def _passing_by_rules(report: Report, scene: Scene) -> Report:
     """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
     Robots are left out, as their own pairs are allowed without any rule."""

@@ -14,14 +14,14 @@ OTHER = "Other options"
 _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
-    "What to check": "bodies pairs changed_since split merge planar units allow_open "
+    "What to check": "bodies pairs manifest changed_since split merge planar units allow_open "
     "package packages pose state sample seed allow_outside",
     "What to compute": "depth contacts components volume tolerances never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
     "exit_zero pins",
-    "Output": "output form png glb scene_out plot dark top explain timings quiet color",
+    "Output": "output resume form png glb scene_out plot dark top explain timings quiet color",
     "Accuracy and limits": "accuracy method depth_width depth_budget thickness_width "
-    "max_motion iterations repeat budget jobs cache",
+    "max_motion iterations repeat budget scene_seconds scene_megabytes jobs cache",
 }
 
 

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
+from satcheck.audit.request.in_units import length_in_units, settings_in_units
 from satcheck.audit.request.settings import METHODS
 from satcheck.cli.output import Document
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
@@ -20,7 +21,7 @@ from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
 from satcheck.scene.loading.source import FORMATS as MESHES
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.units import MICROMETRES, Length, parse_length, unit_of
+from satcheck.scene.units import MICROMETRES, Length, parse_length
 
 FORMATS = ("table", "json")
 # Formats of one report or of many.
@@ -130,23 +131,25 @@ def length(text: str) -> Length:
 def in_units_of(value: Length, declared: str | None, option: str) -> float:
     """The length in the declared units of the scene; click.UsageError if they are unknown."""
     try:
-        return value.in_units_of(declared)
+        return length_in_units(value, declared, option)
     except ValueError as error:
-        raise click.UsageError(f"{option} {error}, or state the unit with --units") from None
+        raise click.UsageError(str(error)) from None
 
 
 def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
-    """options: values of fields of Settings; a Length is converted to the units of the scene. A
-    body alone has no pair that a length could be about: its units do not matter."""
-    lengths = {name: value for name, value in options.items() if isinstance(value, Length)}
-    values = {name: value for name, value in options.items() if name not in lengths}
-    if len(scene.bodies) + len(scene.unreadable) > 1 or unit_of(scene.units):
-        values |= {n: in_units_of(each, scene.units, _origin(n)) for n, each in lengths.items()}
-    return Settings(**values)
+    """options: values of fields of Settings; a Length is converted to the units of the scene."""
+    try:
+        return settings_in_units(options, scene, names_of_lengths(options))
+    except ValueError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
+    """What the user wrote for each length: `--clearance`, or `satcheck.toml:1: clearance`."""
+    return {name: _origin(name) for name, value in options.items() if isinstance(value, Length)}
 
 
 def _origin(name: str) -> str:
-    """What the user wrote: `--clearance`, or `satcheck.toml:1: clearance`."""
     from satcheck.cli.config.source import origin
 
     ctx = click.get_current_context(silent=True)

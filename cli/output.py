@@ -13,7 +13,7 @@ from typing import NamedTuple, TextIO
 
 import click
 
-from satcheck.cli.atomic_file import last_link, replace_file
+from satcheck.report.atomic_file import last_link, replace_file
 
 # Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
 UNBOUNDED_WIDTH = 100_000

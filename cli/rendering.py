@@ -10,12 +10,12 @@ from satcheck.cli.options import PICTURES
 from satcheck.cli.output import Page, talk
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import render as render_for_ci
-from satcheck.cli.report.json import document as json_document
-from satcheck.cli.report.json import render as render_json
 from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.summary import counts_line
 from satcheck.cli.report.verdict import next_step, verdict_line
 from satcheck.cli.report.words import counted, issue_line
+from satcheck.report.json import document as json_document
+from satcheck.report.json import render as render_json
 from satcheck.scene import Scene
 
 # With -o at most this many warnings are repeated on stderr.

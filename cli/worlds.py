@@ -3,41 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import click
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from satcheck.audit import Settings
-from satcheck.audit.assets import check_asset, unused_rules, without_unused_rules
+from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.summary import tool
+from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.check_world import check_world
 from satcheck.cli import exit_codes
 from satcheck.cli.baseline_file import asset_key, read_baseline
-from satcheck.cli.inputs import Inputs, read
-from satcheck.cli.options import settings_of
+from satcheck.cli.inputs import Inputs
+from satcheck.cli.options import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import render as render_for_ci
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
-from satcheck.core.errors import SatcheckError
-from satcheck.core.steps import step
 from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
 from satcheck.report.baseline import Baseline
 from satcheck.report.config import StatedConfig
+from satcheck.report.json import document as json_document
 from satcheck.report.report import without_timings
-from satcheck.scene import Scene
 from satcheck.scene.loader import read_rules
-from satcheck.scene.path_kind import exists, is_folder
 
-# The files of a world, in the order in which they are read; the first one names it.
-World = tuple[str, ...]
 _CODES: dict[AssetVerdict, int] = {
     "error": exit_codes.ERROR,
     "fail": exit_codes.FINDINGS,
@@ -75,7 +68,9 @@ def check_worlds(
     for path in inputs.rules:
         read_rules(str(path))  # what is wrong there is no fault of an asset
     document = Document()
-    assets = _check(worlds, inputs, options, delivery.form)
+    assets = _check(
+        worlds, check_options(inputs, options, places=delivery.form != "table"), delivery.form
+    )
     if known is not None and baseline is not None:
         assets = [_beside(each, known, baseline) for each in assets]
     shared = frozenset(map(str, inputs.rules))
@@ -90,48 +85,30 @@ def check_worlds(
     return exit_codes.CLEAN if passes else _CODES[report.verdict]
 
 
-def _check(
-    worlds: Sequence[World], inputs: Inputs, options: Mapping[str, Any], form: str
-) -> list[Asset]:
+def check_options(inputs: Inputs, options: Mapping[str, Any], *, places: bool) -> CheckOptions:
+    """options: those of `audit.Settings`. places: as in CheckOptions."""
+    packages = {name: str(folder) for name, folder in (inputs.packages or {}).items()}
+    return CheckOptions(
+        split=inputs.split,
+        packages=packages,
+        allow_outside=inputs.allow_outside,
+        units=inputs.units,
+        rules=tuple(map(str, inputs.rules)),
+        settings=options,
+        names=names_of_lengths(options),
+        places=places,
+    )
+
+
+def _check(worlds: Sequence[World], options: CheckOptions, form: str) -> list[Asset]:
     keep_freed_memory()
-
-    def load(world: World) -> Scene:
-        _refuse_folder(world[0])
-        scene = read(inputs, world, hashed=form == "json")
-        if not scene.bodies and not scene.unreadable:
-            reason = "there is no body: give a file of rules as --rules FILE"
-            raise SatcheckError("too-few-bodies", reason, file=world[0])
-        return scene
-
-    def settings_for(scene: Scene) -> Settings:
-        try:
-            return settings_of(options, scene)
-        except click.UsageError as error:
-            raise SatcheckError("bad-setting", error.message) from None
-
     assets = []
     with Bar("assets") as bar:
         for number, world in enumerate(worlds):
-            told = form != "table"
-            with step(f"checking {world[0]}"):
-                made = check_asset(world[0], partial(load, world), settings_for, places=told)
-            assets.append(made)
+            assets.append(check_world(world, options, hashed=form == "json"))
             if bar is not None:
                 bar(number + 1, len(worlds))
     return assets
-
-
-def _refuse_folder(name: str) -> None:
-    """Only a folder that cannot be listed is among the assets, or one that does not exist."""
-    if not exists(name) and not Path(name).suffix:
-        raise SatcheckError("file-not-found", "no such file or folder", file=name)
-    try:
-        if is_folder(name):
-            next(Path(name).iterdir(), None)
-    except OSError as error:
-        raise SatcheckError(
-            "unreadable-folder", f"the folder cannot be listed: {error.strerror}", file=name
-        ) from None
 
 
 def _beside(each: Asset, known: Baseline, path: Path) -> Asset:

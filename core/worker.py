@@ -115,6 +115,11 @@ class Worker:
         with self._turn:
             self._end()
 
+    def stop(self) -> None:
+        """Kills the child, even during a request of another thread: that raises WorkerCrashed."""
+        if (child := self._child) is not None:
+            child.kill()
+
     def __enter__(self) -> Worker:
         return self
 
@@ -205,6 +210,9 @@ class _Child:
                 return None
             self._answered.wait(min(remaining, _POLL_SECONDS))
         return None if self.reply_too_large else parse_frame(bytes(self._reply))
+
+    def kill(self) -> None:
+        self._process.kill()
 
     def end(self) -> None:
         """Kills the child. A child that is already ending gets time to report the reason."""

@@ -6,7 +6,18 @@ import subprocess
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
-ROOMS = ("api", "cli", "studies", "audit", "verify", "report", "scene", "decompose", "core")
+ROOMS = (
+    "api",
+    "cli",
+    "studies",
+    "batch",
+    "audit",
+    "verify",
+    "report",
+    "scene",
+    "decompose",
+    "core",
+)
 KINDS = (".py", ".pyi", ".json", ".cpp", ".hpp")
 
 

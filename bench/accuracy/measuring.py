@@ -20,8 +20,8 @@ from msgspec.structs import replace
 
 from bench.accuracy.case import Case, Effort, case_of
 from satcheck.audit import Settings, check
-from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
+from satcheck.report.json import render
 from satcheck.scene import Body, load_scene
 from satcheck.studies.tradeoff import RUNGS, Budget, Row, measure_pair
 

@@ -30,7 +30,7 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, Page
 from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
-from satcheck.cli.report.json import document as json_document
+from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
 from satcheck.studies.axes import axes_of
 

@@ -12,10 +12,10 @@ from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.cli.baseline_file import asset_key, read_baseline
 from satcheck.cli.options import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import read_report
 from satcheck.report.baseline import Baseline, KnownFinding
+from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
 from satcheck.scene.path_kind import exists
 

@@ -33,7 +33,6 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, Page, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.numbers import at_most, duration
 from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
@@ -47,6 +46,7 @@ from satcheck.report.decomposition import (
     Part,
     Remark,
 )
+from satcheck.report.json import document as json_document
 from satcheck.report.report import Issue
 from satcheck.scene import Body, Scene, parts_file
 from satcheck.scene.scaled_scene import require_in_range

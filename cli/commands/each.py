@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
+from satcheck.cli.asset_names import asset_names
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, refuse_early
@@ -24,13 +23,8 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import talk
 from satcheck.cli.worlds import Delivery, check_worlds
-from satcheck.core.errors import SatcheckError
-from satcheck.scene.asset_files import asset_files
 from satcheck.scene.changed_assets import changed_since
-from satcheck.scene.drawing import DRAWINGS
-from satcheck.scene.loader import has_only_rules
 
-STANDARD_INPUT = "-"
 # What is about one world, or about one report.
 _NOT_HERE = (
     "form",
@@ -82,7 +76,7 @@ def command(
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
     config = stated_config(click.get_current_context())
-    files = _files(inputs, planar=options["planar"] is not None)
+    files = asset_names(inputs, planar=options["planar"] is not None)
     refuse_early(Inputs(paths=tuple(files)), output)
     if changed_since is not None:
         shared = [*inputs.rules, *filter(None, [baseline])]
@@ -97,40 +91,6 @@ def command(
         config,
         complete=changed_since is None,
     )
-
-
-def _files(inputs: Inputs, *, planar: bool) -> list[str]:
-    """A file of rules is no asset."""
-    names: list[str] = []
-    for name in inputs.paths:
-        names += _standard_input() if name == STANDARD_INPUT else [name]
-    found = asset_files(filter(None, names), drawings=DRAWINGS if planar else ())
-    rules = {os.path.realpath(path) for path in inputs.rules}
-    files = [
-        file for file in found if os.path.realpath(file) not in rules and not _is_skipped(file)
-    ]
-    if not files:
-        raise click.UsageError("no file is named: give a folder or files")
-    return files
-
-
-def _is_skipped(file: str) -> bool:
-    """Files that only have rules are told, as their rules do not count here."""
-    try:
-        skipped = has_only_rules(file)
-    except SatcheckError:  # the check of this asset says why
-        return False
-    if skipped:
-        talk(f"satcheck: {file} has only rules and is no asset: --rules {file} applies them")
-    return skipped
-
-
-def _standard_input() -> list[str]:
-    """Names of files: a line each, or with a NUL behind each."""
-    if sys.stdin is None:
-        raise click.UsageError("standard input is closed: give a folder or files")
-    text = os.fsdecode(sys.stdin.buffer.read()).replace(os.linesep, "\n")
-    return text.split("\0" if "\0" in text else "\n")
 
 
 def _changed(revision: str, files: list[str], shared: Sequence[Path]) -> list[str]:

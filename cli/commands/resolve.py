@@ -38,9 +38,9 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, Page, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line
 from satcheck.core.errors import SatcheckError
+from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.moved_file import moved_scene_file, scene_file_of, stray_mesh

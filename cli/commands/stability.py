@@ -24,7 +24,7 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, Page
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.json import document as json_document
+from satcheck.report.json import document as json_document
 from satcheck.studies.stability import Stability, probe
 
 _EXIT_CODES = {

@@ -30,9 +30,9 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.suggest import chosen, remark, srdf, toml
 from satcheck.cli.report.words import issue_line
+from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
 

@@ -28,7 +28,7 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, Page
 from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.json import document as json_document
+from satcheck.report.json import document as json_document
 from satcheck.studies.tradeoff import Tradeoff, tradeoff
 
 

@@ -23,9 +23,9 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import counted
 from satcheck.core.errors import SatcheckError
+from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool
 from satcheck.report.verification import Outcome, VerificationReport
 from satcheck.scene.loading.regular_file import size_of

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from satcheck.report.config import StatedConfig
 
 # The commands that take options from a config file.
-COMMANDS = ("check", "each")
+COMMANDS = ("check", "each", "batch")
 _META = "satcheck.config"
 
 

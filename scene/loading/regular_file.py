@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.files_read import note
 
 STANDARD_INPUT = "-"
 E = TypeVar("E", bound=SatcheckError)
@@ -25,6 +26,7 @@ def size_of(location: Path) -> int:
     else."""
     if str(location) == STANDARD_INPUT:
         raise SatcheckError("not-a-file", "standard input is not read: give the path of a file")
+    note(location)
     try:
         status = location.stat()
     except (FileNotFoundError, NotADirectoryError):

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Report, Settings, check
-from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
 from satcheck.report.bodies import Sphere
+from satcheck.report.json import render
 from satcheck.scene import load_scene
 from satcheck.verify import verify
 from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.cli.atomic_file import replace_file
+from satcheck.report.atomic_file import replace_file
 from tests.cli.process import PUSHED, SAMPLES, SECONDS, command, environment, on_posix, satcheck
 
 OLD = b'{"an older": "report"}\n'

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import to_builtins
 
-from satcheck.cli.report.json import line
+from satcheck.report.json import line
 from satcheck.report.report import without_timings
 
 if TYPE_CHECKING:

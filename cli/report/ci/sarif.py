@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from satcheck.audit.summary import tool
 from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
 from satcheck.cli.report.config import config_lines
-from satcheck.cli.report.json import document
+from satcheck.report.json import document
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

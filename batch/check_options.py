@@ -1,0 +1,52 @@
+"""How the worlds of a batch are read and checked: what a process needs to know about the call."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from msgspec import Struct
+
+from satcheck.audit import Settings
+from satcheck.audit.request.in_units import settings_in_units
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.scene_builder import Split
+from satcheck.scene.units import Length
+
+# The files of a world, in the order in which they are read; the first one names it.
+World = tuple[str, ...]
+SettingValue = bool | int | float | str | Length | None
+
+
+class CheckOptions(Struct, frozen=True, kw_only=True):
+    """split, packages, allow_outside, units, rules: as in `load_scene`. settings: values of
+    `audit.Settings` by name, lengths as given. names: what messages call these lengths. places:
+    state where scene files name the bodies of findings."""
+
+    split: Split | None = None
+    packages: Mapping[str, str] | None = None
+    allow_outside: bool = False
+    units: str | None = None
+    rules: tuple[str, ...] = ()
+    settings: Mapping[str, SettingValue] = {}
+    names: Mapping[str, str] = {}
+    places: bool = True
+
+    def load(self, world: World, *, hashed: bool = True) -> Scene:
+        """Raises what `load_scene` raises."""
+        return load_scene(
+            world,
+            split=self.split,
+            packages=self.packages,
+            allow_outside=self.allow_outside,
+            units=self.units,
+            hashed=hashed,
+            rules=self.rules,
+        )
+
+    def settings_for(self, scene: Scene) -> Settings:
+        """Lengths are in the units of the scene. Raises SatcheckError (`bad-setting`)."""
+        try:
+            return settings_in_units(self.settings, scene, self.names)
+        except ValueError as error:
+            raise SatcheckError("bad-setting", str(error)) from None

@@ -1,0 +1,47 @@
+"""The check of one world of a batch, in this process."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from satcheck.audit.assets import check_asset
+from satcheck.batch.check_options import CheckOptions, World
+from satcheck.core.errors import SatcheckError
+from satcheck.core.steps import step
+from satcheck.report.assets import Asset
+from satcheck.scene import Scene
+from satcheck.scene.path_kind import exists, is_folder
+
+
+def check_world(world: World, options: CheckOptions, *, hashed: bool = True) -> Asset:
+    """Every error becomes part of the report. hashed: state the SHA-256 of the mesh files."""
+    with step(f"checking {world[0]}"):
+        return check_asset(
+            world[0],
+            partial(_load, world, options, hashed),
+            options.settings_for,
+            places=options.places,
+        )
+
+
+def _load(world: World, options: CheckOptions, hashed: bool) -> Scene:
+    _refuse_folder(world[0])
+    scene = options.load(world, hashed=hashed)
+    if not scene.bodies and not scene.unreadable:
+        reason = "there is no body: give a file of rules as --rules FILE"
+        raise SatcheckError("too-few-bodies", reason, file=world[0])
+    return scene
+
+
+def _refuse_folder(name: str) -> None:
+    """Only a folder that cannot be listed is among the assets, or one that does not exist."""
+    if not exists(name) and not Path(name).suffix:
+        raise SatcheckError("file-not-found", "no such file or folder", file=name)
+    try:
+        if is_folder(name):
+            next(Path(name).iterdir(), None)
+    except OSError as error:
+        raise SatcheckError(
+            "unreadable-folder", f"the folder cannot be listed: {error.strerror}", file=name
+        ) from None

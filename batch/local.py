@@ -1,0 +1,72 @@
+"""The local engine: slots on this machine, each served by a thread."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Iterator, Sequence
+from queue import Queue
+from threading import Thread
+
+from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.slot import Limits, Slot
+from satcheck.batch.slot_server import Answer
+
+# Work of a slot between two questions to this process. Short, so that little is lost with it.
+_CHUNK_SECONDS = 0.2
+_LARGEST_CHUNK = 64
+
+
+def check_locally(
+    worlds: Sequence[World], options: CheckOptions, limits: Limits, slots: int
+) -> Iterator[list[Answer]]:
+    """The answers, as they come: all that are there at a time. Raises WorkerNotStarted. If the
+    iteration is left early, the
+    slots end."""
+    waiting = deque(worlds)
+    answers: Queue[Answer | BaseException] = Queue(maxsize=1000)
+    made = [Slot(options, limits) for _ in range(min(slots, len(worlds)))]
+    for slot in made:
+        Thread(target=_serve, args=(slot, waiting, answers), daemon=True).start()
+    try:
+        due = len(worlds)
+        while due:
+            come = [
+                _answer(answers.get()),
+                *(_answer(answers.get()) for _ in range(answers.qsize())),
+            ]
+            due -= len(come)
+            yield come
+    finally:
+        waiting.clear()
+        for slot in made:
+            slot.stop()
+
+
+def _serve(slot: Slot, waiting: deque[World], answers: Queue[Answer | BaseException]) -> None:
+    size = 1
+    try:
+        while chunk := _next(waiting, size):
+            began = time.monotonic()
+            for answer in slot.check(chunk):
+                answers.put(answer)
+            took = max(time.monotonic() - began, 1e-3)
+            size = max(1, min(2 * size, round(len(chunk) * _CHUNK_SECONDS / took), _LARGEST_CHUNK))
+    except BaseException as error:  # noqa: BLE001  raised where the answers are awaited
+        answers.put(error)
+
+
+def _next(waiting: deque[World], size: int) -> list[World]:
+    chunk: list[World] = []
+    try:
+        while len(chunk) < size:
+            chunk.append(waiting.popleft())
+    except IndexError:
+        pass
+    return chunk
+
+
+def _answer(come: Answer | BaseException) -> Answer:
+    if isinstance(come, BaseException):
+        raise come
+    return come

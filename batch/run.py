@@ -1,0 +1,73 @@
+"""A batch: the worlds that are not done yet go through an engine, and results to their file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
+
+from msgspec import Struct
+
+from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.key import digest, inputs_of, key_of
+from satcheck.batch.results import Head, ResultsFile
+from satcheck.batch.slot_server import Answer
+from satcheck.report.assets import AssetVerdict
+
+# Gives the answers for worlds, in any order.
+Engine = Callable[[Sequence[World]], Iterator[list[Answer]]]
+# Digests that a resumed run keeps, as worlds share files.
+_DIGESTS = 100_000
+
+
+class Tally(Struct):
+    """The number of worlds with each verdict; kept: of an earlier run."""
+
+    total: int
+    kept: int = 0
+    error: int = 0
+    fail: int = 0
+    incomplete: int = 0
+    passed: int = 0
+
+    @property
+    def done(self) -> int:
+        return self.error + self.fail + self.incomplete + self.passed
+
+    def count(self, verdict: AssetVerdict) -> None:
+        name = "passed" if verdict == "pass" else verdict
+        setattr(self, name, getattr(self, name) + 1)
+
+
+def run(
+    worlds: Sequence[World],
+    options: CheckOptions,
+    engine: Engine,
+    results: ResultsFile,
+    progress: Callable[[Tally], None],
+) -> Tally:
+    """Checks the worlds of which the file has no valid result, and brings the file into order.
+    progress: called when results are on the disk. Raises what the engine and the file raise."""
+    tally = Tally(len(worlds))
+    waiting = dict.fromkeys(worlds)
+    for head in _valid(results, options):
+        if head.files in waiting:
+            del waiting[head.files]
+            tally.kept += 1
+            tally.count(head.verdict)
+    progress(tally)
+    for answers in engine(tuple(waiting)):
+        results.append((each.world, each.line) for each in answers)
+        for each in answers:
+            tally.count(each.verdict)
+        progress(tally)
+    results.finish(worlds)
+    return tally
+
+
+def _valid(results: ResultsFile, options: CheckOptions) -> Iterator[Head]:
+    """The known results whose files, options and version are the same now."""
+    now = lru_cache(_DIGESTS)(digest)
+    for head in results.known():
+        inputs = inputs_of((file.path for file in head.inputs), now)
+        if head.key is not None and head.key == key_of(head.files, options, inputs):
+            yield head

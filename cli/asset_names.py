@@ -1,0 +1,44 @@
+"""The assets that the words of a call stand for."""
+
+from __future__ import annotations
+
+import os
+
+import click
+
+from satcheck.cli.inputs import Inputs
+from satcheck.cli.output import talk
+from satcheck.cli.standard_input import standard_input
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import asset_files
+from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.loader import has_only_rules
+
+STANDARD_INPUT = "-"
+
+
+def asset_names(inputs: Inputs, *, planar: bool) -> list[str]:
+    """Folders and patterns are expanded, and - stands for the names on standard input. A file of
+    rules is no asset. click.UsageError if there is none."""
+    names: list[str] = []
+    for name in inputs.paths:
+        names += standard_input() if name == STANDARD_INPUT else [name]
+    files = asset_files(filter(None, names), drawings=DRAWINGS if planar else ())
+    rules = {os.path.realpath(path) for path in inputs.rules}
+    assets = [
+        file for file in files if os.path.realpath(file) not in rules and not _is_skipped(file)
+    ]
+    if not assets:
+        raise click.UsageError("no file is named: give a folder or files")
+    return assets
+
+
+def _is_skipped(file: str) -> bool:
+    """Files that only have rules are told, as their rules do not count here."""
+    try:
+        skipped = has_only_rules(file)
+    except SatcheckError:  # the check of this asset says why
+        return False
+    if skipped:
+        talk(f"satcheck: {file} has only rules and is no asset: --rules {file} applies them")
+    return skipped

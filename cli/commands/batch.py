@@ -1,0 +1,161 @@
+"""`satcheck batch SCENE ...`: thousands of scenes, whose results survive every crash."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from satcheck.batch.check_options import World
+from satcheck.batch.local import check_locally
+from satcheck.batch.manifest import read_manifest
+from satcheck.batch.results import ResultsFile
+from satcheck.batch.run import Tally, run
+from satcheck.batch.slot import Limits
+from satcheck.cli import exit_codes
+from satcheck.cli.asset_names import asset_names
+from satcheck.cli.commands.check import command as check_command
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.options import HELP_NAMES, Command, options_of, paths_argument
+from satcheck.cli.output import talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.words import counted
+from satcheck.cli.worlds import check_options
+from satcheck.core.errors import SatcheckError
+
+# What is about one world, or about one report.
+_NOT_HERE = (
+    "form",
+    "output",
+    "baseline",
+    "png",
+    "glb",
+    "top",
+    "pose",
+    "state",
+    "sample",
+    "seed",
+    "explain",
+    "merge",
+    "timings",
+    "quiet",
+    "version",
+)
+_LIMITS = Limits()
+
+
+@click.command("batch", cls=Command, context_settings=HELP_NAMES)
+@paths_argument("SCENE|DIR|- ...")
+@click.option(
+    "--manifest",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Also the scenes that FILE names, one in a line; a line may be a JSON list of files that "
+    "are one scene together.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    required=True,
+    help="Write the results to FILE, as JSON Lines: a line for each scene.",
+)
+@click.option(
+    "--resume",
+    is_flag=True,
+    help="Keep the results in the file whose scenes, meshes and options are unchanged.",
+)
+@click.option(
+    "--scene-seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="SECONDS",
+    default=_LIMITS.seconds,
+    show_default=True,
+    help="The most time for a scene.",
+)
+@click.option(
+    "--scene-megabytes",
+    type=click.IntRange(min=256),
+    metavar="MIB",
+    default=_LIMITS.megabytes,
+    show_default=True,
+    help="The most memory for a process that checks scenes.",
+)
+@options_of(check_command, but=_NOT_HERE)
+def command(
+    manifest: Path | None,
+    output: Path,
+    resume: bool,
+    scene_seconds: float,
+    scene_megabytes: int,
+    exit_zero: bool,
+    **options: Any,
+) -> int:
+    """Check thousands of scenes: none stops the others.
+
+    A scene is a scene file, a robot or a mesh file; a folder stands for all of them in it, and -
+    reads their names from standard input. A process that crashes, hangs or needs too much memory is
+    replaced; its scene is tried once more and then reported as incomplete. Each result is on the
+    disk as soon as it is known.
+
+    The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
+    if one is not fully checked, else 0.
+    """
+    inputs = Inputs.taken_from(options)
+    worlds = _worlds(inputs, manifest, planar=options["planar"] is not None)
+    refuse_early(Inputs(paths=tuple(name for world in worlds for name in world)), output)
+    terms = check_options(inputs, options, places=True)
+    limits = Limits(scene_seconds, scene_megabytes)
+    slots = options["jobs"] or os.cpu_count() or 1
+    engine = partial(check_locally, options=terms, limits=limits, slots=slots)
+    with ResultsFile(output) as results, Bar("scenes") as bar:
+        if not resume and not results.is_empty():
+            reason = "has results: --resume keeps those that still hold; or remove the file"
+            raise SatcheckError("results-exist", reason, file=str(output))
+
+        def progress(tally: Tally) -> None:
+            if bar is not None:
+                bar(tally.done, tally.total)
+
+        tally = run(worlds, terms, engine, results, progress)
+    talk(_summary(tally, output))
+    return _exit_code(tally, exit_zero)
+
+
+def _worlds(inputs: Inputs, manifest: Path | None, *, planar: bool) -> Sequence[World]:
+    named: dict[World, None] = {}
+    if inputs.paths:
+        named |= {(name,): None for name in asset_names(inputs, planar=planar)}
+    if manifest is not None:
+        named |= dict.fromkeys(read_manifest(manifest))
+    if not named:
+        raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
+    return tuple(named)
+
+
+def _summary(tally: Tally, output: Path) -> str:
+    parts = [
+        f"{number:,} {word}"
+        for number, word in (
+            (tally.error, "error"),
+            (tally.fail, "fail"),
+            (tally.incomplete, "incomplete"),
+            (tally.passed, "pass"),
+        )
+        if number
+    ]
+    kept = f" ({tally.kept:,} kept)" if tally.kept else ""
+    return f"{counted(tally.total, 'scene')}: {', '.join(parts)}{kept}. Results: {output}"
+
+
+def _exit_code(tally: Tally, exit_zero: bool) -> int:
+    if tally.error:
+        return exit_codes.ERROR
+    if tally.fail and not exit_zero:
+        return exit_codes.FINDINGS
+    return exit_codes.INCOMPLETE if tally.incomplete else exit_codes.CLEAN

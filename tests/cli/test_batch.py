@@ -1,0 +1,94 @@
+"""`satcheck batch`: many scenes in processes that may die."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.process import SAMPLES, satcheck
+
+
+@pytest.fixture
+def scenes(tmp_path: Path) -> Path:
+    """A folder with a scene that fails, one that passes, and one that is broken."""
+    folder = tmp_path / "scenes"
+    folder.mkdir()
+    for name in ("box.obj", "box_pushed.stl"):
+        shutil.copy(SAMPLES / name, folder)
+    for name, x in (("hit", 0), ("free", 9)):
+        (folder / f"{name}.toml").write_text(
+            'schema = "satcheck.scene/1"\n'
+            '[[bodies]]\nid = "a"\nmesh = "box.obj"\n'
+            f'[[bodies]]\nid = "b"\nmesh = "box_pushed.stl"\nposition = [{x}, 0, 0]\n'
+        )
+    (folder / "broken.toml").write_text("bodies = 1\n")
+    return folder
+
+
+def results(path: Path) -> dict[str, Any]:
+    lines = map(json.loads, path.read_text().splitlines())
+    return {Path(line["files"][0]).name: line for line in lines}
+
+
+def run(scenes: Path, *options: str) -> tuple[int, dict[str, Any]]:
+    output = scenes.parent / "results.jsonl"
+    ran = satcheck("batch", f"{scenes}/*.toml", "-o", str(output), *options)
+    return ran.code, results(output)
+
+
+def test_each_scene_has_its_own_result(scenes: Path) -> None:
+    code, made = run(scenes)
+    verdicts = {name: result["verdict"] for name, result in made.items()}
+    assert verdicts == {"hit.toml": "fail", "free.toml": "pass", "broken.toml": "error"}
+    assert list(made) == sorted(made)
+    assert code == 2
+
+
+def test_resume_checks_what_changed_and_nothing_else(scenes: Path) -> None:
+    output = scenes.parent / "results.jsonl"
+    run(scenes)
+    before = output.read_bytes()
+    again = satcheck("batch", f"{scenes}/*.toml", "-o", str(output), "--resume")
+    assert "3 kept" in again.err
+    assert output.read_bytes() == before
+    shutil.copy(SAMPLES / "box.obj", scenes / "box_pushed.stl")  # no STL file any more
+    again = satcheck("batch", f"{scenes}/*.toml", "-o", str(output), "--resume")
+    assert "1 kept" in again.err
+    assert results(output)["free.toml"]["verdict"] == "error"
+
+
+def test_other_options_make_other_answers(scenes: Path) -> None:
+    run(scenes)
+    output = scenes.parent / "results.jsonl"
+    more = ["--resume", "--clearance", "100"]
+    again = satcheck("batch", f"{scenes}/*.toml", "-o", str(output), *more)
+    assert "kept" not in again.err
+    assert results(output)["free.toml"]["verdict"] == "fail"
+
+
+def test_results_are_not_overwritten(scenes: Path) -> None:
+    run(scenes)
+    output = scenes.parent / "results.jsonl"
+    again = satcheck("batch", f"{scenes}/*.toml", "-o", str(output))
+    assert again.code == 2
+    assert "results-exist" in again.err
+    assert "--resume" in again.err
+
+
+def test_a_manifest_names_files_that_are_one_scene(scenes: Path) -> None:
+    output = scenes.parent / "results.jsonl"
+    manifest = scenes.parent / "manifest"
+    pair = json.dumps([f"{scenes}/box.obj", f"{scenes}/box_pushed.stl"])
+    manifest.write_text(f"{scenes}/free.toml\n\n{pair}\n")
+    ran = satcheck("batch", "--manifest", str(manifest), "-o", str(output))
+    made = results(output)
+    assert ran.code == 1
+    assert {name: result["verdict"] for name, result in made.items()} == {
+        "free.toml": "pass",
+        "box.obj": "fail",
+    }
+    assert len(made["box.obj"]["files"]) == 2
