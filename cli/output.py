@@ -7,7 +7,7 @@ import errno
 import os
 import re
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
@@ -35,7 +35,7 @@ class Page(NamedTuple):
 
 PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
 # A document as it is drawn for a page: one text or its pieces.
-Render = Callable[[Page], str | bytes | Sequence[str]]
+Render = Callable[[Page], str | bytes | Iterable[str]]
 
 
 def talk(line: str) -> None:
@@ -84,7 +84,7 @@ class Document:
         else:
             write_file(output, render(PLAIN_PAGE))
 
-    def write(self, text: str | bytes | Sequence[str], *, utf8: bool = False) -> None:
+    def write(self, text: str | bytes | Iterable[str], *, utf8: bool = False) -> None:
         """Write it all: bytes, one text, or its pieces.
 
         A closed pipe is silent, any other failure is cannot_write().
@@ -122,7 +122,7 @@ def harmless(line: str, *, colour: bool = False) -> str:
     )
 
 
-def write_file(path: Path, content: bytes | str | Sequence[str]) -> None:
+def write_file(path: Path, content: bytes | str | Iterable[str]) -> None:
     """Replace a file as a whole: by bytes, by one text or its pieces, in UTF-8; cannot_write()
     where that fails, and the file is then what it was."""
     try:
@@ -134,7 +134,7 @@ def write_file(path: Path, content: bytes | str | Sequence[str]) -> None:
         raise cannot_write(str(path), error.strerror) from None
 
 
-def _pieces(text: str | Sequence[str]) -> Sequence[str]:
+def _pieces(text: str | Iterable[str]) -> Iterable[str]:
     return (text,) if isinstance(text, str) else text
 
 

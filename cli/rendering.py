@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from msgspec import Struct
 
 from satcheck.audit import Report
@@ -36,7 +38,7 @@ class Shown(Struct, frozen=True):
 
 def rendered(
     result: Report | Samples, scene: Scene, form: str, page: Page, shown: Shown
-) -> str | bytes | list[str]:
+) -> str | bytes | Iterable[str]:
     """Formats are imported here, as they are needed: a table brings rich."""
     if isinstance(result, Samples):
         return _samples(result, form, page, shown)

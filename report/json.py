@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterator
 from typing import Any
 
 from msgspec import json as msgspec_json
@@ -27,15 +27,25 @@ _PERHAPS_NEGATIVE_ZERO = re.compile(rb"-0\.0[,}\]]")
 _NOT_FINITE = re.compile(rb"\xcb[\x7f\xff][\xf0-\xff]")
 
 
-def render(report: Report, *, timings: bool) -> list[str]:
+def render(report: Report, *, timings: bool) -> Iterator[str]:
     """The document in pieces, final newline included; without timings the same bytes every time.
 
-    Not as one text: the report of a scene can be larger than the scene in memory.
+    Each piece is made when it is written: the text of a report is larger than the report in memory.
+    Raises ValueError for a number that is not finite, before the first piece.
     """
-    pieces = ["{"]
     for key in report.__struct_fields__:
-        pieces += [*_member(key, getattr(report, key), timings), ","]
-    return [*pieces[:-1], "\n}\n"]
+        for piece in _pieces_of(getattr(report, key)):
+            _require_finite(piece)
+    return _rendered(report, timings)
+
+
+def _rendered(report: Report, timings: bool) -> Iterator[str]:
+    before = "{"
+    for key in report.__struct_fields__:
+        yield before
+        yield from _member(key, getattr(report, key), timings)
+        before = ","
+    yield "\n}\n"
 
 
 def document(values: Any) -> str:
@@ -43,6 +53,7 @@ def document(values: Any) -> str:
 
     Raises ValueError, as `render` does, for a number that is not finite.
     """
+    _require_finite(values)
     return _text(values) + "\n"
 
 
@@ -64,23 +75,32 @@ def line_without_times(value: Value) -> bytes:
     return text + b"\n"
 
 
-def _member(key: str, value: Any, timings: bool) -> Iterable[str]:
+def _member(key: str, value: Any, timings: bool) -> Iterator[str]:
     """A member of the outermost object; a long list of structs in pieces."""
     if not isinstance(value, tuple) or not value:
         yield _text({key: value}).removeprefix("{").removesuffix("\n}")
         return
     begin, end = f'\n  "{key}": [', "\n  ]"
-    for first in range(0, len(value), _IN_A_PIECE):
-        yield "," if first else begin
-        piece = value[first : first + _IN_A_PIECE]
+    before = begin
+    for piece in _pieces_of(value):
+        yield before
         written = piece if timings else without_timings(to_builtins(piece))
         yield _text({key: written}).removeprefix("{" + begin).removesuffix(end + "\n}")
+        before = ","
     yield end
+
+
+def _pieces_of(value: Any) -> Iterator[Any]:
+    """The parts of a list; any other value as it is."""
+    if not isinstance(value, tuple):
+        yield value
+        return
+    for first in range(0, len(value), _IN_A_PIECE):
+        yield value[first : first + _IN_A_PIECE]
 
 
 def _text(value: Any) -> str:
     try:
-        _require_finite(value)
         text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
         text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
@@ -90,5 +110,9 @@ def _text(value: Any) -> str:
 def _require_finite(value: Any) -> None:
     """JSON has no NaN and no infinity, and msgspec would write null. MessagePack holds the numbers
     themselves, so a search of its bytes clears most values, and json decides the others."""
-    if _NOT_FINITE.search(msgpack.encode(value)):
-        json.dumps(value, default=to_builtins, allow_nan=False)
+    try:
+        if not _NOT_FINITE.search(msgpack.encode(value)):
+            return
+    except UnicodeEncodeError:  # as in _text
+        pass
+    json.dumps(value, default=to_builtins, allow_nan=False)

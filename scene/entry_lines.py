@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from satcheck.scene.bodies import Entry, Scene
-from satcheck.scene.format.positions import Positions
-from satcheck.scene.format.text import parse
+from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.item_lines import item_lines
+from satcheck.scene.format.text import is_toml, parsed, read_text
 
 
 class Line(NamedTuple):
@@ -22,13 +23,30 @@ def entry_lines(scene: Scene, ids: Iterable[str]) -> dict[str, Line]:
     """Of those of these bodies that such a file states. Reads scene files again: raises
     SceneFileError."""
     entries = {id_: scene.entries[id_] for id_ in ids if id_ in scene.entries}
-    scenes = dict.fromkeys(e.file for e in entries.values() if e.number is not None)
-    positions = {file: parse(file, Path(file)).positions for file in scenes}
-    return {id_: Line(e.file, _line(e, positions.get(e.file))) for id_, e in entries.items()}
+    numbers: dict[str, list[int]] = {}
+    for entry in entries.values():
+        if entry.number is not None:
+            numbers.setdefault(entry.file, []).append(entry.number)
+    lines = {file: _lines(file, Path(file), of) for file, of in numbers.items()}
+    return {id_: Line(e.file, _line(e, lines)) for id_, e in entries.items()}
 
 
-def _line(entry: Entry, positions: Positions | None) -> int:
-    if positions is None:
-        assert entry.line is not None
-        return entry.line
-    return positions.line(("bodies", entry.number or 0))
+def _line(entry: Entry, lines: Mapping[str, Mapping[int, int]]) -> int:
+    if entry.number is not None:
+        return lines[entry.file][entry.number]
+    assert entry.line is not None
+    return entry.line
+
+
+def _lines(path: str, location: Path, numbers: Sequence[int]) -> dict[int, int]:
+    """The lines of the bodies with these numbers. path: for messages."""
+    text = read_text(path, location)
+    if is_toml(location):
+        positions = parsed(path, location, text).positions
+        return {number: positions.line(("bodies", number)) for number in numbers}
+    try:
+        lines = list(item_lines(text, "bodies"))
+        return {number: lines[number] for number in numbers}
+    except (ValueError, IndexError):
+        message = "the scene file has changed since it was read"
+        raise SceneFileError("bad-scene", message, file=path) from None

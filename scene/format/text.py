@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 TOML_SUFFIX = ".toml"
 
-_MAX_BYTES = 256 << 20  # a million bodies
+_MAX_BYTES = 512 << 20  # a million bodies, each with a matrix
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 
 
