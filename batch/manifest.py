@@ -21,13 +21,13 @@ def read_manifest(path: Path) -> Iterator[World]:
     Raises SatcheckError: `unreadable-file`, `bad-manifest`.
     """
     try:
-        text = os.fsdecode(path.read_bytes())
+        with path.open("rb") as lines:
+            for number, line in enumerate(lines, 1):
+                if text := os.fsdecode(line).strip():
+                    yield _world(text, f"{path}:{number}")
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise SatcheckError("unreadable-file", reason, file=str(path)) from None
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.strip():
-            yield _world(line.strip(), f"{path}:{number}")
 
 
 def _world(line: str, place: str) -> World:

@@ -3,10 +3,10 @@ done."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from io import FileIO
-from os import fsync
+from os import SEEK_END, fsync
 from pathlib import Path
 from typing import NamedTuple, Self
 
@@ -30,26 +30,30 @@ class Head(msgspec.Struct, frozen=True):
 
 
 class _Line(NamedTuple):
-    """Where a result lies in the file, in bytes."""
+    """Where a result lies, in bytes."""
 
+    file: FileIO
     begin: int
     end: int
 
 
 class ResultsFile:
-    """Results are appended as they come. `finish` sorts them by the files of their worlds, so that
-    a finished batch has the same bytes, whatever the order in which its results came. A lock keeps
-    other runs out.
+    """`path` has the results of a finished batch, and nothing else: whoever finds it finds all of
+    them. A run appends to a second file, `part`, as results come; `finish` makes of both one file
+    in the order of the files of worlds, so that a finished batch has the same bytes, whatever
+    the order in which its results came. A lock keeps other runs out.
 
     Use it in a `with` statement. Raises SatcheckError: `results-in-use`, `bad-results`,
     `cannot-write`.
     """
 
     def __init__(self, path: Path) -> None:
-        self._path = path
+        self.path = path
+        self.part = Path(f"{path}.part")
         self._lock = FileLock(f"{path}.lock")
         self._lines: dict[World, _Line] = {}
         self._end = 0
+        self._open: list[FileIO] = []
 
     def __enter__(self) -> Self:
         try:
@@ -59,33 +63,46 @@ class ResultsFile:
         except OSError as error:
             raise self._cannot_write(error) from None
         try:
-            self._path.touch()
-            self._file = FileIO(self._path, "r+")
+            self.part.touch()
+            self._added = self._opened(self.part, "r+")
         except OSError as error:
             self._unlock()
             raise self._cannot_write(error) from None
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        empty = self._added.seek(0, SEEK_END) == 0
+        for file in self._open:
+            file.close()
+        if empty:
+            self.part.unlink(missing_ok=True)
         self._unlock()
 
-    def known(self) -> Iterator[Head]:
-        """The results of an earlier run. Of a last line that is not complete, as a killed run
-        leaves it, nothing stays."""
-        for begin, line in _complete_lines(self._path):
+    def existing(self) -> Path | None:
+        """A file with results of an earlier run."""
+        return next((each for each in (self.path, self.part) if _has_bytes(each)), None)
+
+    def keep(self, valid: Callable[[Head], bool]) -> Iterator[Head]:
+        """The results of earlier runs that are valid; the others are forgotten. Of a last line that
+        is not complete, as a killed run leaves it, nothing stays."""
+        if self.path.exists():
+            yield from self._kept(self._opened(self.path, "r"), self.path, valid)
+        yield from self._kept(self._added, self.part, valid)
+        self._cut()
+
+    def _kept(self, file: FileIO, path: Path, valid: Callable[[Head], bool]) -> Iterator[Head]:
+        for begin, line in _complete_lines(path):
             try:
                 head = msgspec.json.decode(line, type=Head)
             except msgspec.DecodeError as error:
                 reason = f"byte {begin}: no result of a batch: {error}"
-                raise self._error("bad-results", reason) from None
-            self._end = begin + len(line)
-            self._lines[head.files] = _Line(begin, self._end)
-            yield head
-        self._cut()
-
-    def is_empty(self) -> bool:
-        return self._path.stat().st_size == 0
+                raise SatcheckError("bad-results", reason, file=str(path)) from None
+            end = begin + len(line)
+            if file is self._added:
+                self._end = end
+            if valid(head):
+                self._lines[head.files] = _Line(file, begin, end)
+                yield head
 
     def append(self, results: Iterable[tuple[World, bytes]]) -> None:
         """Returns when the lines of these results are on the disk. If that fails, the file ends
@@ -94,14 +111,14 @@ class ResultsFile:
         added: dict[World, _Line] = {}
         for world, line in results:
             begin = self._end + len(text)
-            added[world] = _Line(begin, begin + len(line))
+            added[world] = _Line(self._added, begin, begin + len(line))
             text += line
         try:
-            self._file.seek(self._end)
+            self._added.seek(self._end)
             view = memoryview(text)
             while view:
-                view = view[self._file.write(view) :]
-            fsync(self._file.fileno())
+                view = view[self._added.write(view) :]
+            fsync(self._added.fileno())
         except OSError as error:
             self._cut()
             raise self._cannot_write(error) from None
@@ -109,20 +126,26 @@ class ResultsFile:
         self._lines |= added
 
     def finish(self, worlds: Iterable[World]) -> None:
-        """Keeps the results of these worlds, in the order of their names."""
+        """Puts the results of these worlds, in the order of their names, at the path."""
         try:
-            replace_file(self._path, map(self._read, sorted(worlds)))
+            replace_file(self.path, map(self._read, sorted(worlds)))
+            self._added.truncate(0)
         except OSError as error:
             raise self._cannot_write(error) from None
 
     def _read(self, world: World) -> bytes:
         line = self._lines[world]
-        self._file.seek(line.begin)
-        return self._file.read(line.end - line.begin)
+        line.file.seek(line.begin)
+        return line.file.read(line.end - line.begin)
+
+    def _opened(self, path: Path, mode: str) -> FileIO:
+        file = FileIO(path, mode)
+        self._open.append(file)
+        return file
 
     def _cut(self) -> None:
         with suppress(OSError):  # the next reader drops an incomplete line
-            self._file.truncate(self._end)
+            self._added.truncate(self._end)
 
     def _unlock(self) -> None:
         self._lock.release()
@@ -130,10 +153,14 @@ class ResultsFile:
             Path(self._lock.lock_file).unlink()
 
     def _error(self, code: str, reason: str) -> SatcheckError:
-        return SatcheckError(code, reason, file=str(self._path))
+        return SatcheckError(code, reason, file=str(self.path))
 
     def _cannot_write(self, error: OSError) -> SatcheckError:
         return self._error("cannot-write", f"cannot be written: {error.strerror}")
+
+
+def _has_bytes(path: Path) -> bool:
+    return path.exists() and path.stat().st_size > 0
 
 
 def _complete_lines(path: Path) -> Iterator[tuple[int, bytes]]:

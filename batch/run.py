@@ -49,7 +49,7 @@ def run(
     progress: called when results are on the disk. Raises what the engine and the file raise."""
     tally = Tally(len(worlds))
     waiting = dict.fromkeys(worlds)
-    for head in _valid(results, options):
+    for head in results.keep(_validity(options)):
         if head.files in waiting:
             del waiting[head.files]
             tally.kept += 1
@@ -64,10 +64,12 @@ def run(
     return tally
 
 
-def _valid(results: ResultsFile, options: CheckOptions) -> Iterator[Head]:
-    """The known results whose files, options and version are the same now."""
+def _validity(options: CheckOptions) -> Callable[[Head], bool]:
+    """Says of a result whether its files, the options and the version are the same now."""
     now = lru_cache(_DIGESTS)(digest)
-    for head in results.known():
+
+    def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        if head.key is not None and head.key == key_of(head.files, options, inputs):
-            yield head
+        return head.key is not None and head.key == key_of(head.files, options, inputs)
+
+    return valid

@@ -14,8 +14,8 @@ OTHER = "Other options"
 _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
-    "What to check": "bodies pairs manifest changed_since split merge planar units allow_open "
-    "package packages pose state sample seed allow_outside",
+    "What to check": "bodies pairs manifest shard changed_since split merge planar units "
+    "allow_open package packages pose state sample seed allow_outside",
     "What to compute": "depth contacts components volume tolerances never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
     "exit_zero pins",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from satcheck.batch.local import check_locally
 from satcheck.batch.manifest import read_manifest
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import Tally, run
+from satcheck.batch.shard import ALL, Shard
 from satcheck.batch.slot import Limits
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
@@ -24,6 +26,7 @@ from satcheck.cli.options import HELP_NAMES, Command, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted
+from satcheck.cli.shard_option import ShardType
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
 
@@ -71,6 +74,13 @@ _LIMITS = Limits()
     help="Keep the results in the file whose scenes, meshes and options are unchanged.",
 )
 @click.option(
+    "--shard",
+    type=ShardType(),
+    metavar="I/N",
+    default=ALL,
+    help="Only part I of N of the scenes. The names of its files decide in which part a scene is.",
+)
+@click.option(
     "--scene-seconds",
     type=click.FloatRange(min=0, min_open=True),
     metavar="SECONDS",
@@ -91,6 +101,7 @@ def command(
     manifest: Path | None,
     output: Path,
     resume: bool,
+    shard: Shard,
     scene_seconds: float,
     scene_megabytes: int,
     exit_zero: bool,
@@ -101,22 +112,23 @@ def command(
     A scene is a scene file, a robot or a mesh file; a folder stands for all of them in it, and -
     reads their names from standard input. A process that crashes, hangs or needs too much memory is
     replaced; its scene is tried once more and then reported as incomplete. Each result is on the
-    disk as soon as it is known.
+    disk as soon as it is known, in FILE.part; FILE itself appears when all results are there.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.
     """
     inputs = Inputs.taken_from(options)
-    worlds = _worlds(inputs, manifest, planar=options["planar"] is not None)
-    refuse_early(Inputs(paths=tuple(name for world in worlds for name in world)), output)
+    worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
+    if worlds:
+        refuse_early(Inputs(paths=tuple(name for world in worlds for name in world)), output)
     terms = check_options(inputs, options, places=True)
     limits = Limits(scene_seconds, scene_megabytes)
     slots = options["jobs"] or os.cpu_count() or 1
     engine = partial(check_locally, options=terms, limits=limits, slots=slots)
     with ResultsFile(output) as results, Bar("scenes") as bar:
-        if not resume and not results.is_empty():
+        if not resume and (existing := results.existing()) is not None:
             reason = "has results: --resume keeps those that still hold; or remove the file"
-            raise SatcheckError("results-exist", reason, file=str(output))
+            raise SatcheckError("results-exist", reason, file=str(existing))
 
         def progress(tally: Tally) -> None:
             if bar is not None:
@@ -127,15 +139,18 @@ def command(
     return _exit_code(tally, exit_zero)
 
 
-def _worlds(inputs: Inputs, manifest: Path | None, *, planar: bool) -> Sequence[World]:
-    named: dict[World, None] = {}
-    if inputs.paths:
-        named |= {(name,): None for name in asset_names(inputs, planar=planar)}
-    if manifest is not None:
-        named |= dict.fromkeys(read_manifest(manifest))
-    if not named:
+def _worlds(
+    inputs: Inputs, manifest: Path | None, shard: Shard, *, planar: bool
+) -> Sequence[World]:
+    """Those of the shard, each once. click.UsageError if there is none in any shard."""
+    named: Iterator[World] = chain(
+        ((name,) for name in (asset_names(inputs, planar=planar) if inputs.paths else ())),
+        read_manifest(manifest) if manifest is not None else (),
+    )
+    first = next(named, None)
+    if first is None:
         raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
-    return tuple(named)
+    return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
 
 
 def _summary(tally: Tally, output: Path) -> str:
@@ -150,7 +165,8 @@ def _summary(tally: Tally, output: Path) -> str:
         if number
     ]
     kept = f" ({tally.kept:,} kept)" if tally.kept else ""
-    return f"{counted(tally.total, 'scene')}: {', '.join(parts)}{kept}. Results: {output}"
+    verdicts = f": {', '.join(parts)}{kept}" if parts else ""
+    return f"{counted(tally.total, 'scene')}{verdicts}. Results: {output}"
 
 
 def _exit_code(tally: Tally, exit_zero: bool) -> int:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from satcheck.batch.merge import merge
 from tests.cli.process import SAMPLES, satcheck
 
 
@@ -92,3 +93,22 @@ def test_a_manifest_names_files_that_are_one_scene(scenes: Path) -> None:
         "box.obj": "fail",
     }
     assert len(made["box.obj"]["files"]) == 2
+
+
+def test_merged_shards_have_the_bytes_of_one_run(scenes: Path) -> None:
+    """Most shards are empty: there are three scenes."""
+    run(scenes)
+    whole = scenes.parent / "results.jsonl"
+    parts = [scenes.parent / f"{number}.jsonl" for number in range(1, 9)]
+    for number, part in enumerate(parts, 1):
+        satcheck("batch", f"{scenes}/*.toml", "-o", str(part), "--shard", f"{number}/8")
+    assert [part.read_bytes() for part in parts].count(b"") >= 5
+    merge(parts, scenes.parent / "merged.jsonl")
+    assert (scenes.parent / "merged.jsonl").read_bytes() == whole.read_bytes()
+
+
+@pytest.mark.parametrize("shard", ["0/8", "9/8", "1/0", "1", "a/b"])
+def test_no_shard_of_that_number(scenes: Path, shard: str) -> None:
+    ran = satcheck("batch", str(scenes), "-o", str(scenes / "r.jsonl"), "--shard", shard)
+    assert ran.code == 2
+    assert "--shard" in ran.err
