@@ -3,35 +3,59 @@
 from __future__ import annotations
 
 import hashlib
+import json
+import os
+import stat
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-import msgspec
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.report.batch import InputFile
+from satcheck.scene.robot.packages import search_path
 
 # Settings that change no answer.
 _WITHOUT_EFFECT = frozenset({"jobs", "cache", "cache_directory", "timings"})
-_PIECE_BYTES = 1 << 20
 
 
-def digest(path: str) -> str | None:
-    """The SHA-256 of a file; None: it is not there, or cannot be read."""
+def digest(name: str) -> str | None:
+    """The SHA-256 of a file; of `folder/`: of the names of the folders in it. None: nothing is
+    there. What is there and cannot be read has a digest that says why."""
     try:
-        with Path(path).open("rb") as file:
+        if name.endswith("/"):
+            return _sha256(
+                "\n".join(sorted(each.name for each in os.scandir(name) if each.is_dir()))
+            )
+        mode = Path(name).stat().st_mode
+        if not stat.S_ISREG(mode):
+            return _sha256(f"type {stat.S_IFMT(mode):o}")
+        with Path(name).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
-    except (OSError, ValueError):
+    except (FileNotFoundError, NotADirectoryError, ValueError):
         return None
+    except OSError as error:
+        return _sha256(f"error {error.errno}")
 
 
-def inputs_of(paths: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:
-    return tuple(InputFile(path, digest(path)) for path in sorted(paths))
+def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:
+    return tuple(InputFile(name, digest(name)) for name in sorted(names))
 
 
-def key_of(world: World, options: CheckOptions, inputs: tuple[InputFile, ...]) -> str:
+def key_of(world: World, terms: str, inputs: tuple[InputFile, ...]) -> str:
+    """terms: of the options, see `terms_of`."""
+    files = [(each.path, each.sha256) for each in inputs]
+    return _sha256(json.dumps([terms, world, files]))
+
+
+def terms_of(options: CheckOptions) -> str:
+    """A digest of what else the answers depend on, the same for all worlds of a batch."""
     settings = {k: v for k, v in options.settings.items() if k not in _WITHOUT_EFFECT}
-    about = (__version__, world, replace(options, settings=settings), inputs)
-    return hashlib.sha256(msgspec.msgpack.encode(about, order="deterministic")).hexdigest()
+    stated = to_builtins(replace(options, settings=settings))
+    return _sha256(json.dumps([__version__, stated, search_path()], sort_keys=True))
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()

@@ -18,6 +18,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.atomic_file import replace_file
 from satcheck.report.batch import InputFile
+from satcheck.report.json import read_line
 
 
 class Head(msgspec.Struct, frozen=True):
@@ -93,7 +94,7 @@ class ResultsFile:
     def _kept(self, file: FileIO, path: Path, valid: Callable[[Head], bool]) -> Iterator[Head]:
         for begin, line in _complete_lines(path):
             try:
-                head = msgspec.json.decode(line, type=Head)
+                head = read_line(line, Head)
             except msgspec.DecodeError as error:
                 reason = f"byte {begin}: no result of a batch: {error}"
                 raise SatcheckError("bad-results", reason, file=str(path)) from None

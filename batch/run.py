@@ -8,7 +8,7 @@ from functools import lru_cache
 from msgspec import Struct
 
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.key import digest, inputs_of, key_of
+from satcheck.batch.key import digest, inputs_of, key_of, terms_of
 from satcheck.batch.results import Head, ResultsFile
 from satcheck.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
@@ -66,10 +66,10 @@ def run(
 
 def _validity(options: CheckOptions) -> Callable[[Head], bool]:
     """Says of a result whether its files, the options and the version are the same now."""
-    now = lru_cache(_DIGESTS)(digest)
+    now, terms = lru_cache(_DIGESTS)(digest), terms_of(options)
 
     def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        return head.key is not None and head.key == key_of(head.files, options, inputs)
+        return head.key is not None and head.key == key_of(head.files, terms, inputs)
 
     return valid

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import msgspec
 from msgspec import Struct
 
 from satcheck.audit.assets import lost_asset
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.slot_server import Answer, Chunk, answer
+from satcheck.batch.slot_server import Answer, Chunk, answer, answers_in, request_of
 from satcheck.core.worker import Worker
 from satcheck.core.worker_errors import WorkerError, WorkerNotStarted
 from satcheck.report.batch import Result
@@ -53,9 +52,8 @@ class Slot:
                 yield self._again(world)
 
     def _ask(self, worlds: Sequence[World]) -> list[Answer]:
-        request = msgspec.msgpack.encode(Chunk(tuple(worlds), self._options))
-        reply = self._worker.ask(request, seconds=self._limits.seconds)
-        return msgspec.msgpack.decode(reply, type=list[Answer])
+        request = request_of(Chunk(tuple(worlds), self._options))
+        return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
 
     def _again(self, world: World) -> Answer:
         try:

@@ -12,8 +12,9 @@ SCHEMA: Literal["satcheck.result/1"] = "satcheck.result/1"
 
 
 class InputFile(Value, frozen=True):
-    """A file that the check has read or looked for. sha256: of its bytes; None: it was
-    not there."""
+    """A file that the check has read or looked for. sha256: of its bytes; for a
+    folder or a file that cannot be read, of words that say so. None: it was not there. A path that
+    ends in `/` stands for the names of the folders in this folder."""
 
     path: str
     sha256: Sha256 | None
@@ -22,7 +23,8 @@ class InputFile(Value, frozen=True):
 class Result(Value, frozen=True, kw_only=True):
     """files: of the world, as given; the first one names it. inputs: every file that the answer
     depends on. key: of the contents of these, the options and the version of satcheck: the same key
-    means the same answer. None: the process of the check was lost, and its inputs with it."""
+    means the same answer. None: the next run checks this world again, because a process of its
+    check was lost, or a file changed meanwhile."""
 
     schema: Literal["satcheck.result/1"] = SCHEMA
     files: tuple[str, ...]

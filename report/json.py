@@ -5,16 +5,19 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, TypeVar
 
+from msgspec import DecodeError, convert, msgpack, to_builtins
 from msgspec import json as msgspec_json
-from msgspec import msgpack, to_builtins
 
 from satcheck.report.report import Report, without_timings
 from satcheck.report.values import Value
 
 INDENT = 2
 _INDENTATION = re.compile("\n *")
+# How JSON writes a byte of a file name that is not UTF-8.
+_NOT_UTF8 = b"\\udc"
+Read = TypeVar("Read")
 _IN_A_PIECE = 500  # elements of a list
 # At the end of a line. No string has a line end in it, so this is a number.
 _NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
@@ -73,6 +76,17 @@ def line_without_times(value: Value) -> bytes:
     if _PERHAPS_NEGATIVE_ZERO.search(text):
         return line(without_timings(to_builtins(value))).encode()
     return text + b"\n"
+
+
+def read_line(line: bytes, type: type[Read]) -> Read:
+    """What `line_without_times` wrote, or a struct with some of its fields. Raises
+    msgspec.DecodeError."""
+    if _NOT_UTF8 not in line:
+        return msgspec_json.decode(line, type=type)
+    try:
+        return convert(json.loads(line), type)
+    except ValueError as error:
+        raise DecodeError(str(error)) from None
 
 
 def _member(key: str, value: Any, timings: bool) -> Iterator[str]:

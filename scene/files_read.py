@@ -1,7 +1,7 @@
 """Which files are read or looked for, for callers that keep results of a check.
 
 Whatever opens an input, or asks whether it is there, notes it here; nothing depends on whether
-anybody listens.
+anybody listens. A child process cannot note for its parent: its answer names what it has read.
 """
 
 from __future__ import annotations
@@ -10,21 +10,76 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-_listening: list[dict[str, None]] = []
+# Of a file: what changes when its content does. None: nothing is there, or nobody may look.
+Signature = tuple[int, ...] | None
+
+
+class FilesRead:
+    """The files that a check has read or looked for, in that order. `folder/` stands for the names
+    of the folders in it."""
+
+    def __init__(self) -> None:
+        self._signatures: dict[str, Signature] = {}
+        self._lost = False
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._signatures)
+
+    def add(self, name: str) -> None:
+        if name not in self._signatures:
+            self._signatures[name] = signature(name)
+
+    def lose(self) -> None:
+        self._lost = True
+
+    def are_certain(self) -> bool:
+        """Whether these are all files, and none has changed since it was noted."""
+        return not self._lost and all(
+            signature(name) == at for name, at in self._signatures.items()
+        )
+
+
+_listening: list[FilesRead] = []
 
 
 def note(location: str | Path) -> None:
     """location: of a file that the answer depends on, even if it is not there."""
     for listener in _listening:
-        listener[str(location)] = None
+        listener.add(str(location))
+
+
+def note_folders_in(folder: Path) -> None:
+    """The answer depends on the names of the folders in this one."""
+    note(f"{folder}/")
+
+
+def note_lost_reader() -> None:
+    """A process died that may have read files which nobody knows."""
+    for listener in _listening:
+        listener.lose()
 
 
 @contextmanager
-def files_read() -> Iterator[dict[str, None]]:
-    """The files noted while it lasts, in that order, each once."""
-    noted: dict[str, None] = {}
-    _listening.append(noted)
+def files_read() -> Iterator[FilesRead]:
+    """The files noted while it lasts."""
+    files = FilesRead()
+    _listening.append(files)
     try:
-        yield noted
+        yield files
     finally:
-        _listening.remove(noted)
+        _listening.remove(files)
+
+
+def signature(name: str) -> Signature:
+    try:
+        status = Path(name).stat()
+    except (OSError, ValueError):
+        return None
+    return (
+        status.st_dev,
+        status.st_ino,
+        status.st_mode,
+        status.st_size,
+        status.st_mtime_ns,
+        status.st_ctime_ns,
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from satcheck.scene.files_read import note
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.values import shown, text
@@ -46,6 +47,7 @@ class MeshPlaces:
             known = ", ".join(sorted(FORMATS))
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, code="unsupported-format")
+        note(location)
         if self._root is not None and not location.resolve().is_relative_to(self._root):
             message = (
                 f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "

@@ -84,7 +84,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
         with suppress(NeedsChild):
             scene = read_gltf(
                 memoryview(source.data),
-                str(source.location.absolute().parent),
+                str(source.location.parent),
                 binary=source.format == "glb",
                 allow_outside=allowed.allow_outside,
             )

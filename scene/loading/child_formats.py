@@ -7,10 +7,13 @@ and msgspec checks their types.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import msgspec
 
 from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
@@ -34,6 +37,13 @@ class Request(msgspec.Struct, frozen=True):
     data: Block
 
 
+class Reply(msgspec.Struct, frozen=True):
+    """files: those that the file refers to, read or looked for."""
+
+    content: RawScene | Refusal
+    files: tuple[str, ...]
+
+
 def read_in_child(
     source: Source,
     children: ReadingChildren,
@@ -48,16 +58,20 @@ def read_in_child(
     request = Request(source.format, directory, flat, allow_outside, source.data)
     try:
         reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
-        answer = msgspec.msgpack.decode(reply, type=RawScene | Refusal)
+        answer = msgspec.msgpack.decode(reply, type=Reply)
     except WorkerError as error:
+        note_lost_reader()
         raise refused_by_worker(error, source, megabytes) from error
     except msgspec.DecodeError:
         message = "the reader's answer is damaged"
         raise MeshFileError("reader-failed", message, file=source.path) from None
-    if isinstance(answer, Refusal):
-        code = answer.code if answer.code in CODES else "reader-failed"
-        raise MeshFileError(code, answer.message, file=source.path)
-    return answer
+    for file in answer.files:
+        note(source.location.parent / Path(file).relative_to(directory))
+    content = answer.content
+    if isinstance(content, Refusal):
+        code = content.code if content.code in CODES else "reader-failed"
+        raise MeshFileError(code, content.message, file=source.path)
+    return content
 
 
 def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:
@@ -87,16 +101,21 @@ def _one_line(text: str) -> str:
 def serve(message: bytes) -> bytes:
     """Runs in the child process. The answer may be a Refusal."""
     request = msgspec.msgpack.decode(message, type=Request)
-    answer: RawScene | Refusal
+    with files_read() as files:
+        content = _content(request)
+    return msgspec.msgpack.encode(Reply(content, tuple(files)))
+
+
+def _content(request: Request) -> RawScene | Refusal:
     try:
-        answer = _read(request)
+        scene = _read(request)
         if request.flat:
             from satcheck.scene.loading.flatten import flattened
 
-            answer = alone(flattened(answer))
+            return alone(flattened(scene))
+        return scene
     except MeshFileError as error:
-        answer = Refusal(error.code, error.message)
-    return msgspec.msgpack.encode(answer)
+        return Refusal(error.code, error.message)
 
 
 def _read(request: Request) -> RawScene:

@@ -7,6 +7,7 @@ from typing import Any
 
 from satcheck._native.readers import ReadError, unpack_meshopt
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
@@ -210,6 +211,7 @@ class BufferViews:
         root = Path(self._directory).resolve()
         if ":" in uri or "\\" in name or "\0" in name:
             raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
+        note(Path(self._directory) / name)
         path = (root / name).resolve()
         if not self._allow_outside and not path.is_relative_to(root):
             raise MeshFileError(

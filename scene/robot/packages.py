@@ -17,6 +17,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.xml_tree import read_elements
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
@@ -46,7 +47,7 @@ class MeshPlaces:
         self._folder = Path(urdf).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._allow_outside = allow_outside
-        self._root = self._upwards(_steps_to_root(self._folder))
+        self._root = self._upwards(self._steps_to_root())
         self._own = self._root.resolve()
 
     def locate(self, uri: str) -> Path:
@@ -79,10 +80,11 @@ class MeshPlaces:
         name, _, inner = rest.partition("/")
         if named := self._named(rest):
             return named
-        folders = [folder for folder in self._folders_of(name) if folder.is_dir()]
+        folders = []
         places = []
         reasons = []
-        for folder in folders:
+        for folder in filter(_is_folder, self._folders_of(name)):
+            folders.append(folder)
             try:
                 place = _existing(folder, inner, quoted=True)
             except MeshFileError as error:
@@ -99,7 +101,7 @@ class MeshPlaces:
         if reasons:
             hint = f"--package {name}=DIR names another package"
             raise MeshFileError(reasons[0].code, f"{reasons[0].message}: {hint}")
-        likely = self._own if (self._own / inner).is_file() else "DIR"
+        likely = self._own if _is_file(self._root / inner) else "DIR"
         message = f"package {name!r} is not found: --package {name}={likely} says where it lies"
         raise MeshFileError("missing-resource", message)
 
@@ -136,6 +138,16 @@ class MeshPlaces:
                 if _name_in_manifest(folder) == name:
                     yield folder
 
+    def _steps_to_root(self) -> int:
+        """Number of folders from the URDF's folder up to the package. Without a manifest it is one,
+        but never the root of the file system."""
+        count = len(self._folder.absolute().parents)
+        for steps in range(count + 1):
+            above = self._upwards(steps)
+            if any(_is_file(above / manifest) for manifest in _MANIFESTS):
+                return steps
+        return int(count > 1)
+
     def _upwards(self, steps: int) -> Path:
         return _tidy(self._folder.joinpath(*[".."] * steps))
 
@@ -146,20 +158,10 @@ class MeshPlaces:
         return f"outside of {self._own}, where the package of the URDF is"
 
 
-def _steps_to_root(folder: Path) -> int:
-    """Number of folders from the URDF's folder up to the package. Without a manifest it is one, but
-    never the root of the file system."""
-    absolute = folder.absolute()
-    around = (absolute, *absolute.parents)
-    for steps, above in enumerate(around):
-        if any((above / manifest).is_file() for manifest in _MANIFESTS):
-            return steps
-    return 1 if len(around) > 2 else 0
-
-
 def _name_in_manifest(folder: Path) -> str | None:
     """The <name> in the package.xml of a folder; None if there is no readable one. Then the name of
     the folder counts."""
+    note(folder / _PACKAGE_XML)
     try:
         with (folder / _PACKAGE_XML).open("rb") as file:
             root = read_elements(file.read(_MAX_BYTES))
@@ -178,26 +180,40 @@ def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
     spellings += [spelling.replace("\\", "/") for spelling in spellings if "\\" in spelling]
     places = [_tidy(folder / spelling) for spelling in spellings]
     for place in places:
-        if place.is_file():
+        if _is_file(place):
             return place
     above = places[-1].parent
     where = f"{above.as_posix().rstrip('/')}/"
-    what = f"no such file in {where}" if above.is_dir() else f"there is no folder {above}"
+    what = f"no such file in {where}" if _is_folder(above) else f"there is no folder {above}"
     raise MeshFileError("missing-resource", what)
 
 
 def _folders_in(folder: Path) -> list[Path]:
+    note_folders_in(folder)
     try:
         return sorted(entry for entry in folder.iterdir() if entry.is_dir())
     except OSError:  # a variable may name missing folders
         return []
 
 
+def search_path() -> tuple[str, str]:
+    """The environment variables of ROS 1 and ROS 2 that name folders of packages."""
+    return os.environ.get("ROS_PACKAGE_PATH", ""), os.environ.get("AMENT_PREFIX_PATH", "")
+
+
 def _environment() -> list[Path]:
-    """Folders of packages in the environment variables of ROS 1 and ROS 2."""
-    ros = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    ament = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    ros, ament = (text.split(os.pathsep) for text in search_path())
     return [Path(entry) for entry in ros if entry] + [Path(e) / "share" for e in ament if e]
+
+
+def _is_file(place: Path) -> bool:
+    note(place)
+    return place.is_file()
+
+
+def _is_folder(place: Path) -> bool:
+    note(place)
+    return place.is_dir()
 
 
 def _is_from_environment(place: Path) -> bool:
