@@ -60,6 +60,11 @@ def lost_asset(file: str, error: SatcheckError) -> Asset:
     return asset(file, _without_bodies([Issue(error.code, "warning", None, file, message)]))
 
 
+def unreadable_asset(file: str, error: SatcheckError) -> Asset:
+    """An asset whose result cannot be read."""
+    return asset(file, _without_bodies([Issue(error.code, "error", None, file, str(error))]))
+
+
 def _passing_by_rules(report: Report, scene: Scene) -> Report:
     """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
     Robots are left out, as their own pairs are allowed without any rule."""

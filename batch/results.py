@@ -20,6 +20,9 @@ from satcheck.report.atomic_file import replace_file
 from satcheck.report.batch import InputFile
 from satcheck.report.json import read_line
 
+# What the name of the file of an unfinished run ends with.
+PART = ".part"
+
 
 class Head(msgspec.Struct, frozen=True):
     """`report.batch.Result` without the report."""
@@ -50,7 +53,7 @@ class ResultsFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.part = Path(f"{path}.part")
+        self.part = part_of(path)
         self._lock = FileLock(f"{path}.lock")
         self._lines: dict[World, _Line] = {}
         self._end = 0
@@ -158,6 +161,10 @@ class ResultsFile:
 
     def _cannot_write(self, error: OSError) -> SatcheckError:
         return self._error("cannot-write", f"cannot be written: {error.strerror}")
+
+
+def part_of(path: Path) -> Path:
+    return Path(f"{path}{PART}")
 
 
 def _has_bytes(path: Path) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from satcheck.report.assets import AssetVerdict
     from satcheck.report.report import Issue, Verdict
 
 CLEAN = 0  # everything was checked, and no pair fails
@@ -14,12 +15,22 @@ ERROR = 2  # usage, unreadable input, or a fault of satcheck itself
 INCOMPLETE = 3  # no pair is known to fail, but not everything could be checked
 INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
 
-_BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}
+_BY_VERDICT: dict[AssetVerdict, int] = {
+    "pass": CLEAN,
+    "fail": FINDINGS,
+    "incomplete": INCOMPLETE,
+    "error": ERROR,
+}
 
 
 def for_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:
     """ERROR when an input could not be used, else by verdict; exit_zero forgives findings only."""
     if any(issue.severity == "error" for issue in issues):
         return ERROR
+    return for_assets(verdict, exit_zero=exit_zero)
+
+
+def for_assets(verdict: AssetVerdict, *, exit_zero: bool) -> int:
+    """By the worst verdict; exit_zero forgives findings only."""
     code = _BY_VERDICT[verdict]
     return CLEAN if exit_zero and code == FINDINGS else code

@@ -248,6 +248,9 @@ top_option = click.option(
     metavar="N",
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
+exit_zero_option = click.option(
+    "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail."
+)
 outside_option = click.option(
     "--allow-outside",
     is_flag=True,

@@ -11,7 +11,7 @@ from satcheck.audit.samples import Samples
 from satcheck.cli.options import PICTURES
 from satcheck.cli.output import Page, talk
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.ci import pieces as pieces_for_ci
 from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.summary import counts_line
 from satcheck.cli.report.verdict import next_step, verdict_line
@@ -45,7 +45,7 @@ def rendered(
     if form == "json":
         return render_json(result, timings=shown.timings)
     if form in CI_FORMATS:
-        return render_for_ci({"satcheck": result}, form)
+        return pieces_for_ci({"satcheck": result}, form)
     if form in PICTURES:
         from satcheck.cli.report.picture import render as render_picture
 

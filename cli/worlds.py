@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline import beside_baseline
-from satcheck.audit.summary import tool
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.cli import exit_codes
@@ -21,22 +19,15 @@ from satcheck.cli.options import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.ci import pieces as pieces_for_ci
+from satcheck.cli.report.overview import Overview, overview
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
-from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
+from satcheck.report.assets import Asset, asset
 from satcheck.report.baseline import Baseline
 from satcheck.report.config import StatedConfig
-from satcheck.report.json import document as json_document
-from satcheck.report.report import without_timings
+from satcheck.report.json import render_assets
 from satcheck.scene.loader import read_rules
-
-_CODES: dict[AssetVerdict, int] = {
-    "error": exit_codes.ERROR,
-    "fail": exit_codes.FINDINGS,
-    "incomplete": exit_codes.INCOMPLETE,
-    "pass": exit_codes.CLEAN,
-}
 
 
 class Delivery(NamedTuple):
@@ -78,11 +69,10 @@ def check_worlds(
     assets = [without_unused_rules(each, shared) for each in assets]
     if config is not None:
         assets = [replace(each, report=replace(each.report, config=config)) for each in assets]
-    report = assets_report(tool(), assets, unused)
-    _deliver(document, report, delivery, timings=options["timings"])
-    _tell(report, None if delivery.quiet else delivery.output)
-    passes = delivery.exit_zero and report.verdict == "fail"
-    return exit_codes.CLEAN if passes else _CODES[report.verdict]
+    seen = overview(assets, unused, top=delivery.top)
+    _deliver(document, seen, assets, delivery, timings=options["timings"])
+    _tell(seen, assets, None if delivery.quiet else delivery.output)
+    return exit_codes.for_assets(seen.verdict, exit_zero=delivery.exit_zero)
 
 
 def check_options(inputs: Inputs, options: Mapping[str, Any], *, places: bool) -> CheckOptions:
@@ -117,45 +107,52 @@ def _beside(each: Asset, known: Baseline, path: Path) -> Asset:
 
 
 def _deliver(
-    document: Document, report: AssetsReport, delivery: Delivery, *, timings: bool
+    document: Document,
+    seen: Overview,
+    assets: Sequence[Asset],
+    delivery: Delivery,
+    *,
+    timings: bool,
 ) -> None:
     if delivery.output is None and delivery.quiet:
         return
-    if delivery.output is None and delivery.form == "table" and not report.assets:
+    if delivery.output is None and delivery.form == "table" and not assets:
         return  # no asset changed, and stderr says so
     document.deliver(
-        lambda page: _render(report, delivery, page, timings=timings),
+        lambda page: _render(seen, assets, delivery, page, timings=timings),
         delivery.output,
         utf8=delivery.form != "table",
     )
 
 
-def _tell(report: AssetsReport, output: Path | None) -> None:
+def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
     """Errors on stderr; with -o also the warnings about all assets, the summary, and where the
     report is."""
-    for each in report.assets:
+    for each in assets:
         for issue in each.report.issues:
             if issue.severity == "error":
                 line = issue_line(issue)
                 talk(f"satcheck: {line}" if each.file in line else f"satcheck: {each.file}: {line}")
     if output is None:
         return
-    for issue in report.issues:
+    for issue in seen.issues:
         talk(f"satcheck: {issue_line(issue)}")
-    if report.assets:
+    if assets:
         from satcheck.cli.report.assets import summary_line
 
-        talk(f"{summary_line(report)} Report: {output}")
+        talk(f"{summary_line(seen)} Report: {output}")
 
 
-def _render(report: AssetsReport, delivery: Delivery, page: Page, *, timings: bool) -> str:
+def _render(
+    seen: Overview, assets: Sequence[Asset], delivery: Delivery, page: Page, *, timings: bool
+) -> str | Iterable[str]:
     form = delivery.form
     if form == "json":
-        return json_document(report if timings else without_timings(to_builtins(report)))
+        return render_assets(seen.report(), assets, timings=timings)
     if form in CI_FORMATS:
-        return render_for_ci({asset.file: asset.report for asset in report.assets}, form)
-    if not report.assets:
+        return pieces_for_ci({asset.file: asset.report for asset in assets}, form)
+    if not assets:
         return "PASS: 0 assets.\n"
     from satcheck.cli.report.assets import render
 
-    return render(report, page, top=delivery.top)
+    return render(seen, page)

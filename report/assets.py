@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Mapping
 from typing import Literal, get_args
 
 from satcheck.report.report import Issue, Report
@@ -39,8 +38,8 @@ class AssetCounts(Value, frozen=True, kw_only=True):
 
 
 class AssetsReport(Value, frozen=True, kw_only=True):
-    """verdict: the worst of the assets, in the order error, fail, incomplete, pass. issues: about
-    what all assets share."""
+    """verdict: the worst of the assets, in the order error, fail, incomplete, pass; an issue may
+    make it worse. issues: about what all assets share."""
 
     schema: Literal["satcheck.assets/1"] = SCHEMA
     tool: Tool
@@ -50,22 +49,16 @@ class AssetsReport(Value, frozen=True, kw_only=True):
     issues: tuple[Issue, ...] = ()
 
 
-def assets_report(
-    tool: Tool, assets: Iterable[Asset], issues: tuple[Issue, ...] = ()
-) -> AssetsReport:
-    """The report of these assets. Without assets it passes."""
-    listed = tuple(assets)
-    counts = Counter(each.verdict for each in listed)
-    return AssetsReport(
-        tool=tool,
-        verdict=next((verdict for verdict in ASSET_VERDICTS if counts[verdict]), "pass"),
-        counts=AssetCounts(
-            total=len(listed),
-            error=counts["error"],
-            fail=counts["fail"],
-            incomplete=counts["incomplete"],
-            passed=counts["pass"],
-        ),
-        assets=listed,
-        issues=issues,
+def worst_verdict(verdicts: Mapping[AssetVerdict, int]) -> AssetVerdict:
+    """verdicts: the number of assets with each."""
+    return next((verdict for verdict in ASSET_VERDICTS if verdicts.get(verdict)), "pass")
+
+
+def counted(verdicts: Mapping[AssetVerdict, int]) -> AssetCounts:
+    return AssetCounts(
+        total=sum(verdicts.values()),
+        error=verdicts.get("error", 0),
+        fail=verdicts.get("fail", 0),
+        incomplete=verdicts.get("incomplete", 0),
+        passed=verdicts.get("pass", 0),
     )

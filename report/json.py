@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import islice
 from typing import Any, TypeVar
 
 from msgspec import DecodeError, convert, msgpack, to_builtins
 from msgspec import json as msgspec_json
 
+from satcheck.report.assets import Asset, AssetsReport
 from satcheck.report.report import Report, without_timings
 from satcheck.report.values import Value
 
@@ -19,6 +21,7 @@ _INDENTATION = re.compile("\n *")
 _NOT_UTF8 = b"\\udc"
 Read = TypeVar("Read")
 _IN_A_PIECE = 500  # elements of a list
+_ASSETS_IN_A_PIECE = 10
 # At the end of a line. No string has a line end in it, so this is a number.
 _NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
 # In compact JSON. A quote in a string has a backslash before it, so this is a member, and the
@@ -43,12 +46,31 @@ def render(report: Report, *, timings: bool) -> Iterator[str]:
 
 
 def _rendered(report: Report, timings: bool) -> Iterator[str]:
-    before = "{"
-    for key in report.__struct_fields__:
-        yield before
-        yield from _member(key, getattr(report, key), timings)
-        before = ","
-    yield "\n}\n"
+    members = ((key, getattr(report, key)) for key in report.__struct_fields__)
+    return _object(_member(key, value, timings) for key, value in members)
+
+
+def render_assets(report: AssetsReport, assets: Iterable[Asset], *, timings: bool) -> Iterator[str]:
+    """The report with these assets as its own, as `render` writes it; each piece of them is made
+    when it is written. Raises ValueError for a number that is not finite."""
+    return _object(
+        _list(key, _finite(_some(assets)), timings)
+        if key == "assets"
+        else _member(key, getattr(report, key), timings)
+        for key in report.__struct_fields__
+    )
+
+
+def _finite(pieces: Iterable[Any]) -> Iterator[Any]:
+    for piece in pieces:
+        _require_finite(piece)
+        yield piece
+
+
+def _some(assets: Iterable[Asset]) -> Iterator[tuple[Asset, ...]]:
+    left = iter(assets)
+    while piece := tuple(islice(left, _ASSETS_IN_A_PIECE)):
+        yield piece
 
 
 def document(values: Any) -> str:
@@ -89,19 +111,32 @@ def read_line(line: bytes, type: type[Read]) -> Read:
         raise DecodeError(str(error)) from None
 
 
-def _member(key: str, value: Any, timings: bool) -> Iterator[str]:
+def _object(members: Iterable[Iterable[str]]) -> Iterator[str]:
+    """members: the pieces of each."""
+    before = "{"
+    for member in members:
+        yield before
+        yield from member
+        before = ","
+    yield "\n}\n"
+
+
+def _member(key: str, value: Any, timings: bool) -> Iterable[str]:
     """A member of the outermost object; a long list of structs in pieces."""
-    if not isinstance(value, tuple) or not value:
-        yield _text({key: value}).removeprefix("{").removesuffix("\n}")
-        return
+    if not isinstance(value, tuple):
+        return (_text({key: value}).removeprefix("{").removesuffix("\n}"),)
+    return _list(key, _pieces_of(value), timings)
+
+
+def _list(key: str, pieces: Iterable[Any], timings: bool) -> Iterator[str]:
     begin, end = f'\n  "{key}": [', "\n  ]"
     before = begin
-    for piece in _pieces_of(value):
+    for piece in pieces:
         yield before
         written = piece if timings else without_timings(to_builtins(piece))
         yield _text({key: written}).removeprefix("{" + begin).removesuffix(end + "\n}")
         before = ","
-    yield end
+    yield begin + "]" if before == begin else end
 
 
 def _pieces_of(value: Any) -> Iterator[Any]:

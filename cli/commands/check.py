@@ -31,6 +31,7 @@ from satcheck.cli.options import (
     color_option,
     config_option,
     debug_option,
+    exit_zero_option,
     form_of,
     jobs_option,
     length,
@@ -228,7 +229,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Leave out times: same input, same bytes.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
-@click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
+@exit_zero_option
 @units_option
 @outside_option
 @package_option

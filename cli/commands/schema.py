@@ -15,6 +15,7 @@ DOCUMENTS = (
     "config",
     "decomposition",
     "resolution",
+    "result",
     "samples",
     "scene",
     "stability",
@@ -28,10 +29,10 @@ DOCUMENTS = (
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
-    """Print the JSON Schema of a report, a scene file or the config file.
+    """Print the JSON Schema of a kind of document.
 
     report describes a check, assets many of them, samples a robot in many poses, config the options
-    in satcheck.toml, resolution the result of resolve, suggestions and surface-tolerances those of
-    suggest, verification that of verify.
+    in satcheck.toml, resolution the result of resolve, result a line of the results of batch,
+    suggestions and surface-tolerances those of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

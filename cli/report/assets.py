@@ -10,24 +10,18 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from satcheck.cli.report.beside_baseline import beside_baseline
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.ci.problems import problems
-from satcheck.cli.report.config import config_lines
+from satcheck.cli.report.overview import NAMED
 from satcheck.cli.report.words import counted, issue_line
-from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import NOTHING_TO_CHECK
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.cli.report.ci.problems import Problem
-    from satcheck.report.assets import Asset, AssetsReport
-    from satcheck.report.report import Issue
+    from satcheck.cli.report.overview import Overview
+    from satcheck.report.assets import Asset, AssetVerdict
 
-# Passing assets are listed up to this many assets.
-LISTED = 60
-# So many are named in the summary.
-NAMED = 3
 # Kinds of problems that make an asset incomplete.
 _OPEN = (NOTHING_TO_CHECK, "undecided")
 # Colour only repeats what the word says.
@@ -39,62 +33,51 @@ _COLOURS = {
 }
 
 
-def render(report: AssetsReport, page: Page, *, top: int | None = None) -> str:
-    """The whole text, final newline included. top: how many assets at most; all count in the
-    summary."""
+def render(seen: Overview, page: Page) -> str:
+    """The whole text, final newline included."""
     console = Canvas(page)
-    shown = sorted(report.assets, key=lambda asset: ASSET_VERDICTS.index(asset.verdict))
-    if len(shown) > LISTED:
-        shown = [asset for asset in shown if asset.verdict != "pass"]
-    if shown:
-        console.print(_table(shown[:top], unicode=page.unicode))
-    if hidden := len(shown) - len(shown[:top]):
-        console.print(f"{counted(hidden, 'more asset')} not shown (--top {top})")
-    if passing := report.counts.total - len(shown):
+    if seen.shown:
+        console.print(_table(seen.shown, unicode=page.unicode))
+    if hidden := seen.listed - len(seen.shown):
+        console.print(f"{counted(hidden, 'more asset')} not shown (--top {len(seen.shown)})")
+    if passing := seen.total - seen.listed:
         console.print(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
-    for issue in report.issues:
+    for issue in seen.issues:
         console.print(issue_line(issue))
-    for line in config_lines(asset.report for asset in report.assets):
+    for line in seen.config:
         console.print(line)
-    console.print(summary_line(report))
+    console.print(summary_line(seen))
     return console.text()
 
 
-def summary_line(report: AssetsReport) -> str:
+def summary_line(seen: Overview) -> str:
     """`FAIL: 39 assets: 1 has errors (c.glb), 2 fail (a.glb, b.glb), 36 pass.`"""
-    counts = report.counts
-    unsure = "ERROR" if counts.error else "INCOMPLETE"
-    word = "PASS" if report.verdict == "pass" else "FAIL" if counts.fail else unsure
+    counts = seen.counts
+    unsure = "ERROR" if seen.has("error") else "INCOMPLETE"
+    word = "PASS" if seen.verdict == "pass" else "FAIL" if counts["fail"] else unsure
+    words: dict[AssetVerdict, str] = {
+        "error": "have errors" if counts["error"] > 1 else "has errors",
+        "fail": "fail" if counts["fail"] > 1 else "fails",
+        "incomplete": "incomplete",
+        "pass": "pass" if counts["pass"] > 1 else "passes",
+    }
     parts = [
-        f"{count:,} {words}{_named(report, verdict)}"
-        for count, words, verdict in (
-            (counts.error, "have errors" if counts.error > 1 else "has errors", "error"),
-            (counts.fail, "fail" if counts.fail > 1 else "fails", "fail"),
-            (counts.incomplete, "incomplete", "incomplete"),
-            (counts.passed, "pass" if counts.passed > 1 else "passes", "pass"),
-        )
-        if count
+        f"{counts[verdict]:,} {said}{_named(seen, verdict)}"
+        for verdict, said in words.items()
+        if counts[verdict]
     ]
-    line = f"{word}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
-    beside = beside_baseline(asset.report for asset in report.assets)
-    return " ".join([line, *_by_rules(report), *beside, *_next_step(report)])
+    line = f"{': '.join([word, counted(seen.total, 'asset'), *filter(None, [', '.join(parts)])])}."
+    return " ".join([line, *_by_rules(seen), *seen.beside.lines(), *_next_step(seen)])
 
 
-def _by_rules(report: AssetsReport) -> list[str]:
+def _by_rules(seen: Overview) -> list[str]:
     """`No pair of 1 passing asset was checked: rules allow them all.`"""
-    passing = (asset.report for asset in report.assets if asset.verdict == "pass")
-    count = sum(any(map(_is_unchecked, each.issues)) for each in passing)
-    named = counted(count, "passing asset")
-    return [f"No pair of {named} was checked: rules allow them all."] if count else []
+    named = counted(seen.unchecked, "passing asset")
+    return [f"No pair of {named} was checked: rules allow them all."] if seen.unchecked else []
 
 
-def _is_unchecked(issue: Issue) -> bool:
-    return issue.code == NOTHING_TO_CHECK
-
-
-def _next_step(report: AssetsReport) -> list[str]:
-    failing = (asset.file for asset in report.assets if asset.verdict == "fail")
-    return [f"Next: {_check_of(file)} lists its pairs." for file in failing][:1]
+def _next_step(seen: Overview) -> list[str]:
+    return [f"Next: {_check_of(file)} lists its pairs." for file in seen.named.get("fail", [])][:1]
 
 
 def _check_of(file: str) -> str:
@@ -107,9 +90,9 @@ def _check_of(file: str) -> str:
     return check_of(file, ctx)
 
 
-def _named(report: AssetsReport, verdict: str) -> str:
+def _named(seen: Overview, verdict: AssetVerdict) -> str:
     """` (a.glb, b.glb, c.glb, ...)`; what passes is not named."""
-    files = [asset.file for asset in report.assets if asset.verdict == verdict != "pass"]
+    files = seen.named[verdict] if verdict != "pass" else []
     more = ", ..." if len(files) > NAMED else ""
     return f" ({', '.join(files[:NAMED])}{more})" if files else ""
 

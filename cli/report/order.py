@@ -1,15 +1,19 @@
-"""The order of findings for people: the worst first, pairs of the same parts together."""
+"""The order of findings and of assets for people: the worst first, pairs of the same parts
+together."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from heapq import nsmallest
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from satcheck.cli.report.words import is_hit
+from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import OVERLAPS, SEVERITIES
 
 if TYPE_CHECKING:
+    from satcheck.report.assets import Asset
     from satcheck.report.report import Finding, Relation, Severity
 
 _MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
@@ -38,6 +42,23 @@ def groups_of(findings: Iterable[Finding]) -> list[list[Finding]]:
 def rank(finding: Finding) -> tuple[float, ...]:
     """The lower the worse."""
     return (SEVERITIES.index(severity(finding)), *_size(finding))
+
+
+def asset_rank(asset: Asset) -> tuple[float, ...]:
+    """The lower the worse: by verdict, then by the worst finding."""
+    worst = min(map(rank, asset.report.findings), default=(inf,))
+    return (ASSET_VERDICTS.index(asset.verdict), *worst)
+
+
+_T = TypeVar("_T")
+
+
+def worst_of(
+    things: Iterable[_T], top: int | None, rank: Callable[[_T], tuple[float, ...]]
+) -> list[_T]:
+    """The worst ones, at most `top`, from things that may be too many for the memory. Equals keep
+    their order."""
+    return sorted(things, key=rank) if top is None else nsmallest(top, things, key=rank)
 
 
 def _size(finding: Finding) -> tuple[int, float, float]:

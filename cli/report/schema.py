@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from satcheck.report.assets import AssetsReport
 from satcheck.report.axes import AxesReport
+from satcheck.report.batch import Result
 from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
@@ -26,6 +27,7 @@ STRUCTS: dict[str, type[Struct]] = {
     "decomposition": DecompositionReport,
     "report": Report,
     "resolution": ResolutionReport,
+    "result": Result,
     "samples": SamplesReport,
     "stability": StabilityReport,
     "suggestions": SuggestionsReport,
@@ -37,7 +39,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `resolution`, `samples`, `stability`, `suggestions`, `surface-tolerances`, `tradeoff`,
+    `resolution`, `result`, `samples`, `stability`, `suggestions`, `surface-tolerances`, `tradeoff`,
     `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")

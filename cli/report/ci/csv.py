@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 from satcheck.audit.severity import is_failure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
+    from satcheck.cli.report.ci import Reports
     from satcheck.report.report import Finding, Issue, Report
 
 # Columns that are fields of a finding with one value.
@@ -44,19 +45,27 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 _COLUMNS = ("asset", *_FIELDS, *_ENDS, *_VERDICT)
 
 
-def render(reports: Mapping[str, Report]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\r\n")
-    writer.writerow(_COLUMNS)
+def render(reports: Reports) -> Iterator[str]:
+    yield lines([_COLUMNS])
     for name, report in reports.items():
-        files = {body.id: body.file for body in report.bodies}
-        for finding in report.findings:
-            files_of_both = (files[finding.a], files[finding.b])
-            verdict = (finding.baseline_state, is_failure(finding, report.settings.fail_on))
-            writer.writerow(map(_cell, [name, *_values(finding), *files_of_both, *verdict]))
-        errors = [issue for issue in report.issues if issue.severity == "error"]
-        writer.writerows(map(_cell, _of_issue(name, issue, files)) for issue in errors)
+        yield lines(_rows(name, report))
+
+
+def lines(rows: Iterable[Iterable[Any]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\r\n").writerows(map(_cell, row) for row in rows)
     return text.getvalue()
+
+
+def _rows(asset: str, report: Report) -> Iterator[list[Any]]:
+    files = {body.id: body.file for body in report.bodies}
+    for finding in report.findings:
+        files_of_both = (files[finding.a], files[finding.b])
+        verdict = (finding.baseline_state, is_failure(finding, report.settings.fail_on))
+        yield [asset, *_values(finding), *files_of_both, *verdict]
+    for issue in report.issues:
+        if issue.severity == "error":
+            yield _of_issue(asset, issue, files)
 
 
 def _cell(value: Any) -> Any:

@@ -10,14 +10,12 @@ from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.verdict import summary_line
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from satcheck.report.report import Report
+    from satcheck.cli.report.ci import Reports
 
 _COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
-def render(reports: Mapping[str, Report]) -> str:
+def render(reports: Reports) -> list[str]:
     lines = []
     for problem in problems(reports):
         title = f"satcheck: {problem.kind}"
@@ -27,7 +25,7 @@ def render(reports: Mapping[str, Report]) -> str:
         lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
     lines += [f"{_own(line)}\n" for line in config_lines(reports.values())]
     lines += [f"{_own(f'{name}: {summary_line(r)}')}\n" for name, r in reports.items()]
-    return "".join(lines)
+    return lines
 
 
 def _own(line: str) -> str:

@@ -11,16 +11,16 @@ from satcheck.report.json import line
 from satcheck.report.report import without_timings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
-    from satcheck.report.report import Report
-
-
-def render(reports: Mapping[str, Report]) -> str:
-    return "".join(map(line, _records(reports)))
+    from satcheck.cli.report.ci import Reports
 
 
-def _records(reports: Mapping[str, Report]) -> Iterator[dict[str, Any]]:
+def render(reports: Reports) -> Iterator[str]:
+    return map(line, _records(reports))
+
+
+def _records(reports: Reports) -> Iterator[dict[str, Any]]:
     for name, report in reports.items():
         values: dict[str, Any] = without_timings(to_builtins(report))
         findings = values.pop("findings")

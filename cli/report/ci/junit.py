@@ -19,20 +19,22 @@ from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator
 
+    from satcheck.cli.report.ci import Reports
     from satcheck.report.report import Finding, Report
 
 # Characters that XML 1.0 cannot hold.
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def render(reports: Mapping[str, Report]) -> str:
-    root = ElementTree.Element("testsuites")
-    root.extend(_suite(name, report) for name, report in reports.items())
-    ElementTree.indent(root)
-    text = ElementTree.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+def render(reports: Reports) -> Iterator[str]:
+    yield '<?xml version="1.0" encoding="UTF-8"?>\n<testsuites>'
+    for name, report in reports.items():
+        suite = _suite(name, report)
+        ElementTree.indent(suite, level=1)
+        yield f"\n  {ElementTree.tostring(suite, encoding='unicode')}"
+    yield "\n</testsuites>\n"
 
 
 def _suite(name: str, report: Report) -> ElementTree.Element:

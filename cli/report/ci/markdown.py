@@ -12,16 +12,14 @@ from satcheck.cli.report.words import counted
 from satcheck.report.assets import asset
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from satcheck.report.report import Report
+    from satcheck.cli.report.ci import Reports
 
 # GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
 MOST_ROWS = 200
 _MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:])")
 
 
-def render(reports: Mapping[str, Report]) -> str:
+def render(reports: Reports) -> list[str]:
     listed = problems(reports)
     lines = ["## satcheck", ""]
     for name, report in reports.items():
@@ -37,7 +35,7 @@ def render(reports: Mapping[str, Report]) -> str:
         ]
     if len(listed) > MOST_ROWS:
         lines += ["", f"{counted(len(listed) - MOST_ROWS, 'more row')}: see the JSON report."]
-    return "\n".join(lines) + "\n"
+    return [f"{line}\n" for line in lines]
 
 
 def _text(text: str) -> str:

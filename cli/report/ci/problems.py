@@ -17,8 +17,7 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
+    from satcheck.cli.report.ci import Reports
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
 
@@ -50,7 +49,7 @@ class Problem(NamedTuple):
     state: BaselineState | None = None
 
 
-def problems(reports: Mapping[str, Report]) -> list[Problem]:
+def problems(reports: Reports) -> list[Problem]:
     """Of all reports, the worst first: by level, then findings as a table has them, then issues.
     With several reports each message and each id names its asset."""
     listed = [

@@ -15,9 +15,7 @@ from satcheck.cli.report.config import config_lines
 from satcheck.report.json import document
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from satcheck.report.report import Report
+    from satcheck.cli.report.ci import Reports
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -28,7 +26,7 @@ MOST_RESULTS = 25_000
 _MARKUP = re.compile(r"([\\\[\]])")
 
 
-def render(reports: Mapping[str, Report]) -> str:
+def render(reports: Reports) -> list[str]:
     listed = problems(reports)
     driver = tool()
     kept = listed[:MOST_RESULTS]
@@ -45,7 +43,7 @@ def render(reports: Mapping[str, Report]) -> str:
         "invocations": [_invocation(reports, left_out=len(listed) - len(kept))],
         "results": [_result(problem, kinds.index(problem.kind)) for problem in kept],
     }
-    return document({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
+    return [document({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})]
 
 
 def _rule(kind: str) -> dict[str, Any]:
@@ -53,7 +51,7 @@ def _rule(kind: str) -> dict[str, Any]:
     return {"id": kind, "shortDescription": {"text": text}}
 
 
-def _invocation(reports: Mapping[str, Report], left_out: int) -> dict[str, Any]:
+def _invocation(reports: Reports, left_out: int) -> dict[str, Any]:
     """left_out: results beyond the limit."""
     notes = []
     if left_out:
