@@ -10,6 +10,7 @@ from satcheck.audit import Settings
 from satcheck.audit.request.in_units import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
+from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.scene_builder import Split
 from satcheck.scene.units import Length
 
@@ -19,15 +20,17 @@ SettingValue = bool | int | float | str | Length | None
 
 
 class CheckOptions(Struct, frozen=True, kw_only=True):
-    """split, packages, allow_outside, units, rules: as in `load_scene`. settings: values of
-    `audit.Settings` by name, lengths as given. names: what messages call these lengths. places:
-    state where scene files name the bodies of findings."""
+    """split, packages, allow_outside, units, rules, seconds_per_file, megabytes_per_file: as in
+    `load_scene`. settings: values of `audit.Settings` by name, lengths as given. names: what
+    messages call these lengths. places: state where scene files name the bodies of findings."""
 
     split: Split | None = None
     packages: Mapping[str, str] | None = None
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()
+    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
+    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
     settings: Mapping[str, SettingValue] = {}
     names: Mapping[str, str] = {}
     places: bool = True
@@ -42,6 +45,8 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
             units=self.units,
             hashed=hashed,
             rules=self.rules,
+            seconds_per_file=self.seconds_per_file,
+            megabytes_per_file=self.megabytes_per_file,
         )
 
     def settings_for(self, scene: Scene) -> Settings:

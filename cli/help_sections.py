@@ -19,9 +19,11 @@ SECTIONS = {
     "What to compute": "depth contacts components volume tolerances never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
     "exit_zero pins",
-    "Output": "output resume form png glb scene_out plot dark top explain timings quiet color",
-    "Accuracy and limits": "accuracy method depth_width depth_budget thickness_width "
-    "max_motion iterations repeat budget scene_seconds scene_megabytes jobs cache",
+    "Output": "output parts_out resume form png glb scene_out plot dark top explain timings quiet "
+    "color",
+    "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
+    "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
+    "scene_seconds scene_megabytes jobs cache",
 }
 
 

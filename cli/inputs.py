@@ -18,6 +18,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
+from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.scene_builder import Split
 
@@ -36,12 +37,22 @@ class Inputs(Struct, frozen=True):
     seed: int | None = None
     rules: tuple[Path, ...] = ()
     merge: bool = False
+    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
+    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
         """Removes its own options from `options` and leaves the others."""
         names = [name for name in cls.__struct_fields__ if name in options]
         return cls(**{name: options.pop(name) for name in names})
+
+    @property
+    def limits(self) -> dict[str, float | int]:
+        """For reading a file, as a report states them."""
+        return {
+            "seconds_per_file": self.seconds_per_file,
+            "megabytes_per_file": self.megabytes_per_file,
+        }
 
     @property
     def has_poses(self) -> bool:
@@ -120,6 +131,8 @@ def read(inputs: Inputs, paths: Sequence[str], *, hashed: bool) -> Scene:
         units=inputs.units,
         hashed=hashed,
         rules=inputs.rules,
+        seconds_per_file=inputs.seconds_per_file,
+        megabytes_per_file=inputs.megabytes_per_file,
     )
 
 

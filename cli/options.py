@@ -256,6 +256,25 @@ outside_option = click.option(
     is_flag=True,
     help="Read files outside of the folder of the scene, robot or glTF file that names them.",
 )
+_READING_OPTIONS = (
+    outside_option,
+    click.option(
+        "--seconds-per-file",
+        type=click.FloatRange(0, min_open=True),
+        metavar="SECONDS",
+        default=DEFAULTS.seconds_per_file,
+        show_default=True,
+        help="The most time for reading a mesh file.",
+    ),
+    click.option(
+        "--megabytes-per-file",
+        type=click.IntRange(1),
+        metavar="MIB",
+        default=DEFAULTS.megabytes_per_file,
+        show_default=True,
+        help="The most memory for reading a mesh file; the file may be a quarter as large.",
+    ),
+)
 split_option = click.option(
     "--split",
     type=click.Choice(SPLITS),
@@ -443,6 +462,13 @@ _ONE_POSE_OPTIONS = (
         "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
     ),
 )
+
+
+def reading_options(command: _Command) -> _Command:
+    """Adds the options about what reading a file may do."""
+    for option in reversed(_READING_OPTIONS):
+        command = option(command)
+    return command
 
 
 def one_pose_options(command: _Command) -> _Command:

@@ -84,7 +84,9 @@ def check_options(inputs: Inputs, options: Mapping[str, Any], *, places: bool) -
         allow_outside=inputs.allow_outside,
         units=inputs.units,
         rules=tuple(map(str, inputs.rules)),
-        settings=options,
+        settings={**options, **inputs.limits},
+        seconds_per_file=inputs.seconds_per_file,
+        megabytes_per_file=inputs.megabytes_per_file,
         names=names_of_lengths(options),
         places=places,
     )

@@ -21,10 +21,10 @@ from satcheck.cli.options import (
     one_pose_options,
     open_option,
     output_option,
-    outside_option,
     package_option,
     paths_argument,
     planar_option,
+    reading_options,
     split_option,
     units_option,
 )
@@ -67,7 +67,7 @@ TABLE_ROWS = 20
 @merge_option
 @units_option
 @open_option
-@outside_option
+@reading_options
 @package_option
 @one_pose_options
 @color_option

@@ -40,12 +40,12 @@ from satcheck.cli.options import (
     no_config_option,
     open_option,
     output_option,
-    outside_option,
     package_option,
     paths_argument,
     picture_options,
     planar_option,
     pose_options,
+    reading_options,
     report_form_option,
     rules_option,
     settings_of,
@@ -231,7 +231,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
 @exit_zero_option
 @units_option
-@outside_option
+@reading_options
 @package_option
 @pose_options
 @color_option
@@ -300,7 +300,7 @@ def command(
     scene, poses = _placed(scene, inputs)
     result: Report | Samples
     if poses is None:
-        result = _check(scene, settings_of(options, scene))
+        result = _check(scene, settings_of({**options, **inputs.limits}, scene))
         if known is not None and baseline is not None:
             names = names_in_baseline(inputs.paths, baseline)
             result = beside_baseline(result, known, str(baseline), names)
@@ -308,7 +308,9 @@ def command(
             result = with_stated_places(result, scene)
     else:
         _refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
-        result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
+        result = _check_poses(
+            scene, poses, settings_of({**options, **inputs.limits}, scene), inputs.random_seed
+        )
     if config is not None:
         result = replace(result, config=config)
     shown = Shown(explain=explain, timings=options["timings"], top=top, cache=options["cache"])

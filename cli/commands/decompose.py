@@ -25,8 +25,8 @@ from satcheck.cli.options import (
     form_of,
     form_option,
     output_option,
-    outside_option,
     paths_argument,
+    reading_options,
     split_option,
     units_option,
 )
@@ -110,7 +110,7 @@ class _Parts(Struct, frozen=True):
 @cache_option
 @split_option
 @units_option
-@outside_option
+@reading_options
 @color_option
 @debug_option
 def command(

@@ -27,9 +27,9 @@ from satcheck.cli.options import (
     one_pose_options,
     open_option,
     output_option,
-    outside_option,
     package_option,
     paths_argument,
+    reading_options,
     settings_of,
     split_option,
     tolerance_option,
@@ -88,7 +88,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @package_option
 @one_pose_options
 @units_option
-@outside_option
+@reading_options
 @color_option
 @debug_option
 def command(
@@ -122,7 +122,7 @@ def command(
     document = Document()
     scene = _posed(load(inputs), inputs)
     stray = _stray(target, scene, allow_outside=inputs.allow_outside)
-    settings = settings_of(options, scene)
+    settings = settings_of({**options, **inputs.limits}, scene)
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
     else:

@@ -18,8 +18,8 @@ from satcheck.cli.options import (
     form_of,
     form_option,
     output_option,
-    outside_option,
     paths_argument,
+    reading_options,
     units_option,
 )
 from satcheck.cli.output import Document, Page
@@ -57,7 +57,7 @@ _EXIT_CODES = {
 @output_option
 @click.option("--explain", is_flag=True, help="Show every variant, not only the failures.")
 @units_option
-@outside_option
+@reading_options
 @color_option
 @debug_option
 def command(

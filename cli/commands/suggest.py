@@ -18,11 +18,11 @@ from satcheck.cli.options import (
     debug_option,
     merge_option,
     output_option,
-    outside_option,
     package_option,
     paths_argument,
     planar_option,
     pose_options,
+    reading_options,
     settings_of,
     split_option,
     units_option,
@@ -72,7 +72,7 @@ def _form_of(output: Path | None) -> str:
 @split_option
 @merge_option
 @units_option
-@outside_option
+@reading_options
 @package_option
 @pose_options
 @color_option
@@ -147,7 +147,7 @@ def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestio
     if placed:
         scene = posed(scene, placed)
     held = tuple(placed) if inputs.sample else ()
-    settings = settings_of(options, scene)
+    settings = settings_of({**options, **inputs.limits}, scene)
     with Bar("poses") as bar:
         return suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
 

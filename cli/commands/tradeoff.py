@@ -20,8 +20,8 @@ from satcheck.cli.options import (
     merge_option,
     method_option,
     output_option,
-    outside_option,
     paths_argument,
+    reading_options,
     split_option,
     units_option,
 )
@@ -66,7 +66,7 @@ from satcheck.studies.tradeoff import Tradeoff, tradeoff
 @split_option
 @merge_option
 @units_option
-@outside_option
+@reading_options
 @color_option
 @debug_option
 def command(

@@ -83,9 +83,11 @@ def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> Mes
 def _explain(error: WorkerError, source: Source, megabytes: int) -> str:
     kind = source.format.upper()
     if isinstance(error, WorkerTimeout):
-        return f"reading this {kind} file was stopped after {error.seconds:g} s"
+        limit = f"{error.seconds:g} s (raise it with --seconds-per-file)"
+        return f"reading this {kind} file was stopped after {limit}"
     if error.code == "worker-out-of-memory":
-        return f"reading this {kind} file needs more than {megabytes} MiB"
+        limit = f"{megabytes} MiB (raise it with --megabytes-per-file)"
+        return f"reading this {kind} file needs more than {limit}"
     if isinstance(error, WorkerFailed):
         return _one_line(
             f"the {kind} reader failed: {error.exception_type}: {error.exception_message}"

@@ -119,7 +119,8 @@ def read_source(
     if size > max_bytes:
         raise MeshFileError(
             "too-large",
-            f"{size} bytes exceed the limit of {max_bytes} bytes for one file",
+            f"{size} bytes exceed the limit of {max_bytes} bytes, a quarter of the memory for one "
+            "file (raise it with --megabytes-per-file)",
             file=path,
         )
     try:

@@ -48,6 +48,18 @@ def test_refusals(arguments: list[str], told: str) -> None:
     assert "Traceback" not in ran.err
 
 
+def test_an_option_raises_the_limit_that_refuses_a_file(tmp_path: Path) -> None:
+    file = tmp_path / "large.obj"
+    file.write_bytes((SAMPLES / "box.obj").read_bytes() + b"#" * (1 << 20))
+    options = ("--exit-zero", "--format", "json", PUSHED[1], str(file))
+    refused = satcheck("--megabytes-per-file", "1", *options)
+    assert refused.code == 2
+    assert "raise it with --megabytes-per-file" in refused.err
+    read = satcheck("--megabytes-per-file", "8", *options)
+    assert read.code == 0
+    assert read.document["settings"]["megabytes_per_file"] == 8
+
+
 @pytest.mark.parametrize(
     ("name", "content"),
     [
