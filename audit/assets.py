@@ -12,6 +12,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import summarise, tool
 from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import (
     INTERNAL_ERROR,
@@ -49,15 +50,16 @@ def check_asset(
             for each in (error, *error.others)
         ]
     except Exception as error:  # noqa: BLE001  the other assets still get their answers
+        not_for_lack_of_memory(error)
         text = f"a fault of satcheck: {type(error).__name__}: {error}"
         issues = [Issue(INTERNAL_ERROR, "error", None, file, text)]
     return asset(file, _without_bodies(issues))
 
 
-def lost_asset(file: str, error: SatcheckError) -> Asset:
-    """An asset whose check was ended by its process or by a limit: nothing is known about it."""
-    message = f"{file}: its check was lost, twice: {error.message}"
-    return asset(file, _without_bodies([Issue(error.code, "warning", None, file, message)]))
+def lost_asset(file: str, loss: Loss) -> Asset:
+    """An asset whose every check lost its process: nothing is known about it."""
+    message = f"{file}: the process that checked it {loss.how}"
+    return asset(file, _without_bodies([Issue(loss.code, "warning", None, file, message)]))
 
 
 def unreadable_asset(file: str, error: SatcheckError) -> Asset:

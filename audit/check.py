@@ -32,6 +32,7 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
 
 if TYPE_CHECKING:
@@ -200,7 +201,7 @@ def _examine_all(
             )
             for (i, j), request in zip(close, requests, strict=True)
         ]
-        for k, checked in queue.each(pairs, Steps(start_climbs, _examine, leaves_work)):
+        for k, checked in queue.each(pairs, _steps()):
             done[k] = checked
             if progress is not None:
                 progress(len(done), len(pairs))
@@ -223,6 +224,28 @@ def _peers(settings: Settings) -> Peers:
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 
 
+def _steps() -> Steps[Climb | None, CheckedPair]:
+    if is_careful():
+        return Steps(lambda pairs, _: lambda: [None] * len(pairs), _examine_carefully, _never)
+    return Steps(start_climbs, _examine, leaves_work)
+
+
+def _never(*_: object) -> bool:
+    return False
+
+
+def _examine_carefully(pair: Pair, _: Climb | None) -> CheckedPair:
+    """One pair after another, and none that has ended the process before."""
+    a, b = pair.a.id, pair.b.id
+    try:
+        with risky_step(f"checking {a!r} and {b!r}"):
+            return _examine(pair, *start_climbs([pair], 1)())
+    except LeftOut as error:
+        reason = f"the process that checked this pair {error.message}"
+        issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
+        return CheckedPair(indeterminate(a, b, reason, Trace()), pair.request, (issue,))
+
+
 def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """One pair. A failure becomes a finding, so that the other pairs are still checked."""
     trace = Trace()
@@ -237,6 +260,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
             finding = _with_certificate(pair, examined)
         return CheckedPair(finding, pair.request, tuple(trace.issues))
     except Exception as error:
+        not_for_lack_of_memory(error)
         import logging
 
         logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
@@ -258,6 +282,7 @@ def _with_certificate(pair: Pair, examined: Examined) -> Finding:
     try:
         certificate = certified(pair, examined)
     except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
+        not_for_lack_of_memory(error)
         certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
     if isinstance(certificate, NoCertificate):
         trace.record("certificate", "none", certificate.reason)

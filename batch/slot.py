@@ -1,19 +1,43 @@
-"""A slot: a process that checks worlds, and is replaced when it dies."""
+"""A slot: a process that checks worlds, and is replaced when it dies.
+
+The worlds of a lost process are checked again, each alone and carefully, so that the step which
+ends the process is known. The next check leaves that step out: the other files and pairs of the
+world have their answers.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
 from satcheck.audit.assets import lost_asset
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.slot_server import Answer, Chunk, answer, answers_in, request_of
+from satcheck.batch.slot_server import (
+    STEP_LINE,
+    Answer,
+    Chunk,
+    answer,
+    answers_in,
+    request_of,
+)
+from satcheck.core.risky_steps import Loss
 from satcheck.core.worker import Worker
-from satcheck.core.worker_errors import WorkerError, WorkerNotStarted
+from satcheck.core.worker_errors import (
+    WorkerCrashed,
+    WorkerError,
+    WorkerNotStarted,
+    WorkerOutOfMemory,
+    WorkerTimeout,
+)
 from satcheck.report.batch import Result
 
 _SERVER = "satcheck.batch.slot_server"
+# Steps of one world that are left out, before the world is given up.
+_MOST_LEFT_OUT = 3
+# A step is to blame for the end at the time limit only if it took more than this share of it.
+_SHARE_OF_TIME = 0.5
 
 
 class Limits(Struct, frozen=True):
@@ -30,7 +54,7 @@ class Slot:
         self._options = options
         self._limits = limits
         self._stopped = False
-        self._worker = Worker(_SERVER, megabytes=limits.megabytes)
+        self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True)
 
     def stop(self) -> None:
         """Ends its process, even during a check; no check may follow."""
@@ -38,33 +62,79 @@ class Slot:
         self._worker.stop()
 
     def check(self, worlds: Sequence[World]) -> Iterator[Answer]:
-        """An answer for each world, in this order. If the process dies, or a limit ends it, each
-        world is checked once more, alone; one that fails again has an answer that says so. Raises
+        """An answer for each world, in this order, unless the slot is stopped. Raises
         WorkerNotStarted."""
         try:
             yield from self._ask(worlds)
+            return
         except WorkerNotStarted:
             raise
         except WorkerError:
+            pass
+        for world in worlds:
             if self._stopped:
                 return
-            for world in worlds:
-                yield self._again(world)
+            yield self._alone(world)
 
-    def _ask(self, worlds: Sequence[World]) -> list[Answer]:
-        request = request_of(Chunk(tuple(worlds), self._options))
+    def _alone(self, world: World) -> Answer:
+        left_out: dict[str, Loss] = {}
+        while True:
+            try:
+                return self._carefully(world, left_out)
+            except WorkerNotStarted:
+                raise
+            except WorkerError as error:
+                loss = _loss(error)
+                step = self._last_step(error)
+            if not step or step in left_out or len(left_out) == _MOST_LEFT_OUT:
+                return _lost(world, loss)
+            left_out[step] = loss
+
+    def _carefully(self, world: World, left_out: Mapping[str, Loss]) -> Answer:
+        """An earlier world may have used up the memory of the process, or damaged it: a fresh one
+        decides."""
+        if self._worker.answered:
+            try:
+                return self._ask([world], left_out)[0]
+            except WorkerNotStarted:
+                raise
+            except WorkerError:
+                pass
+        return self._ask([world], left_out)[0]
+
+    def _ask(
+        self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
+    ) -> list[Answer]:
+        request = request_of(Chunk(tuple(worlds), self._options, left_out))
         return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
 
-    def _again(self, world: World) -> Answer:
-        try:
-            return self._ask([world])[0]
-        except WorkerNotStarted:
-            raise
-        except WorkerError as error:
-            return _lost(world, error)
+    def _last_step(self, error: WorkerError) -> str:
+        """The risky step that was under way; "": none, or it is not to blame."""
+        lines = STEP_LINE.findall(self._worker.last_words)
+        if not lines:
+            return ""
+        began, name = lines[-1]
+        took = time.monotonic() - float(began)
+        if isinstance(error, WorkerTimeout) and took < _SHARE_OF_TIME * self._limits.seconds:
+            return ""
+        return bytes.fromhex(name).decode("utf-8", "surrogateescape")
 
 
-def _lost(world: World, error: WorkerError) -> Answer:
-    asset = lost_asset(world[0], error)
+def _loss(error: WorkerError) -> Loss:
+    """In words that are the same at every repetition."""
+    match error:
+        case WorkerTimeout():
+            how = f"was stopped after {error.seconds:g} s"
+        case WorkerOutOfMemory():
+            how = f"needed more than {error.megabytes} MiB"
+        case WorkerCrashed():
+            how = f"died ({error.signal_name or f'exit code {error.exit_code}'})"
+        case _:
+            how = f"failed: {error.message}"
+    return Loss(error.code, how)
+
+
+def _lost(world: World, loss: Loss) -> Answer:
+    asset = lost_asset(world[0], loss)
     result = Result(files=world, key=None, verdict=asset.verdict, inputs=(), report=asset.report)
     return answer(result)

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import os
+import re
+import time
+from collections.abc import Mapping, Sequence
+from typing import NoReturn
 
 import msgspec
 from msgspec import Struct
@@ -13,15 +17,23 @@ from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.batch.key import digest, inputs_of, key_of, terms_of
 from satcheck.core import keep_freed_memory
+from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import line_without_times
 from satcheck.scene.files_read import files_read, note
 
+# A line on standard error names the risky step that begins, in hexadecimal digits, as the name may
+# hold anything, and says when: in seconds of a clock that all processes share.
+STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
+
 
 class Chunk(Struct, frozen=True):
+    """left_out: None: a plain check. Else a careful one, without these steps."""
+
     worlds: tuple[World, ...]
     options: CheckOptions
+    left_out: Mapping[str, Loss] | None = None
 
 
 class Answer(Struct, frozen=True):
@@ -45,15 +57,32 @@ def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
 
 def serve(request: bytes) -> bytes:
     keep_freed_memory()
+    end_at_memory_error(_end)
     chunk = msgspec.convert(json.loads(request), Chunk)
     # A slot is one thread: the others have the other cores.
     options = replace(chunk.options, settings={**chunk.options.settings, "jobs": 1})
     terms = terms_of(options)
-    answers = (_answer(world, options, terms) for world in chunk.worlds)
+    care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
+    with careful(care):
+        answers = [
+            _answer(world, options, terms, certain=not chunk.left_out) for world in chunk.worlds
+        ]
     return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
 
 
-def _answer(world: World, options: CheckOptions, terms: str) -> Answer:
+def _tell(step: str) -> None:
+    name = step.encode("utf-8", "surrogateescape").hex()
+    os.write(2, f"satcheck step {time.monotonic()} {name}\n".encode())
+
+
+def _end() -> NoReturn:
+    """The parent sees a lack of memory in the last line."""
+    os.write(2, b"MemoryError\n")
+    os._exit(1)
+
+
+def _answer(world: World, options: CheckOptions, terms: str, *, certain: bool) -> Answer:
+    """certain: another check would have the same answer, as it does not depend on limits."""
     with files_read() as files:
         for name in world:
             note(name)
@@ -61,7 +90,7 @@ def _answer(world: World, options: CheckOptions, terms: str) -> Answer:
     inputs = inputs_of(files, digest)
     result = Result(
         files=world,
-        key=key_of(world, terms, inputs) if files.are_certain() else None,
+        key=key_of(world, terms, inputs) if certain and files.are_certain() else None,
         verdict=checked.verdict,
         inputs=inputs,
         report=checked.report,

@@ -9,6 +9,7 @@ library corrupts its memory, only the child dies.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 import time
@@ -33,6 +34,7 @@ from satcheck.core.worker_frames import (
     REQUEST,
     frame_header,
     frame_length,
+    parcel,
     parse_frame,
 )
 
@@ -79,11 +81,15 @@ class Worker:
 
     If the child dies, the next request starts a new one. It runs with one OpenMP thread. Threads
     may share a worker; their requests run one after another. answered: the number of requests that
-    the current child has answered.
+    the current child has answered. last_words: if the last request lost its child, the end of what
+    the child wrote to its standard error. grouped: the child gets a process group (on POSIX), so
+    that its own children die when it does.
     """
 
-    def __init__(self, module: str, *, megabytes: int) -> None:
+    def __init__(self, module: str, *, megabytes: int, grouped: bool = False) -> None:
         self._module = module
+        self._grouped = grouped and os.name == "posix"
+        self.last_words = ""
         self._megabytes = megabytes
         self._child: _Child | None = None
         self.answered = 0
@@ -98,8 +104,9 @@ class Worker:
         """
         with self._turn:
             deadline = time.monotonic() + seconds
+            self.last_words = ""
             if self._child is None:
-                self._child = _Child(self._module, self._megabytes)
+                self._child = _Child(self._module, self._megabytes, self._grouped)
                 self.answered = 0
             try:
                 frame = self._child.answer(request, deadline)
@@ -131,6 +138,7 @@ class Worker:
         self.answered = 0
         if child is not None:
             child.end()
+            self.last_words = bytes(child.stderr_tail).decode("utf-8", "replace")
         return child
 
     def _reply(self, status: bytes, payload: bytes) -> bytes:
@@ -150,8 +158,7 @@ class Worker:
             return WorkerOutOfMemory(self._module, self._megabytes)
         if child.timed_out:
             return WorkerTimeout(self._module, seconds)
-        text = bytes(child.stderr_tail).decode("utf-8", "replace")
-        tail = "\n".join(text.splitlines()[-_STDERR_TAIL_LINES:])
+        tail = "\n".join(self.last_words.splitlines()[-_STDERR_TAIL_LINES:])
         no_memory = child.exit_code == _WINDOWS_NO_MEMORY_EXIT_CODE
         if no_memory or any(sign in tail for sign in MEMORY_SIGNS):
             return WorkerOutOfMemory(self._module, self._megabytes)
@@ -164,7 +171,7 @@ class _Child:
     Raises WorkerNotStarted. exit_code: after end().
     """
 
-    def __init__(self, module: str, megabytes: int) -> None:
+    def __init__(self, module: str, megabytes: int, grouped: bool) -> None:
         import subprocess
 
         self._module = module
@@ -177,9 +184,11 @@ class _Child:
                 stderr=subprocess.PIPE,
                 bufsize=0,
                 env=environment,
+                process_group=0 if grouped else None,
             )
         except OSError as error:
             raise WorkerNotStarted(module, str(error)) from error
+        self._grouped = grouped
         self.timed_out = False
         self.reply_too_large = False
         self.stderr_tail = bytearray()
@@ -202,7 +211,8 @@ class _Child:
         self._answered.clear()
         if self._closed:
             return None
-        self._threads[2:] = [self._start(self._send, request)]
+        work = parcel(request, deadline - time.monotonic())
+        self._threads[2:] = [self._start(self._send, work)]
         while not self._answered.is_set():
             remaining = deadline - time.monotonic()
             if remaining <= 0.0:
@@ -212,17 +222,22 @@ class _Child:
         return None if self.reply_too_large else parse_frame(bytes(self._reply))
 
     def kill(self) -> None:
-        self._process.kill()
+        if not self._grouped:
+            self._process.kill()
+        elif self._process.returncode is None:  # else another group may have its number
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
 
     def end(self) -> None:
-        """Kills the child. A child that is already ending gets time to report the reason."""
+        """Kills the child. A child that is already ending gets time to report the reason. The other
+        processes of a group do not wait for that: the exit code of its first one is settled."""
         import subprocess
 
         with self._process:
-            if self._closed:
+            if self._closed and not self._grouped:
                 with suppress(subprocess.TimeoutExpired):
                     self._process.wait(_REAP_SECONDS)
-            self._process.kill()
+            self.kill()
             self.exit_code = self._process.wait()
             for thread in self._threads:
                 thread.join(_REAP_SECONDS)

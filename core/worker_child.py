@@ -3,7 +3,7 @@
 Standard output is redirected to standard error before the module is imported, so that prints of a
 native library reach neither the replies nor the parent's output. Requests are answered one after
 another. When their pipe closes (the parent is done, or was killed), the child ends itself, even
-during work.
+during work. A timer ends it if native code keeps Python from noticing that.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import os
 import sys
 import threading
 from queue import SimpleQueue
+from typing import NoReturn
 
 from satcheck.core.worker_frames import (
     CHUNK_BYTES,
@@ -23,10 +24,15 @@ from satcheck.core.worker_frames import (
     frame_header,
     frame_length,
     parse_frame,
+    unwrapped,
 )
 
 _BYTES_PER_MEGABYTE = 1 << 20
 _ORPHANED_EXIT_CODE = 3
+# A request may take this much longer than its limit before the child ends itself: if there is a
+# parent, it has ended the child at the limit.
+_GRACE_SECONDS = 5.0
+_LONGEST_SECONDS = 1e8
 
 
 def main(module: str, megabytes: int) -> None:
@@ -35,16 +41,29 @@ def main(module: str, megabytes: int) -> None:
 
     # The terminal sends Ctrl-C to the child too; native code would not see a KeyboardInterrupt.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if sys.platform != "win32":
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
     reply_fd = os.dup(1)
     os.dup2(2, 1)
     _limit_resources(megabytes)
     requests: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
     while True:
-        status, payload = _serve(module, requests.get())
+        request, seconds = unwrapped(requests.get())
+        _end_after(seconds + _GRACE_SECONDS)
+        status, payload = _serve(module, request)
+        _end_after(0.0)
         frame = memoryview(frame_header(status, payload) + payload)
         while frame:
             frame = frame[os.write(reply_fd, frame) :]
+
+
+def _end_after(seconds: float) -> None:
+    """0: never."""
+    if sys.platform != "win32":
+        import signal
+
+        signal.setitimer(signal.ITIMER_REAL, min(seconds, _LONGEST_SECONDS))
 
 
 def _serve(module: str, request: bytes) -> tuple[bytes, bytes]:
@@ -74,7 +93,7 @@ def _read_requests(requests: SimpleQueue[bytes]) -> None:
         assert length is not None
         frame = parse_frame(header + _read_exactly(length - HEADER.size))
         if frame is None:
-            os._exit(_ORPHANED_EXIT_CODE)
+            _end_as_orphan()
         requests.put(frame[1])
 
 
@@ -83,9 +102,18 @@ def _read_exactly(length: int) -> bytes:
     while len(data) < length:
         chunk = os.read(0, min(length - len(data), CHUNK_BYTES))
         if not chunk:
-            os._exit(_ORPHANED_EXIT_CODE)
+            _end_as_orphan()
         data += chunk
     return bytes(data)
+
+
+def _end_as_orphan() -> NoReturn:
+    """The first process of a group takes the others with it, as its parent would have done."""
+    if sys.platform != "win32" and os.getpgrp() == os.getpid():
+        import signal
+
+        os.killpg(0, signal.SIGKILL)
+    os._exit(_ORPHANED_EXIT_CODE)
 
 
 def _limit_resources(megabytes: int) -> None:

@@ -9,6 +9,7 @@ import struct
 import zlib
 
 HEADER = struct.Struct("<8scQI")  # magic, status, payload length in bytes, CRC-32 of the payload
+_SECONDS = struct.Struct("<d")
 _MAGIC = b"SATWRK01"
 REQUEST = b"Q"
 REPLY = b"R"
@@ -23,6 +24,15 @@ MEMORY_SIGNS = (
     "out of memory",
     "failed to map segment",  # a shared library that did not fit
 )
+
+
+def parcel(request: bytes, seconds: float) -> bytes:
+    """The payload of a request that has this much time."""
+    return _SECONDS.pack(seconds) + request
+
+
+def unwrapped(payload: bytes) -> tuple[bytes, float]:
+    return payload[_SECONDS.size :], _SECONDS.unpack_from(payload)[0]
 
 
 def frame_header(status: bytes, payload: bytes) -> bytes:

@@ -32,6 +32,10 @@ _ALL = (
     Code("reader-timeout", "error", "Reading the file took longer than the time limit."),
     Code("reader-out-of-memory", "error", "Reading the file took more memory than the limit."),
     Code("reader-failed", "error", "The reader of this format failed on the file."),
+    # Of `satcheck batch`: the other files and pairs of the scene are checked.
+    Code("worker-crashed", "warning", "The process that worked on it died, time and again."),
+    Code("worker-timeout", "warning", "Work on it took longer than the time limit of a scene."),
+    Code("worker-out-of-memory", "warning", "Work on it took more memory than the limit."),
     # Its records.
     Code("truncated", "error", "The file ends before its declared end."),
     Code("trailing-data", "error", "The file continues after its declared end."),

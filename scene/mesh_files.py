@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import is_drawing
@@ -58,7 +60,8 @@ class MeshFiles:
         key = self._absolute(location)
         if key not in self._wholes:
             try:
-                self._wholes[key] = self._load_whole(path, location)
+                with _reading(path):
+                    self._wholes[key] = self._load_whole(path, location)
             except MeshFileError as error:
                 self._wholes[key] = error
         return self._wholes[key]
@@ -74,7 +77,7 @@ class MeshFiles:
             for path, location in given
             if FORMATS.get(location.suffix.lower()) in NATIVE_FORMATS and _is_large(location)
         }
-        if len(waiting) < 2:
+        if len(waiting) < 2 or is_careful():
             return
         from threading import Thread
 
@@ -109,7 +112,8 @@ class MeshFiles:
         key = self._absolute(location), components
         if key not in self._nodes:
             try:
-                loaded = self._load_nodes(path, location, components)
+                with _reading(path):
+                    loaded = self._load_nodes(path, location, components)
                 self._nodes[key] = loaded
                 self._by_path[key] = {node.path: node for node in loaded.nodes}
             except MeshFileError as error:
@@ -146,6 +150,17 @@ class MeshFiles:
                 loaded = error
             self._shapes[key] = loaded
         return loaded
+
+
+@contextmanager
+def _reading(path: str) -> Iterator[None]:
+    """Raises MeshFileError if reading this file has ended the process before."""
+    try:
+        with risky_step(f"reading {path}"):
+            yield
+    except LeftOut as error:
+        reason = f"the process that read it {error.message}"
+        raise MeshFileError(error.code, reason, file=path) from None
 
 
 def _is_large(location: Path) -> bool:

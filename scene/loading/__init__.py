@@ -12,6 +12,7 @@ from typing import TypeVar
 from msgspec import Struct
 
 from satcheck.core import Mesh
+from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import Examined, examine, examine_bytes
@@ -184,6 +185,7 @@ def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
 
 
 def _refusal(source: Source, error: Exception) -> MeshFileError:
+    not_for_lack_of_memory(error)
     if isinstance(error, MemoryError):
         return MeshFileError("reader-out-of-memory", "out of memory", file=source.path)
     code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"

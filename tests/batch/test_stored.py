@@ -11,13 +11,14 @@ from satcheck.audit.assets import lost_asset
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.stored import Stored, StoredResults
 from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import Loss
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import line_without_times
 
 
 def line(*files: str, key: str | None = "0", reason: str = "lost") -> bytes:
-    report = lost_asset(files[0], SatcheckError("worker-died", reason)).report
+    report = lost_asset(files[0], Loss("worker-died", reason)).report
     made = None if key is None else key * 64
     result = Result(files=files, key=made, verdict="incomplete", inputs=(), report=report)
     return line_without_times(result)

@@ -28,8 +28,8 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[worker._Child]:
     children: list[worker._Child] = []
 
     class Recorded(worker._Child):
-        def __init__(self, module: str, megabytes: int) -> None:
-            super().__init__(module, megabytes)
+        def __init__(self, module: str, megabytes: int, grouped: bool) -> None:
+            super().__init__(module, megabytes, grouped)
             children.append(self)
 
     monkeypatch.setattr(worker, "_Child", Recorded)
