@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 
 from msgspec import Struct
 
 from satcheck.batch.check_options import World
+
+_FORM = re.compile(r"(\d{1,9})/(\d{1,9})")
 
 
 class Shard(Struct, frozen=True):
@@ -21,7 +24,12 @@ class Shard(Struct, frozen=True):
         return _hash(world) % self.count == self.number - 1
 
 
-ALL = Shard(1, 1)
+def parse_shard(text: str) -> Shard:
+    """`I/N`. Raises ValueError."""
+    given = _FORM.fullmatch(text)
+    if given is None or not 1 <= int(given[1]) <= int(given[2]):
+        raise ValueError(f"{text} is not I/N, with I from 1 to N")
+    return Shard(int(given[1]), int(given[2]))
 
 
 def _hash(world: World) -> int:

@@ -48,13 +48,14 @@ class Limits(Struct, frozen=True):
 
 
 class Slot:
-    """Checks one chunk of worlds after another. Stop it after use."""
+    """Checks one chunk of worlds after another. Stop it after use. folder: to which the names of
+    files are relative; None: the working directory."""
 
-    def __init__(self, options: CheckOptions, limits: Limits) -> None:
+    def __init__(self, options: CheckOptions, limits: Limits, folder: str | None = None) -> None:
         self._options = options
         self._limits = limits
         self._stopped = False
-        self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True)
+        self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True, folder=folder)
 
     def stop(self) -> None:
         """Ends its process, even during a check; no check may follow."""
@@ -87,7 +88,7 @@ class Slot:
                 loss = _loss(error)
                 step = self._last_step(error)
             if not step or step in left_out or len(left_out) == _MOST_LEFT_OUT:
-                return _lost(world, loss)
+                return lost(world, loss)
             left_out[step] = loss
 
     def _carefully(self, world: World, left_out: Mapping[str, Loss]) -> Answer:
@@ -134,7 +135,8 @@ def _loss(error: WorkerError) -> Loss:
     return Loss(error.code, how)
 
 
-def _lost(world: World, loss: Loss) -> Answer:
+def lost(world: World, loss: Loss) -> Answer:
+    """The answer for a world that nobody could check."""
     asset = lost_asset(world[0], loss)
     result = Result(files=world, key=None, verdict=asset.verdict, inputs=(), report=asset.report)
     return answer(result)

@@ -23,7 +23,7 @@ SECTIONS = {
     "color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
     "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
-    "scene_seconds scene_megabytes jobs cache",
+    "scene_seconds scene_megabytes engine scheduler jobs cache",
 }
 
 

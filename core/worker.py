@@ -76,6 +76,7 @@ class Worker:
         not on the child's path.
     megabytes: limit of the child's address space in MiB. Systems that refuse such a limit (macOS,
         Windows) still have the time limit. A reply larger than this is refused everywhere.
+    folder: the working directory of the child; None: that of this process.
 
     The first request starts the child.
 
@@ -86,11 +87,14 @@ class Worker:
     that its own children die when it does.
     """
 
-    def __init__(self, module: str, *, megabytes: int, grouped: bool = False) -> None:
+    def __init__(
+        self, module: str, *, megabytes: int, grouped: bool = False, folder: str | None = None
+    ) -> None:
         self._module = module
         self._grouped = grouped and os.name == "posix"
         self.last_words = ""
         self._megabytes = megabytes
+        self._folder = folder
         self._child: _Child | None = None
         self.answered = 0
         self._turn = threading.Lock()
@@ -106,7 +110,7 @@ class Worker:
             deadline = time.monotonic() + seconds
             self.last_words = ""
             if self._child is None:
-                self._child = _Child(self._module, self._megabytes, self._grouped)
+                self._child = _Child(self._module, self._megabytes, self._grouped, self._folder)
                 self.answered = 0
             try:
                 frame = self._child.answer(request, deadline)
@@ -171,7 +175,7 @@ class _Child:
     Raises WorkerNotStarted. exit_code: after end().
     """
 
-    def __init__(self, module: str, megabytes: int, grouped: bool) -> None:
+    def __init__(self, module: str, megabytes: int, grouped: bool, folder: str | None) -> None:
         import subprocess
 
         self._module = module
@@ -185,6 +189,7 @@ class _Child:
                 bufsize=0,
                 env=environment,
                 process_group=0 if grouped else None,
+                cwd=folder,
             )
         except OSError as error:
             raise WorkerNotStarted(module, str(error)) from error

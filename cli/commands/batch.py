@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -16,8 +16,9 @@ from satcheck.batch.local import check_locally
 from satcheck.batch.manifest import read_manifest
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import Tally, run
-from satcheck.batch.shard import ALL, Shard
+from satcheck.batch.shard import Shard, parse_shard
 from satcheck.batch.slot import Limits
+from satcheck.batch.slot_server import Answer
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.commands.check import command as check_command
@@ -26,7 +27,6 @@ from satcheck.cli.options import HELP_NAMES, Command, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted
-from satcheck.cli.shard_option import ShardType
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
 
@@ -75,10 +75,22 @@ _LIMITS = Limits()
 )
 @click.option(
     "--shard",
-    type=ShardType(),
+    type=parse_shard,
     metavar="I/N",
-    default=ALL,
+    default="1/1",
     help="Only part I of N of the scenes. The names of its files decide in which part a scene is.",
+)
+@click.option(
+    "--engine",
+    type=click.Choice(("local", "dask")),
+    default="local",
+    show_default=True,
+    help="Check on this machine, or on a Dask cluster.",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
 @click.option(
     "--scene-seconds",
@@ -102,6 +114,8 @@ def command(
     output: Path,
     resume: bool,
     shard: Shard,
+    engine: str,
+    scheduler: str | None,
     scene_seconds: float,
     scene_megabytes: int,
     exit_zero: bool,
@@ -123,8 +137,7 @@ def command(
         refuse_early(Inputs(paths=tuple(name for world in worlds for name in world)), output)
     terms = check_options(inputs, options, places=True)
     limits = Limits(scene_seconds, scene_megabytes)
-    slots = options["jobs"] or os.cpu_count() or 1
-    engine = partial(check_locally, options=terms, limits=limits, slots=slots)
+    check = _engine(engine, scheduler, options["jobs"])
     with ResultsFile(output) as results, Bar("scenes") as bar:
         if not resume and (existing := results.existing()) is not None:
             reason = "has results: --resume keeps those that still hold; or remove the file"
@@ -134,7 +147,7 @@ def command(
             if bar is not None:
                 bar(tally.done, tally.total)
 
-        tally = run(worlds, terms, engine, results, progress)
+        tally = run(worlds, terms, partial(check, options=terms, limits=limits), results, progress)
     talk(_summary(tally, output))
     return _exit_code(tally, exit_zero)
 
@@ -151,6 +164,18 @@ def _worlds(
     if first is None:
         raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
     return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
+
+
+def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Iterator[list[Answer]]]:
+    if (name == "dask") != (scheduler is not None):
+        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
+    if scheduler is None:
+        return partial(check_locally, slots=jobs or os.cpu_count() or 1)
+    try:
+        from satcheck.batch.dask_engine import check_with_dask
+    except ImportError:
+        raise click.UsageError("--engine dask needs Dask: pip install 'satcheck[dask]'") from None
+    return partial(check_with_dask, scheduler=scheduler)
 
 
 def _summary(tally: Tally, output: Path) -> str:
