@@ -229,8 +229,16 @@ def _read(line: _Line) -> Stored:
     name = ", ".join(line.name.files)
     try:
         result = read_line(line.text, Result)
+        _require_bodies(result)
     except msgspec.MsgspecError as error:
         reason = f"{line.path}: no result of this version of satcheck: {error}"
         asset = unreadable_asset(name, SatcheckError(BAD_RESULT, reason, file=name))
         return Stored(line.name.files, (), asset)
     return Stored(result.files, result.inputs, Asset(name, result.verdict, result.report))
+
+
+def _require_bodies(result: Result) -> None:
+    known = {body.id for body in result.report.bodies}
+    for finding in result.report.findings:
+        if not {finding.a, finding.b} <= known:
+            raise msgspec.ValidationError(f"no body is {finding.a}, or {finding.b}")

@@ -15,12 +15,12 @@ _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
     "What to check": "bodies pairs manifest shard changed_since split merge planar units "
-    "allow_open package packages pose state sample seed allow_outside",
+    "allow_open package packages pose state sample seed root allow_outside",
     "What to compute": "depth contacts components volume tolerances never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
     "exit_zero pins",
-    "Output": "output parts_out resume form png glb scene_out plot dark top explain timings quiet "
-    "color",
+    "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
+    "quiet color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
     "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
     "scene_seconds scene_megabytes engine scheduler jobs cache",

@@ -251,6 +251,13 @@ top_option = click.option(
 exit_zero_option = click.option(
     "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail."
 )
+root_option = click.option(
+    "--root",
+    type=click.Path(file_okay=False, exists=True, path_type=Path),
+    default=Path(),
+    help="The folder where the check ran: paths in the report start there.  "
+    "[default: the current one]",
+)
 outside_option = click.option(
     "--allow-outside",
     is_flag=True,

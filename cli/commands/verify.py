@@ -20,6 +20,7 @@ from satcheck.cli.options import (
     form_option,
     output_option,
     outside_option,
+    root_option,
 )
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.cli.progress import Bar
@@ -47,13 +48,7 @@ _CALLED: dict[Outcome, str] = {
 
 @click.command("verify", cls=Command, context_settings=HELP_NAMES)
 @click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
-@click.option(
-    "--root",
-    type=click.Path(file_okay=False, exists=True, path_type=Path),
-    default=Path(),
-    help="The folder where the check ran: paths in the report start there.  "
-    "[default: the current one]",
-)
+@root_option
 @form_option
 @output_option
 @outside_option

@@ -26,6 +26,7 @@ from satcheck.cli.options import (
     output_option,
     outside_option,
     picture_options,
+    root_option,
 )
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
@@ -46,13 +47,7 @@ from satcheck.report.report import Report
     metavar="FILE",
     help="Which asset, of a report of satcheck each that has several.",
 )
-@click.option(
-    "--root",
-    type=click.Path(file_okay=False, exists=True, path_type=Path),
-    default=Path(),
-    help="The folder where the check ran: paths in the report start there.  "
-    "[default: the current one]",
-)
+@root_option
 @click.option(
     "--parts",
     is_flag=True,

@@ -77,7 +77,12 @@ def _by_rules(seen: Overview) -> list[str]:
 
 
 def _next_step(seen: Overview) -> list[str]:
-    return [f"Next: {_check_of(file)} lists its pairs." for file in seen.named.get("fail", [])][:1]
+    failing = seen.named.get("fail", [])[:1]
+    ctx = click.get_current_context(silent=True)
+    if ctx is None or ctx.info_name != "report":
+        return [f"Next: {_check_of(file)} lists its pairs." for file in failing]
+    is_written = ctx.params.get("output") is not None
+    return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
 
 
 def _check_of(file: str) -> str:
@@ -108,16 +113,19 @@ def _table(assets: list[Asset], *, unicode: bool) -> Table:
             no_wrap=name not in ("asset", "worst"),
         )
     for asset in assets:
-        report, listed = asset.report, _listed(asset)
-        more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
-        table.add_row(
-            Text(asset.file),
-            Text(asset.verdict, style=_COLOURS[asset.verdict]),
-            f"{len(report.bodies):,}",
-            f"{report.summary.pairs.total:,}",
-            Text(f"{listed[0].message}{more}" if listed else ""),
-        )
+        file, verdict, *others = cells_of(asset)
+        styled = Text(verdict, style=_COLOURS[asset.verdict])
+        table.add_row(Text(file), styled, *map(Text, others))
     return table
+
+
+def cells_of(asset: Asset) -> tuple[str, ...]:
+    """The asset, its verdict, bodies and pairs, and its worst problem."""
+    report, listed = asset.report, _listed(asset)
+    more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
+    worst = f"{listed[0].message}{more}" if listed else ""
+    pairs = f"{report.summary.pairs.total:,}"
+    return (asset.file, asset.verdict, f"{len(report.bodies):,}", pairs, worst)
 
 
 def _listed(asset: Asset) -> list[Problem]:

@@ -24,6 +24,11 @@ def severity(finding: Finding) -> Severity:
     return "note" if finding.baseline_state == "unchanged" else finding.severity
 
 
+def is_listed(finding: Finding) -> bool:
+    """Whether there is something to see."""
+    return finding.severity != "none" or finding.undecided is not None
+
+
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:
     """By severity, then the thicker overlap, then the deeper one."""
     return sorted(findings, key=rank)

@@ -15,6 +15,7 @@ from satcheck.core.risky_steps import Loss
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import line_without_times
+from tests.cli.reports import PENETRATING, report
 
 
 def line(*files: str, key: str | None = "0", reason: str = "lost") -> bytes:
@@ -121,6 +122,15 @@ def test_lines_that_are_no_results_are_errors(tmp_path: Path) -> None:
     assert [each.asset.verdict for each in listed] == ["incomplete", "error", "incomplete"]
     assert "no result of this version" in reason(listed[1])
     assert (issues, least) == (["bad-result"] * 2, "error")
+
+
+def test_a_finding_about_no_body_is_an_error(tmp_path: Path) -> None:
+    result = Result(
+        files=("a",), key=None, verdict="fail", inputs=(), report=report(PENETRATING, bodies=())
+    )
+    (stored,), _, _ = read(write(tmp_path / "1", line_without_times(result)))
+    assert stored.asset.verdict == "error"
+    assert "no body is block" in reason(stored)
 
 
 def test_only_some_bad_lines_are_named(tmp_path: Path) -> None:

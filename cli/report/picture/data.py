@@ -9,7 +9,7 @@ from msgspec import to_builtins
 
 from satcheck.cli.report.ci.problems import measured, sentence
 from satcheck.cli.report.components import facts
-from satcheck.cli.report.order import severity, worst_first
+from satcheck.cli.report.order import is_listed, severity, worst_first
 from satcheck.cli.report.picture.geometry import geometry
 from satcheck.cli.report.picture.packing import packed_points
 from satcheck.cli.report.verdict import summary_line
@@ -59,8 +59,7 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
 
 def listed(report: Report) -> list[Finding]:
     """Findings with something to see, the worst first."""
-    shown = (f for f in report.findings if f.severity != "none" or f.undecided is not None)
-    return worst_first(shown)
+    return worst_first(filter(is_listed, report.findings))
 
 
 def drawn_finding(report: Report, scene: Scene) -> Finding | None:

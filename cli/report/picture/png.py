@@ -47,24 +47,27 @@ LINE = 1.0  # half the width of a line in pixels
 
 
 class _View(NamedTuple):
-    """rows: right, up, and towards the eye. scale: pixels of a unit of length."""
+    """rows: right, up, and towards the eye. scale: pixels of a unit of length. middle: of the
+    image, in pixels."""
 
     rows: Floats
     target: Floats
     scale: float
+    middle: tuple[float, float]
 
     def seen(self, points: Floats) -> Floats:
         """(..., 3): right and down in pixels, away from the eye."""
         placed = (points - self.target) @ self.rows.T * self.scale
-        return placed * [1.0, -1.0, -1.0] + [SIZE[0] / 2, SIZE[1] / 2, 0.0]
+        return placed * [1.0, -1.0, -1.0] + [*self.middle, 0.0]
 
 
-def render(report: Report, scene: Scene) -> bytes:
+def render(report: Report, scene: Scene, size: tuple[int, int] = SIZE) -> bytes:
+    """size: width and height in pixels."""
     require_drawable(scene)
     bodies = {body.id: body for body in scene.bodies}
     finding = drawn_finding(report, scene)
     pair = [bodies[finding.a], bodies[finding.b]] if finding else list(bodies.values())
-    view = _view(pair, bool(finding), up_of(scene))
+    view = _view(pair, bool(finding), up_of(scene), size)
     corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
     for mesh, kind in _meshes(scene, finding, pair):
         faces = view.seen(np.asarray(mesh.vertices))[np.asarray(mesh.triangles)]
@@ -78,7 +81,7 @@ def render(report: Report, scene: Scene) -> bytes:
     kinds = list(KINDS)
     if len(bodies) > CROWD:
         kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
-    return image_file(drawn(triangles, kinds, OVERLAP, SIZE, WHITE))
+    return image_file(drawn(triangles, kinds, OVERLAP, size, WHITE))
 
 
 def image_file(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -95,7 +98,7 @@ def image_file(pixels: npt.NDArray[np.uint8]) -> bytes:
     )
 
 
-def _view(bodies: list[Body], is_pair: bool, up: str) -> _View:
+def _view(bodies: list[Body], is_pair: bool, up: str, size: tuple[int, int]) -> _View:
     """Fits the bodies into the image."""
     towards = np.array([np.cos(PITCH) * np.cos(YAW), np.cos(PITCH) * np.sin(YAW), np.sin(PITCH)])
     right = np.array([-np.sin(YAW), np.cos(YAW), 0.0])
@@ -103,8 +106,9 @@ def _view(bodies: list[Body], is_pair: bool, up: str) -> _View:
     rows = np.roll(rows, -1, axis=1) if up == "y" else rows
     seen = _to_be_seen(bodies, is_pair) @ rows.T
     low, high = seen.min(axis=0), seen.max(axis=0)
-    largest = max((high - low)[:2] / SIZE) or 1.0
-    return _View(rows, (low + high) / 2 @ rows, 1.0 / (MARGIN * largest))
+    largest = max((high - low)[:2] / size) or 1.0
+    middle = (size[0] / 2, size[1] / 2)
+    return _View(rows, (low + high) / 2 @ rows, 1.0 / (MARGIN * largest), middle)
 
 
 def _to_be_seen(bodies: list[Body], is_pair: bool) -> Floats:

@@ -1,0 +1,134 @@
+"""The worst findings of a batch, with their pictures."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import NamedTuple
+
+from msgspec.structs import replace
+
+from satcheck.batch.key import digest
+from satcheck.batch.stored import Stored
+from satcheck.cli.output import cannot_write, talk, write_file
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.order import is_listed, rank, worst_of
+from satcheck.cli.stated_scene import stated_scene
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import Asset
+from satcheck.report.report import Finding, Report
+
+# A larger scene is drawn without its other bodies.
+MOST_BODIES = 100
+# A picture, PNG, or why there is none.
+Picture = bytes | str
+SIZE = (600, 450)
+_DIGESTS = 10_000
+_UNSAFE = re.compile(r"[^A-Za-z0-9]+")
+_LONGEST_NAME = 80
+
+
+class Worst(NamedTuple):
+    finding: Finding
+    stored: Stored
+
+
+class Illustrated(NamedTuple):
+    asset: Asset
+    finding: Finding
+    picture: Picture
+
+
+def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
+    """At most `top`, the worst first. Holds the reports of as many."""
+    findings = (
+        Worst(finding, stored)
+        for stored in results
+        for finding in stored.asset.report.findings
+        if is_listed(finding)
+    )
+    return worst_of(findings, top, lambda each: rank(each.finding))
+
+
+def with_pictures(
+    worst: Sequence[Worst], folder: Path | None, root: Path, *, allow_outside: bool
+) -> Iterator[Illustrated]:
+    """Each is drawn when it is taken, and written into the folder. root: where the paths in the
+    results start."""
+    now = lru_cache(_DIGESTS)(digest)
+    if folder is not None:
+        _make(folder)
+    with Bar("pictures", "drawing") as bar:
+        for number, each in enumerate(worst, 1):
+            picture = _picture(each, root, now, allow_outside=allow_outside)
+            if folder is not None:
+                _write(folder / file_name(number, each), each, picture)
+            yield Illustrated(each.stored.asset, each.finding, picture)
+            if bar is not None:
+                bar(number, len(worst))
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(str(folder), error.strerror) from None
+
+
+def _write(path: Path, worst: Worst, picture: Picture) -> None:
+    if isinstance(picture, bytes):
+        write_file(path, picture)
+        return
+    pair = f"{worst.finding.a} and {worst.finding.b}"
+    talk(f"satcheck: {worst.stored.asset.file}: no picture of {pair}: {picture}")
+
+
+def file_name(number: int, worst: Worst) -> str:
+    """`001-scene-box-lid.png`: letters, digits and `-` alone, whatever the names are."""
+    scene = Path(worst.stored.files[0]).stem
+    words = _UNSAFE.sub("-", f"{scene} {worst.finding.a} {worst.finding.b}").strip("-")
+    return f"{number:03}-{words[:_LONGEST_NAME].strip('-')}.png"
+
+
+def _picture(
+    worst: Worst, root: Path, now: Callable[[str], str | None], *, allow_outside: bool
+) -> Picture:
+    changed = _changed(worst.stored, root, now)
+    if changed is not None:
+        return changed
+    try:
+        return _drawn(worst, root, allow_outside=allow_outside)
+    except SatcheckError as error:
+        return str(error)
+
+
+def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> str | None:
+    """Why the files are not those of the check."""
+    for file in stored.inputs:
+        found = now(os.path.join(root, file.path))  # noqa: PTH118  keeps a `/` at the end
+        if found != file.sha256:
+            return f"{file.path} {'is not there' if found is None else 'has changed'}"
+    return None
+
+
+def _drawn(worst: Worst, root: Path, *, allow_outside: bool) -> Picture:
+    from satcheck.cli.report.picture.png import render
+
+    report = _of_finding(worst)
+    scene, issues = stated_scene(report, root, allow_outside=allow_outside)
+    if issues:
+        return issues[0].message
+    if len(scene.bodies) < len(report.bodies):
+        return "a body could not be read, or its mesh has no SHA-256"
+    return render(report, scene, SIZE)
+
+
+def _of_finding(worst: Worst) -> Report:
+    report, finding = worst.stored.asset.report, worst.finding
+    bodies = report.bodies
+    if len(bodies) > MOST_BODIES:
+        bodies = tuple(body for body in bodies if body.id in (finding.a, finding.b))
+    return replace(report, findings=(finding,), bodies=bodies)
