@@ -9,6 +9,7 @@ from msgspec import Struct
 from satcheck.audit import Settings
 from satcheck.audit.request.in_units import settings_in_units
 from satcheck.core.errors import SatcheckError
+from satcheck.report.config import StatedConfig
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.scene_builder import Split
@@ -22,7 +23,8 @@ SettingValue = bool | int | float | str | Length | None
 class CheckOptions(Struct, frozen=True, kw_only=True):
     """split, packages, allow_outside, units, rules, seconds_per_file, megabytes_per_file: as in
     `load_scene`. settings: values of `audit.Settings` by name, lengths as given. names: what
-    messages call these lengths. places: state where scene files name the bodies of findings."""
+    messages call these lengths. places: state where scene files name the bodies of findings.
+    baseline: a file of known findings. config: what a report states of a config file."""
 
     split: Split | None = None
     packages: Mapping[str, str] | None = None
@@ -34,6 +36,8 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
     settings: Mapping[str, SettingValue] = {}
     names: Mapping[str, str] = {}
     places: bool = True
+    baseline: str | None = None
+    config: StatedConfig | None = None
 
     def load(self, world: World, *, hashed: bool = True) -> Scene:
         """Raises what `load_scene` raises."""

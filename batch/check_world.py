@@ -5,24 +5,39 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
+from msgspec.structs import replace
+
 from satcheck.audit.assets import check_asset
+from satcheck.audit.baseline import beside_baseline
+from satcheck.audit.baseline_file import asset_key, current_baseline
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.core.errors import SatcheckError
 from satcheck.core.steps import step
-from satcheck.report.assets import Asset
+from satcheck.report.assets import Asset, asset
+from satcheck.report.report import Report
 from satcheck.scene import Scene
 from satcheck.scene.path_kind import exists, is_folder
 
 
 def check_world(world: World, options: CheckOptions, *, hashed: bool = True) -> Asset:
-    """Every error becomes part of the report. hashed: state the SHA-256 of the mesh files."""
+    """Every error of the world becomes part of the report. hashed: state the SHA-256 of the mesh
+    files. Raises SatcheckError if the baseline cannot be read."""
     with step(f"checking {world[0]}"):
-        return check_asset(
+        checked = check_asset(
             world[0],
             partial(_load, world, options, hashed),
             options.settings_for,
             places=options.places,
         )
+    report = checked.report
+    if options.baseline is not None:
+        report = _beside(report, world[0], Path(options.baseline))
+    return asset(world[0], replace(report, config=options.config))
+
+
+def _beside(report: Report, file: str, baseline: Path) -> Report:
+    known = current_baseline(baseline)
+    return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
 
 
 def _load(world: World, options: CheckOptions, hashed: bool) -> Scene:

@@ -13,6 +13,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.audit.assets import without_unused_rules
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.batch.key import digest, inputs_of, key_of, terms_of
@@ -86,7 +87,7 @@ def _answer(world: World, options: CheckOptions, terms: str, *, certain: bool) -
     with files_read() as files:
         for name in world:
             note(name)
-        checked = check_world(world, options)
+        checked = without_unused_rules(check_world(world, options), options.rules)
     inputs = inputs_of(files, digest)
     result = Result(
         files=world,

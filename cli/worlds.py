@@ -6,14 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from msgspec.structs import replace
-
 from satcheck.audit.assets import unused_rules, without_unused_rules
-from satcheck.audit.baseline import beside_baseline
+from satcheck.audit.baseline_file import read_baseline
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.cli import exit_codes
-from satcheck.cli.baseline_file import asset_key, read_baseline
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.options import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
@@ -23,8 +20,7 @@ from satcheck.cli.report.ci import pieces as pieces_for_ci
 from satcheck.cli.report.overview import Overview, overview
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
-from satcheck.report.assets import Asset, asset
-from satcheck.report.baseline import Baseline
+from satcheck.report.assets import Asset
 from satcheck.report.config import StatedConfig
 from satcheck.report.json import render_assets
 from satcheck.scene.loader import read_rules
@@ -55,28 +51,32 @@ def check_worlds(
     `audit.Settings`. config: the options that come from a config file. complete: these are all
     worlds; a rule that none of them needs is unused.
     """
-    known = None if baseline is None else read_baseline(baseline)
-    for path in inputs.rules:
-        read_rules(str(path))  # what is wrong there is no fault of an asset
+    terms = check_options(inputs, options, baseline, config, places=delivery.form != "table")
     document = Document()
-    assets = _check(
-        worlds, check_options(inputs, options, places=delivery.form != "table"), delivery.form
-    )
-    if known is not None and baseline is not None:
-        assets = [_beside(each, known, baseline) for each in assets]
+    assets = _check(worlds, terms, delivery.form)
     shared = frozenset(map(str, inputs.rules))
     unused = unused_rules(assets, shared) if complete else ()
     assets = [without_unused_rules(each, shared) for each in assets]
-    if config is not None:
-        assets = [replace(each, report=replace(each.report, config=config)) for each in assets]
     seen = overview(assets, unused, top=delivery.top)
     _deliver(document, seen, assets, delivery, timings=options["timings"])
     _tell(seen, assets, None if delivery.quiet else delivery.output)
     return exit_codes.for_assets(seen.verdict, exit_zero=delivery.exit_zero)
 
 
-def check_options(inputs: Inputs, options: Mapping[str, Any], *, places: bool) -> CheckOptions:
-    """options: those of `audit.Settings`. places: as in CheckOptions."""
+def check_options(
+    inputs: Inputs,
+    options: Mapping[str, Any],
+    baseline: Path | None,
+    config: StatedConfig | None,
+    *,
+    places: bool = True,
+) -> CheckOptions:
+    """options: those of `audit.Settings`. The others: as in CheckOptions. Raises SatcheckError for
+    files that all worlds share: what is wrong there is no fault of one of them."""
+    if baseline is not None:
+        read_baseline(baseline)
+    for path in inputs.rules:
+        read_rules(str(path))
     packages = {name: str(folder) for name, folder in (inputs.packages or {}).items()}
     return CheckOptions(
         split=inputs.split,
@@ -89,6 +89,8 @@ def check_options(inputs: Inputs, options: Mapping[str, Any], *, places: bool) -
         megabytes_per_file=inputs.megabytes_per_file,
         names=names_of_lengths(options),
         places=places,
+        baseline=None if baseline is None else str(baseline),
+        config=config,
     )
 
 
@@ -101,11 +103,6 @@ def _check(worlds: Sequence[World], options: CheckOptions, form: str) -> list[As
             if bar is not None:
                 bar(number + 1, len(worlds))
     return assets
-
-
-def _beside(each: Asset, known: Baseline, path: Path) -> Asset:
-    report = beside_baseline(each.report, known, str(path), (asset_key(each.file, path),))
-    return asset(each.file, report)
 
 
 def _deliver(

@@ -9,7 +9,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
-from satcheck.cli.baseline_file import asset_key, read_baseline
+from satcheck.audit.baseline_file import asset_key, read_baseline
 from satcheck.cli.options import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.report.words import counted

@@ -22,6 +22,7 @@ from satcheck.batch.slot_server import Answer
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.commands.check import command as check_command
+from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import HELP_NAMES, Command, options_of, paths_argument
 from satcheck.cli.output import talk
@@ -34,7 +35,6 @@ from satcheck.core.errors import SatcheckError
 _NOT_HERE = (
     "form",
     "output",
-    "baseline",
     "png",
     "glb",
     "top",
@@ -119,14 +119,16 @@ def command(
     scene_seconds: float,
     scene_megabytes: int,
     exit_zero: bool,
+    baseline: Path | None,
     **options: Any,
 ) -> int:
     """Check thousands of scenes: none stops the others.
 
     A scene is a scene file, a robot or a mesh file; a folder stands for all of them in it, and -
     reads their names from standard input. A process that crashes, hangs or needs too much memory is
-    replaced; its scene is tried once more and then reported as incomplete. Each result is on the
-    disk as soon as it is known, in FILE.part; FILE itself appears when all results are there.
+    replaced; its scene is checked again without the file or the pair that did it, which is
+    reported. Each result is on the disk as soon as it is known, in FILE.part; FILE itself appears
+    when all results are there.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.
@@ -134,8 +136,10 @@ def command(
     inputs = Inputs.taken_from(options)
     worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
     if worlds:
-        refuse_early(Inputs(paths=tuple(name for world in worlds for name in world)), output)
-    terms = check_options(inputs, options, places=True)
+        files = tuple(name for world in worlds for name in world)
+        refuse_early(Inputs(paths=files, rules=inputs.rules), output, baseline)
+    config = stated_config(click.get_current_context())
+    terms = check_options(inputs, options, baseline, config)
     limits = Limits(scene_seconds, scene_megabytes)
     check = _engine(engine, scheduler, options["jobs"])
     with ResultsFile(output) as results, Bar("scenes") as bar:

@@ -13,11 +13,11 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline
+from satcheck.audit.baseline_file import names_in_baseline, read_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
-from satcheck.cli.baseline_file import names_in_baseline, read_baseline
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of

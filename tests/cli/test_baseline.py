@@ -10,7 +10,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, beside_baseline, known_findings, updated
-from satcheck.cli.baseline_file import asset_key
+from satcheck.audit.baseline_file import asset_key
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose

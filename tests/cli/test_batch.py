@@ -112,3 +112,68 @@ def test_no_shard_of_that_number(scenes: Path, shard: str) -> None:
     ran = satcheck("batch", str(scenes), "-o", str(scenes / "r.jsonl"), "--shard", shard)
     assert ran.code == 2
     assert "--shard" in ran.err
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        (),
+        ("--clearance", "2 m", "--units", "m"),
+        ("--depth", "--volume", "--contacts"),
+        ("--accuracy", "hull"),
+        ("--fail-on", "warning"),
+        ("--rules", "rules.toml"),
+        ("--baseline", "baseline.json"),
+        ("--baseline", "baseline.json", "--exit-zero"),
+    ],
+)
+def test_a_report_is_that_of_each(
+    scenes: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(scenes.parent)
+    Path("rules.toml").write_text(
+        '[[rules]]\na = "a"\nb = "b"\nallowed = true\nreason = "known"\n'
+        '[[rules]]\na = "none"\nb = "b"\nallowed = true\nreason = "unused"\n'
+    )
+    Path("satcheck.toml").write_text("depth-width = 0.5\n")
+    here = scenes.parent
+    satcheck("each", "scenes", "-o", "report.json", cwd=here)
+    satcheck("baseline", "write", "baseline.json", "report.json", cwd=here)
+    ran = satcheck("batch", "scenes/*.toml", "-o", "results.jsonl", *options, cwd=here)
+    form = ["--format", "json", "--no-timings"]
+    each = satcheck("each", "scenes/*.toml", *form, *options, cwd=here)
+    assert ran.code == each.code, ran.err
+    assert each.out, each.err
+    asked = {Path(asset["file"]).name: asset for asset in each.document["assets"]}
+    made = results(Path("results.jsonl"))
+    assert {name: result["verdict"] for name, result in made.items()} == {
+        name: asset["verdict"] for name, asset in asked.items()
+    }
+    assert {name: result["report"] for name, result in made.items()} == {
+        name: asset["report"] for name, asset in asked.items()
+    }
+
+
+def test_certificates_are_in_the_results(scenes: Path) -> None:
+    _, made = run(scenes, "--certificate")
+    (finding,) = made["hit.toml"]["report"]["findings"]
+    assert finding["certificate"]["relation"]
+
+
+def test_a_baseline_that_changes_calls_for_new_checks(scenes: Path) -> None:
+    output, baseline = scenes.parent / "results.jsonl", scenes.parent / "baseline.json"
+    baseline.write_text('{"schema": "satcheck.baseline/1", "findings": []}')
+    again = ["batch", f"{scenes}/*.toml", "-o", str(output), "--baseline", str(baseline)]
+    satcheck(*again)
+    assert "3 kept" in satcheck(*again, "--resume").err
+    baseline.write_text('{"schema":"satcheck.baseline/1","findings":[]}')
+    assert "kept" not in satcheck(*again, "--resume").err
+
+
+def test_a_baseline_that_is_none_is_refused(scenes: Path) -> None:
+    output, baseline = scenes.parent / "results.jsonl", scenes.parent / "baseline.json"
+    baseline.write_text("{}")
+    ran = satcheck("batch", f"{scenes}/*.toml", "-o", str(output), "--baseline", str(baseline))
+    assert ran.code == 2
+    assert "bad-baseline" in ran.err
+    assert not output.exists()

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 
 import msgspec
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import SCHEMA, Baseline
+from satcheck.scene.files_read import Signature, note, signature
 
 
 class _Head(msgspec.Struct, frozen=True):
@@ -30,6 +32,17 @@ def read_baseline(path: Path) -> Baseline:
         raise SatcheckError("unreadable-file", reason, file=str(path)) from None
     except msgspec.DecodeError as error:
         raise SatcheckError("bad-baseline", f"no baseline: {error}", file=str(path)) from None
+
+
+def current_baseline(path: Path) -> Baseline:
+    """The same for many assets: the file is read once, and again when it has changed."""
+    note(path)
+    return _read_once(path, signature(str(path)))
+
+
+@lru_cache(maxsize=1)
+def _read_once(path: Path, _: Signature) -> Baseline:
+    return read_baseline(path)
 
 
 def asset_key(asset: str, baseline: Path) -> str:
