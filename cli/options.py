@@ -32,7 +32,7 @@ HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_conten
 DEFAULTS = Settings()
 _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
-}
+} | {".parquet": "parquet"}
 # Documents of other kinds, by the end of their names.
 _NO_REPORTS = frozenset({".svg", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
 _STANDARD_OUTPUT = Path("-")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable
 from pathlib import Path
 
 import click
@@ -11,7 +9,6 @@ import click
 from satcheck.batch.stored import StoredResults
 from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.named_assets import Assets, StoredAssets
 from satcheck.cli.options import (
     HELP_NAMES,
     REPORT_FORMATS,
@@ -24,17 +21,13 @@ from satcheck.cli.options import (
     outside_option,
     root_option,
 )
-from satcheck.cli.output import Document, Page, talk
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import pieces as pieces_for_ci
-from satcheck.cli.report.overview import Overview, overview
+from satcheck.cli.output import Document, talk
 from satcheck.cli.report.words import issue_line
-from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
-from satcheck.report.json import render_assets
+from satcheck.cli.results.query import FORMATS as QUERY_FORMATS
+from satcheck.cli.results.query import answer
+from satcheck.cli.results.report import TOP, Chosen, report
 
-# Scenes that a table lists without --top, and findings with a picture.
-TOP = 100
-FORMATS = (*REPORT_FORMATS, "html")
+FORMATS = (*REPORT_FORMATS, "html", "parquet")
 
 
 @click.command("report", cls=Command, context_settings=HELP_NAMES)
@@ -50,8 +43,8 @@ FORMATS = (*REPORT_FORMATS, "html")
     "form",
     type=click.Choice(FORMATS),
     metavar="FORMAT",
-    help=f"{', '.join(FORMATS)}; html is a page of the worst findings with their pictures.  "
-    "[default: as the file of -o ends, otherwise table]",
+    help=f"{', '.join(FORMATS)}; html is a page of the worst findings with their pictures, parquet "
+    "all findings.  [default: as the file of -o ends, otherwise table]",
 )
 @output_option
 @click.option(
@@ -60,7 +53,13 @@ FORMATS = (*REPORT_FORMATS, "html")
     metavar="N",
     help="Report the N worst scenes, the worst first; of html and --pictures the N worst findings. "
     f"The summary and the exit code count all.  [default: {TOP} in a table and of html, "
-    "otherwise all]",
+    "otherwise all]. Of --sql, the first N rows.",
+)
+@click.option(
+    "--sql",
+    metavar="QUERY",
+    help="Answer a question about the tables scenes, findings and issues, as table, json, jsonl, "
+    "csv or parquet (pip install 'satcheck[query]').",
 )
 @click.option(
     "--pictures",
@@ -79,6 +78,7 @@ def command(
     form: str | None,
     output: Path | None,
     top: int | None,
+    sql: str | None,
     folder: Path | None,
     root: Path,
     allow_outside: bool,
@@ -91,51 +91,20 @@ def command(
     again; if one has changed since the check, the page says so in place of the picture.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
-    if one is not fully checked or the batch did not finish, else 0.
+    if one is not fully checked or the batch did not finish, else 0. With --sql only the files
+    count: 2 if one has lines that are no results, 3 if a batch did not finish, else 0.
     """
-    form = form_of(form, output, FORMATS)
+    if sql is not None and folder is not None:
+        raise click.UsageError("--pictures: the answer to --sql has no pictures")
+    form = form_of(form, output, FORMATS if sql is None else QUERY_FORMATS)
     refuse_early(Inputs(paths=tuple(map(str, results))), output)
     document = Document()
     with StoredResults(results) as stored:
-        assets = StoredAssets(stored)
-        seen = overview(assets, stored.issues, least=stored.least, top=top or TOP)
-        chosen = assets if top is None else Assets(seen.shown)
-        illustrated: Iterable[Illustrated] = ()
-        if form == "html" or folder is not None:
-            worst = worst_findings(stored, top or TOP)
-            illustrated = with_pictures(worst, folder, root, allow_outside=allow_outside)
-        document.deliver(
-            lambda page: _render(seen, chosen, illustrated, form, page),
-            output,
-            utf8=form != "table",
-        )
-        deque(illustrated, maxlen=0)  # what no page has taken
-    _tell(seen, form, output)
-    return exit_codes.for_assets(seen.verdict, exit_zero=exit_zero)
-
-
-def _render(
-    seen: Overview, assets: Assets, illustrated: Iterable[Illustrated], form: str, page: Page
-) -> str | Iterable[str]:
-    if form == "json":
-        return render_assets(seen.report(), assets, timings=False)
-    if form in CI_FORMATS:
-        return pieces_for_ci(assets, form)
-    if form == "html":
-        from satcheck.cli.report.worst_page import render as render_page
-
-        return render_page(seen, illustrated)
-    from satcheck.cli.report.assets import render
-
-    return render(seen, page)
-
-
-def _tell(seen: Overview, form: str, output: Path | None) -> None:
-    """What the document does not say, and with -o the summary and where the report is."""
-    if output is not None or form != "table":
-        for issue in seen.issues:
-            talk(f"satcheck: {issue_line(issue)}")
-    if output is not None:
-        from satcheck.cli.report.assets import summary_line
-
-        talk(f"{summary_line(seen)} Report: {output}")
+        if sql is not None:
+            answer(stored, sql, form, output, top, document)
+            for issue in stored.issues:
+                talk(f"satcheck: {issue_line(issue)}")
+            return exit_codes.for_assets(stored.least, exit_zero=exit_zero)
+        chosen = Chosen(form, output, top, folder, root, allow_outside)
+        verdict = report(stored, chosen, document)
+    return exit_codes.for_assets(verdict, exit_zero=exit_zero)

@@ -153,3 +153,69 @@ def test_the_report_is_written_to_a_file(folder: Path) -> None:
     assert json.loads((folder / "report.sarif").read_text())["runs"][0]["results"]
     assert "Report: report.sarif" in ran.err
     assert report(folder, "all.jsonl", "-o", "all.jsonl").code == 2
+
+
+def sql(folder: Path, query: str, *arguments: str) -> Ran:
+    pytest.importorskip("duckdb")
+    batch(folder, "a b c broken", "all.jsonl")
+    return report(folder, "all.jsonl", "--sql", query, *arguments)
+
+
+DEPTHS = "SELECT scene, depth FROM findings WHERE fails ORDER BY depth DESC"
+
+
+def test_an_answer_is_a_table(folder: Path) -> None:
+    ran = sql(folder, DEPTHS)
+    rows = [line.split()[1::2] for line in ran.out.splitlines() if ".toml" in line]
+    assert [scene for scene, _ in rows] == ["c.toml", "b.toml"]
+    assert ran.out.endswith("2 rows\n")
+    assert ran.code == 0
+
+
+def test_an_answer_is_json_or_csv(folder: Path) -> None:
+    expected = [{"scene": "c.toml", "depth": 1.0}, {"scene": "b.toml", "depth": 0.5}]
+    assert json.loads(sql(folder, DEPTHS, "--format", "json").out) == expected
+    ran = report(folder, "all.jsonl", "--sql", DEPTHS, "--format", "jsonl")
+    assert list(map(json.loads, ran.out.splitlines())) == expected
+    ran = report(folder, "all.jsonl", "--sql", DEPTHS, "--format", "csv", "--top", "1")
+    assert ran.out.splitlines() == ["scene,depth", "c.toml,1.0"]
+
+
+@pytest.mark.parametrize("query", ["SELECT 1 WHERE false", "SELECT 1.0 / 0, DATE '2020-01-31'"])
+def test_any_answer_is_json(query: str, folder: Path) -> None:
+    found = json.loads(sql(folder, query, "--format", "json").out)
+    values = [list(row.values()) for row in found]
+    assert values == ([] if "WHERE" in query else [[None, "2020-01-31"]])
+
+
+def test_parquet_without_a_query_has_all_findings(folder: Path) -> None:
+    duckdb = pytest.importorskip("duckdb")
+    batch(folder, "a b c", "all.jsonl")
+    ran = report(folder, "all.jsonl", "-o", "all.parquet")
+    assert ran.code == 1
+    query = f"SELECT count(*) FROM '{folder / 'all.parquet'}'"
+    assert duckdb.connect().execute(query).fetchall() == [(3,)]
+
+
+def test_a_wrong_query_is_an_error(folder: Path) -> None:
+    ran = sql(folder, "SELECT nonsense FROM scenes")
+    assert (ran.code, ran.out) == (2, "")
+    assert "nonsense" in ran.err
+    assert "[bad-query]" in ran.err
+
+
+def test_an_answer_of_an_unfinished_batch_is_incomplete(folder: Path) -> None:
+    with batch(folder, "a", "all.jsonl").open("ab") as file:
+        file.write(b'{"schema":')
+    pytest.importorskip("duckdb")
+    ran = report(folder, "all.jsonl", "--sql", "SELECT 1")
+    assert (ran.code, "did not finish" in ran.err) == (3, True)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("--sql", "SELECT 1", "--format", "html"), ("--sql", "SELECT 1", "--pictures", "p")],
+)
+def test_options_that_contradict_each_other(arguments: tuple[str, ...], folder: Path) -> None:
+    ran = report(folder, "all.jsonl", *arguments)
+    assert (ran.code, ran.out) == (2, "")

@@ -1,0 +1,1 @@
+"""What `satcheck report` makes of the results of batches."""

@@ -1,0 +1,99 @@
+"""The report of a batch: all its scenes, or the worst ones."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable
+from pathlib import Path
+
+import click
+from msgspec import Struct
+
+from satcheck.batch.stored import StoredResults
+from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.ci import pieces as pieces_for_ci
+from satcheck.cli.report.overview import Overview, overview
+from satcheck.cli.report.words import issue_line
+from satcheck.cli.results.named_assets import Assets, StoredAssets
+from satcheck.cli.results.worst_findings import Illustrated, with_pictures, worst_findings
+from satcheck.report.assets import AssetVerdict
+from satcheck.report.json import render_assets
+
+# Scenes that a table lists without --top, and findings with a picture.
+TOP = 100
+ALL_FINDINGS = "SELECT * FROM findings"
+
+
+class Chosen(Struct, frozen=True):
+    """How the report is made. top: how many of the worst. folder: where pictures go. root: where
+    the paths in the results start."""
+
+    form: str
+    output: Path | None
+    top: int | None
+    folder: Path | None
+    root: Path
+    allow_outside: bool
+
+
+def report(stored: StoredResults, chosen: Chosen, document: Document) -> AssetVerdict:
+    if chosen.form == "parquet" and chosen.top is not None:
+        raise click.UsageError("--top: Parquet has all findings; --sql can order and limit them")
+    assets = StoredAssets(stored)
+    top = chosen.top or TOP
+    seen = overview(assets, stored.issues, least=stored.least, top=top)
+    listed = assets if chosen.top is None else Assets(seen.shown)
+    illustrated = iter(_illustrated(stored, chosen, top))
+    document.deliver(
+        lambda page: _render(stored, seen, listed, illustrated, chosen.form, page),
+        chosen.output,
+        utf8=chosen.form != "table",
+    )
+    deque(illustrated, maxlen=0)  # what no page has taken
+    _tell(seen, chosen.form, chosen.output)
+    return seen.verdict
+
+
+def _illustrated(stored: StoredResults, chosen: Chosen, top: int) -> Iterable[Illustrated]:
+    if chosen.form != "html" and chosen.folder is None:
+        return ()
+    worst = worst_findings(stored, top)
+    return with_pictures(worst, chosen.folder, chosen.root, allow_outside=chosen.allow_outside)
+
+
+def _render(
+    stored: StoredResults,
+    seen: Overview,
+    assets: Assets,
+    illustrated: Iterable[Illustrated],
+    form: str,
+    page: Page,
+) -> str | bytes | Iterable[str]:
+    if form == "json":
+        return render_assets(seen.report(), assets, timings=False)
+    if form in CI_FORMATS:
+        return pieces_for_ci(assets, form)
+    if form == "html":
+        from satcheck.cli.report.worst_page import render as render_page
+
+        return render_page(seen, illustrated)
+    if form == "parquet":
+        from satcheck.batch.query import Tables
+
+        with Tables(stored) as tables:
+            return tables.parquet(ALL_FINDINGS)
+    from satcheck.cli.report.assets import render
+
+    return render(seen, page)
+
+
+def _tell(seen: Overview, form: str, output: Path | None) -> None:
+    """What the document does not say, and with -o the summary and where the report is."""
+    if output is not None or form != "table":
+        for issue in seen.issues:
+            talk(f"satcheck: {issue_line(issue)}")
+    if output is not None:
+        from satcheck.cli.report.assets import summary_line
+
+        talk(f"{summary_line(seen)} Report: {output}")
