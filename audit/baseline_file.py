@@ -12,6 +12,9 @@ import msgspec
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import SCHEMA, Baseline
 from satcheck.scene.files_read import Signature, note, signature
+from satcheck.scene.loading.regular_file import read_whole
+
+MOST_BYTES = 1 << 28
 
 
 class _Head(msgspec.Struct, frozen=True):
@@ -19,18 +22,15 @@ class _Head(msgspec.Struct, frozen=True):
 
 
 def read_baseline(path: Path) -> Baseline:
-    """Raises SatcheckError: `unreadable-file`, `bad-baseline`."""
+    """Raises SatcheckError: `bad-baseline`, or a code about the file."""
     try:
-        text = path.read_bytes()
+        text = read_whole(str(path), path, MOST_BYTES, SatcheckError)
         schema = msgspec.json.decode(text, type=_Head).schema
         if schema != SCHEMA and schema.startswith(SCHEMA.rstrip("1")):
             reason = "of another version of satcheck: write it again"
             raise SatcheckError("bad-baseline", reason, file=str(path))
         return msgspec.json.decode(text, type=Baseline)
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SatcheckError("unreadable-file", reason, file=str(path)) from None
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
         raise SatcheckError("bad-baseline", f"no baseline: {error}", file=str(path)) from None
 
 

@@ -9,19 +9,19 @@ import msgspec
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
+from satcheck.scene.loading.regular_file import read_whole
+
+MOST_BYTES = 1 << 30
 
 
 def read_report(path: Path) -> Report | AssetsReport:
-    """Raises SatcheckError: `unreadable-file`, `bad-report`."""
+    """Raises SatcheckError: `bad-report`, or a code about the file."""
     try:
-        data = path.read_bytes()
+        data = read_whole(str(path), path, MOST_BYTES, SatcheckError)
         head = msgspec.json.decode(data)
         if isinstance(head, dict) and "assets" in head:
             return msgspec.convert(head, AssetsReport)
         return msgspec.convert(head, Report)
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SatcheckError("unreadable-file", reason, file=str(path)) from None
-    except msgspec.MsgspecError as error:
+    except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
         reason = f"no JSON report of this version of satcheck: {error}"
         raise SatcheckError("bad-report", reason, file=str(path)) from None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from typing import Any
 
 from satcheck.verify.exact import Rejected
@@ -27,7 +28,7 @@ def _object(members: list[tuple[str, Any]]) -> dict[str, Any]:
     made = dict(members)
     if len(made) < len(members):
         keys = [key for key, _ in members]
-        twice = next(key for key in keys if keys.count(key) > 1)
+        twice = next(key for key, times in Counter(keys).items() if times > 1)
         raise Rejected(f"the key {twice!r} stands twice in one object")
     return made
 

@@ -25,14 +25,14 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted
+from satcheck.cli.report_file import MOST_BYTES
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool
 from satcheck.report.verification import Outcome, VerificationReport
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import read_whole
 from satcheck.verify import Checked, Rejected, Verification, parse, verify
 
-MOST_BYTES = 1 << 30
 # At most this many files that are not there are named.
 MOST_NAMED = 3
 # The figures that a certificate may prove, in the words of the last line.
@@ -94,13 +94,7 @@ def command(
 
 def _read(report: Path) -> Any:
     try:
-        if size_of(report) > MOST_BYTES:
-            raise SatcheckError("bad-report", "too large")
-        text = report.read_text("utf-8")
-    except SatcheckError as error:
-        raise SatcheckError(error.code, error.message, file=str(report)) from None
-    except OSError as error:
-        raise SatcheckError("unreadable-file", f"{report}: {error.strerror}") from None
+        text = read_whole(str(report), report, MOST_BYTES, SatcheckError).decode()
     except UnicodeDecodeError:
         raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
     try:

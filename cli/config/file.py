@@ -11,6 +11,7 @@ from msgspec import Struct
 from satcheck.cli.config.search import PROJECT
 from satcheck.core.errors import SatcheckError
 
+MOST_BYTES = 1 << 20
 _TABLE = ("tool", "satcheck")
 
 
@@ -58,10 +59,12 @@ def has_table(path: Path, data: bytes) -> bool:
 
 def text_of(path: Path) -> bytes:
     """Raises as `read_config`."""
+    from satcheck.scene.loading.regular_file import read_whole
+
     try:
-        return path.read_bytes()
-    except OSError as error:
-        raise bad_config(f"{path}: cannot be read: {error.strerror}") from None
+        return read_whole(str(path), path, MOST_BYTES, SatcheckError)
+    except SatcheckError as error:
+        raise bad_config(str(error)) from None
 
 
 def bad_config(message: str) -> SatcheckError:

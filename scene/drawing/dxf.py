@@ -25,7 +25,8 @@ from satcheck.scene.drawing.contour import (
 from satcheck.scene.drawing.dxf_entities import ANNOTATIONS, Outline, outline_of
 from satcheck.scene.drawing.joining import Line, join
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
+from satcheck.scene.loading.limits import MAX_DEPTH
+from satcheck.scene.loading.placing import refuse_explosion
 
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um"}
 _OF_THE_REFERENCE = "0"  # entities of a block on this layer take the layer of the block reference

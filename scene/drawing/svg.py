@@ -31,7 +31,8 @@ from satcheck.scene.drawing.svg_values import (
     view_box,
 )
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
+from satcheck.scene.loading.limits import MAX_DEPTH
+from satcheck.scene.loading.placing import refuse_explosion
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_xml
 
 _NAMESPACE = "http://www.w3.org/2000/svg"

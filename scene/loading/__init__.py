@@ -80,7 +80,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
     is_gltf = source.format in ("glb", "gltf")
     if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
         from satcheck.scene.loading.gltf import read_gltf
-        from satcheck.scene.loading.gltf_meshes import NeedsChild
+        from satcheck.scene.loading.gltf_buffers import NeedsChild
 
         with suppress(NeedsChild):
             scene = read_gltf(

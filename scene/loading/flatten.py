@@ -11,6 +11,8 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene
 
+_SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
+
 
 def flattened(scene: RawScene) -> RawMesh:
     """One mesh of all nodes.
@@ -31,7 +33,14 @@ def flattened(scene: RawScene) -> RawMesh:
     total = sum(len(mesh.triangles) // 12 for mesh, _ in placed)
     if total > limits.MAX_TRIANGLES:
         raise MeshFileError(
-            "too-large", f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}"
+            "too-large",
+            f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}: {_SPLIT}",
+        )
+    corners = sum(len(mesh.vertices) // 24 for mesh, _ in placed)
+    if corners > limits.MAX_VERTICES:
+        raise MeshFileError(
+            "too-large",
+            f"{corners} vertices in all instances exceed {limits.MAX_VERTICES}: {_SPLIT}",
         )
     meshes = [mesh for mesh, _ in placed]
     vertices, triangles = concatenate(

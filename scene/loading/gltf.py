@@ -20,6 +20,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import (
     BufferViews,
+    Work,
     extension,
     integer,
     items,
@@ -77,9 +78,10 @@ def read_gltf(
     text, chunk = split_glb(data) if binary else (data, None)
     document = _parse_json(text)
     _check_extensions(document)
-    views = BufferViews(document, chunk, directory, allow_outside=allow_outside)
-    accessors = Accessors(document, views)
-    return _Scene(document, accessors, Meshes(document, accessors, isolated=isolated)).read()
+    work = Work(isolated=isolated)
+    views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
+    accessors = Accessors(document, views, work)
+    return _Scene(document, accessors, Meshes(document, accessors, work), work).read()
 
 
 def _parse_json(data: memoryview) -> dict[str, Any]:
@@ -111,16 +113,26 @@ def _json(text: str) -> Any:
 
 
 def _check_extensions(document: dict[str, Any]) -> None:
-    for name in items(document, "extensionsRequired"):
-        if name not in _READ and not str(name).startswith(_HARMLESS_PREFIXES):
+    for name in _names(document, "extensionsRequired"):
+        if name not in _READ and not name.startswith(_HARMLESS_PREFIXES):
             raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
-    for name in items(document, "extensionsUsed"):
+    for name in _names(document, "extensionsUsed"):
         if name in _MOVING:
             raise MeshFileError("unsupported-feature", f"extension {name!r} is not read")
 
 
+def _names(document: dict[str, Any], key: str) -> list[str]:
+    names = items(document, key)
+    if not all(isinstance(name, str) for name in names):
+        raise MeshFileError("bad-record", f"glTF: {key} should be a list of texts")
+    return names
+
+
 class _Scene:
-    def __init__(self, document: dict[str, Any], accessors: Accessors, meshes: Meshes) -> None:
+    def __init__(
+        self, document: dict[str, Any], accessors: Accessors, meshes: Meshes, work: Work
+    ) -> None:
+        self._work = work
         self._document = document
         self._accessors = accessors
         self._nodes = items(document, "nodes")
@@ -215,6 +227,7 @@ class _Scene:
             if parent in seen:
                 raise MeshFileError("reference-cycle", f"node {parent} contains itself: a cycle")
             seen.add(parent)
+            self._work.spend(len(IDENTITY))
             matrix = multiply(self._matrix(parent), matrix)
             node = parent
         return matrix

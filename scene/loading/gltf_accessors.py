@@ -12,7 +12,13 @@ from typing import Any
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.gltf_buffers import BufferViews, integer, items, member
+from satcheck.scene.loading.gltf_buffers import (
+    BufferViews,
+    Work,
+    integer,
+    items,
+    member,
+)
 
 # componentType: typecode of an array.
 _COMPONENTS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
@@ -28,7 +34,8 @@ Columns = Callable[[str, str], "array[float] | None"]
 class Accessors:
     """Typed arrays of a glTF document."""
 
-    def __init__(self, document: dict[str, Any], views: BufferViews) -> None:
+    def __init__(self, document: dict[str, Any], views: BufferViews, work: Work) -> None:
+        self._work = work
         self._accessors = items(document, "accessors")
         self._views = views
 
@@ -86,6 +93,7 @@ class Accessors:
         if not code or accessor.get("type") != kind:
             raise MeshFileError("bad-record", f"accessor {index}: {kind} expected")
         count, columns = integer(accessor, "count", 0), _COLUMNS[kind]
+        self._work.spend(count * columns)
         if "bufferView" in accessor:
             values = self._rows(accessor, f"accessor {index}", count, columns, code)
         elif count > limits.MAX_ZEROS:

@@ -17,10 +17,34 @@ _BIN_CHUNK = 0x004E4942
 
 # Both pack a buffer view in the same way.
 _MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
-_MODES = frozenset({"ATTRIBUTES", "TRIANGLES", "INDICES"})
-_FILTERS = frozenset(
-    {"NONE", "EXPONENTIAL", "QUATERNION"}
-)  # the others are for normals and colours
+_MODES = ("ATTRIBUTES", "TRIANGLES", "INDICES")
+_FILTERS = ("NONE", "EXPONENTIAL", "QUATERNION")  # the others are for normals and colours
+_BYTES_OF_NUMBER = 8
+
+
+class NeedsChild(Exception):
+    """The file has to be read in a child process, because it needs a library that may crash, or
+    more work than this process does for a file."""
+
+
+class Work:
+    """What a file costs beyond its size. A few bytes can name many numbers, and name them again.
+
+    isolated: this process is a child, with limits of its own, that may crash.
+    """
+
+    def __init__(self, *, isolated: bool) -> None:
+        self.isolated = isolated
+        self._left = limits.IN_PROCESS_WORK
+
+    def spend(self, numbers: int) -> None:
+        """Raises NeedsChild if that is too much for this process."""
+        self.spend_bytes(numbers * _BYTES_OF_NUMBER)
+
+    def spend_bytes(self, size: int) -> None:
+        self._left -= size
+        if self._left < 0 and not self.isolated:
+            raise NeedsChild
 
 
 def items(owner: Any, key: str) -> list[Any]:
@@ -105,9 +129,11 @@ class BufferViews:
         document: dict[str, Any],
         chunk: memoryview | None,
         directory: str,
+        work: Work,
         *,
         allow_outside: bool,
     ) -> None:
+        self._work = work
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")
         self._chunk = chunk
@@ -163,8 +189,11 @@ class BufferViews:
         self._unpacked_bytes += count * stride
         if self._unpacked_bytes > limits.MAX_UNPACKED_BYTES:
             raise MeshFileError(
-                "too-large", f"meshopt data unpacks to {self._unpacked_bytes} bytes and more"
+                "too-large",
+                f"meshopt data unpacks to {self._unpacked_bytes} bytes and more, beyond "
+                f"{limits.MAX_UNPACKED_BYTES}: unpack it before, or split the file",
             )
+        self._work.spend_bytes(count * stride)
         stream = bytes(self._range(packed, f"buffer view {number}"))
         elements = unpack_meshopt(stream, mode, count, stride, filter_)
         if isinstance(elements, ReadError):
@@ -220,8 +249,10 @@ class BufferViews:
         if not path.is_file():
             raise MeshFileError("missing-resource", f"missing buffer file {name!r}")
         try:
+            size = min(size, path.stat().st_size)
+            self._work.spend_bytes(size)
             with path.open("rb") as file:
-                return file.read(min(size, path.stat().st_size))
+                return file.read(size)
         except OSError as error:
             raise MeshFileError(
                 "unreadable-file", f"buffer file {name!r} cannot be read: {error.strerror}"

@@ -12,7 +12,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
-from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
+from satcheck.scene.loading.gltf_buffers import NeedsChild, Work, extension, integer, items, member
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh
 from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
 
@@ -20,10 +20,6 @@ DRACO = "KHR_draco_mesh_compression"
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 _NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
-
-
-class NeedsChild(Exception):
-    """The file needs a library that may crash, so it has to be read in a child process."""
 
 
 class Shape(Struct, frozen=True):
@@ -43,12 +39,10 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    """isolated: whether this process may crash."""
-
-    def __init__(self, document: dict[str, Any], accessors: Accessors, *, isolated: bool) -> None:
+    def __init__(self, document: dict[str, Any], accessors: Accessors, work: Work) -> None:
         self._meshes = items(document, "meshes")
         self._accessors = accessors
-        self._isolated = isolated
+        self._work = work
         self._requires_draco = DRACO in items(document, "extensionsRequired")
 
     def name(self, number: int) -> object:
@@ -58,6 +52,7 @@ class Meshes:
         """Weights of the morph targets of a mesh at a node; () if all are 0."""
         mesh = member(self._meshes, number, "mesh")
         values = items(node if "weights" in node else mesh, "weights")
+        self._work.spend(len(values))
         if not all(type(value) in (int, float) for value in values):
             raise MeshFileError("bad-record", f"mesh {number}: weights should be numbers")
         return tuple(map(float, values)) if any(values) else ()
@@ -104,7 +99,7 @@ class Meshes:
             raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
         packed = self._packed(primitive, attributes)
         if packed is not None:
-            if not self._isolated:
+            if not self._work.isolated:
                 raise NeedsChild
             from satcheck.scene.loading.gltf_draco import Unpacked
 

@@ -17,7 +17,6 @@ from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 _LONGEST_NAME = 80
 _LONGEST_PATH = 200  # characters; of a longer path only the end is kept
 _CUT = "..."
-MAX_DEPTH = 200  # of the elements of a drawing; no program writes deeper ones
 
 Key = TypeVar("Key", bound=Hashable)
 
@@ -107,7 +106,8 @@ def refuse_explosion(
         if closing:
             open_.discard(key)
             held = list(within(key))
-            totals[key] = size(key) + sum(times * totals[child] for child, times in held)
+            total = size(key) + sum(times * totals[child] for child, times in held)
+            totals[key] = min(total, limits.MAX_PLACEMENTS + 1)  # 2^100 needs no more digits
             depths[key] = 1 + max((depths[child] for child, _ in held), default=0)
         elif key in open_:
             raise MeshFileError("reference-cycle", f"{describe(key)} contains itself: a cycle")
@@ -117,10 +117,12 @@ def refuse_explosion(
             stack.extend((child, False) for child, _ in within(key))
     total = sum(totals[root] for root in roots)
     if total > limits.MAX_PLACEMENTS:
-        message = f"its references expand to {total} elements, more than {limits.MAX_PLACEMENTS}"
+        message = f"its references expand to more than {limits.MAX_PLACEMENTS} elements: split it"
         raise MeshFileError("too-large", message)
     if max((depths[root] for root in roots), default=0) > most_depth:
-        raise MeshFileError("too-large", f"elements are nested deeper than {most_depth}")
+        raise MeshFileError(
+            "too-large", f"elements are nested deeper than {most_depth}: flatten it"
+        )
 
 
 def raw_scene(

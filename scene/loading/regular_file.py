@@ -48,9 +48,17 @@ def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
     file, has more than `most` bytes, or cannot be read."""
     try:
         if size_of(location) > most:
-            raise SatcheckError("too-large", f"larger than {most} bytes")
-        return location.read_bytes()
+            raise _too_large(most)
+        with location.open("rb") as file:
+            data = file.read(most + 1)  # a system file states no size
+        if len(data) > most:
+            raise _too_large(most)
+        return data
     except SatcheckError as error:
         raise kind(error.code, error.message, file=path) from None
     except OSError as error:
         raise kind("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None
+
+
+def _too_large(most: int) -> SatcheckError:
+    return SatcheckError("too-large", f"larger than {most >> 20} MiB, the most for such a file")

@@ -116,18 +116,14 @@ def read_source(
             f"unsupported format {location.suffix!r}: known are {known}",
             file=path,
         )
-    if size > max_bytes:
-        raise MeshFileError(
-            "too-large",
-            f"{size} bytes exceed the limit of {max_bytes} bytes, a quarter of the memory for one "
-            "file (raise it with --megabytes-per-file)",
-            file=path,
-        )
+    _refuse_large(path, size, max_bytes)
     try:
-        size, data = _read(location, size, in_pieces=file_format == "stl" and not hashed)
+        in_pieces = file_format == "stl" and not hashed
+        size, data = _read(location, size, max_bytes, in_pieces=in_pieces)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
+    _refuse_large(path, size, max_bytes)
     digest = hashlib.sha256(data).hexdigest() if hashed else None
     if file_format in _MARKED_FORMATS and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
@@ -136,9 +132,20 @@ def read_source(
     return Source(path, location, file_format, digest, size, data)
 
 
-def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
-    """The size and the bytes of the file, even if its size has changed. in_pieces: of a large
-    binary STL file only the first bytes are read."""
+def _refuse_large(path: str, size: int, max_bytes: int) -> None:
+    if size > max_bytes:
+        raise MeshFileError(
+            "too-large",
+            f"{size} bytes exceed the limit of {max_bytes} bytes, a quarter of the memory for one "
+            "file (raise it with --megabytes-per-file)",
+            file=path,
+        )
+
+
+def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
+    """The size and the bytes of the file, even if its size has changed, and of a system file, which
+    states none; at most a byte more than max_bytes. in_pieces: of a large binary STL file only the
+    first bytes are read."""
     with location.open("rb", buffering=0) as file:
         if in_pieces and size >= LARGE_FILE_BYTES:
             head = file.read(_TEXT_HEAD_BYTES)
@@ -146,8 +153,8 @@ def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
                 return size, head
             file.seek(0)
         data = readers.read_file(file.fileno(), size)
-        more = file.read()
-    data = data + more if more else data
+        if more := file.read(1):
+            data += more + readers.read_file(file.fileno(), max_bytes - len(data))
     return len(data), data
 
 

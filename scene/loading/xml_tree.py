@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.limits import MAX_DEPTH
 
 _NAMESPACE_SEPARATOR = " "
 UNDECLARED = "undeclared:"
@@ -189,7 +190,7 @@ class Element:
         words = self.words(text, multiple)
         if not all(word.isdecimal() for word in words):
             self.refuse("a vertex number that is not a whole number")
-        values = [int(word) for word in words]
+        values = self._whole(words)
         if values and max(values) >= count:
             self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")
         return values
@@ -207,10 +208,7 @@ class Element:
 
     def integers(self, least: int = 0) -> list[int]:
         """The whole numbers in the element."""
-        try:
-            values = [int(word) for word in self.text.split()]
-        except ValueError as error:
-            self.refuse(str(error))
+        values = self._whole(self.text.split())
         if values and min(values) < least:
             self.refuse(f"negative number {min(values)}", "index-out-of-range")
         return values
@@ -218,7 +216,15 @@ class Element:
     def integer(self, name: str) -> int:
         """A required attribute: a whole number >= 0."""
         word = self.attribute(name).strip()
-        return int(word) if word.isdecimal() else self.refuse(f"{name}={word!r} is not a number")
+        if not word.isdecimal():
+            self.refuse(f"{name}={word!r} is not a number")
+        return self._whole([word])[0]
+
+    def _whole(self, words: list[str]) -> list[int]:
+        try:
+            return [int(word) for word in words]
+        except ValueError as error:  # no whole number, or one of thousands of digits
+            self.refuse(str(error))
 
     def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
         raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")
@@ -250,6 +256,11 @@ def parse_elements(
         namespace, tag = split_name(name)
         plain = {split_name(key)[1]: value for key, value in attributes.items()}
         element = make(tag, namespace, plain, parser.CurrentLineNumber)
+        if len(around) >= MAX_DEPTH:
+            message = (
+                f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
+            )
+            raise MeshFileError("too-large", message)
         (around[-1].children if around else outermost).append(element)
         around.append(element)
 

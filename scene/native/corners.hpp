@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <random>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,7 +17,8 @@
 namespace satcheck::scene {
 
 // Corners with equal coordinates, bit for bit, are one vertex. Vertices are numbered in order of first appearance.
-// A hash table with linear probing, whose slots can be fetched before they are needed.
+// A hash table with linear probing, whose slots can be fetched before they are needed. Its hashes start from a random
+// number, because a file could be made of corners whose hashes are all equal. The vertex numbers do not depend on it.
 template <class Coordinate>
 class Corners {
  public:
@@ -24,12 +26,12 @@ class Corners {
 
   // At most a quarter full, because a corner that is not in its first slot costs a mispredicted branch.
   explicit Corners(std::size_t expected)
-      : size_(std::bit_ceil(std::max(4 * expected, kFewest))), slots_(zeroed<Slot>(size_)) {}
+      : start_(random_number()), size_(std::bit_ceil(std::max(4 * expected, kFewest))), slots_(zeroed<Slot>(size_)) {}
 
   // Hashes the bytes of a point in place. Reading a copy that was just written with another width would stall.
-  static std::uint64_t hash(const void* point) {
+  std::uint64_t hash(const void* point) const {
     constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
-    std::uint64_t h = 0;
+    std::uint64_t h = start_;
     const auto mix = [&](auto word, std::size_t from) {
       std::memcpy(&word, static_cast<const char*>(point) + from, sizeof word);
       h = (h ^ word) * kFactor;
@@ -82,6 +84,12 @@ class Corners {
     }
   }
 
+  static std::uint64_t random_number() {
+    std::random_device random;
+    return std::uint64_t{random()} << 32 | random();
+  }
+
+  std::uint64_t start_;
   std::size_t size_;  // a power of two
   std::unique_ptr<Slot[], Free> slots_;
   std::uint32_t count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "builder.hpp"
@@ -75,7 +76,8 @@ class HeaderReader {
       PlyElement element;
       element.name = required(words, "an element name");
       element.count = parse_integer(required(words, "an element count"), lines_.number(), "an element count");
-      refuse_second(header_.elements, element.name);
+      refuse_second(element_names_, element.name);
+      property_names_.clear();
       header_.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       property(words);
@@ -108,14 +110,12 @@ class HeaderReader {
     }
     property.type = type(words);
     property.name = required(words, "a property name");
-    refuse_second(header_.elements.back().properties, property.name);
+    refuse_second(property_names_, property.name);
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  template <class Named>
-  void refuse_second(const std::vector<Named>& earlier, const std::string& name) const {
-    if (std::none_of(earlier.begin(), earlier.end(), [&](const Named& other) { return other.name == name; })) return;
-    fail_at_line(code::bad_record, "PLY header: " + quoted(name) + " occurs twice", lines_.number());
+  void refuse_second(std::set<std::string>& earlier, const std::string& name) const {
+    if (!earlier.insert(name).second) fail_at_line(code::bad_record, "PLY header: " + quoted(name) + " occurs twice", lines_.number());
   }
 
   void check_counts() const {
@@ -136,6 +136,7 @@ class HeaderReader {
   std::string_view bytes_;
   Lines lines_;
   PlyHeader header_;
+  std::set<std::string> element_names_, property_names_;
   bool has_format_ = false;
 };
 

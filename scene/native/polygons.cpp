@@ -11,15 +11,16 @@
 
 #include "base/tolerances.hpp"
 #include "base/vec.hpp"
+#include "base/work.hpp"
 #include "builder.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck::scene {
 namespace {
 
-constexpr std::int64_t most_steps = 2'000'000'000;  // a few seconds
+constexpr std::int64_t most_steps = 5'000'000'000;  // a few seconds
 
-constexpr std::int64_t sign_steps = 16;  // cost of an exact sign, in comparisons
+constexpr std::int64_t sign_steps = 16;  // cost of a sign that rounding does not hide, in comparisons
 
 Vec3 point(const MeshData& mesh, std::uint32_t vertex) {
   const double* at = mesh.vertices.data() + 3 * std::size_t{vertex};
@@ -95,9 +96,12 @@ class Outline {
 
  private:
   int turn(std::size_t a, std::size_t b, std::size_t c) {
-    if ((steps_ += sign_steps) > most_steps) fail(code::too_large, "the polygons of the file are too intricate to be cut into triangles");
+    if (steps_ > most_steps) fail(code::too_large, "the polygons of the file are too intricate to be cut into triangles: cut them before");
+    const std::uint64_t before = work_done;
     const Vec3 above{points_[a].x, points_[a].y, 1};
-    return orientation(points_[a], points_[b], points_[c], above);
+    const int sign = orientation(points_[a], points_[b], points_[c], above);
+    steps_ += sign_steps + static_cast<std::int64_t>(work_done - before);
+    return sign;
   }
 
   // The first corner from `from` on whose triangle has the orientation `wanted` and contains no other corner; the

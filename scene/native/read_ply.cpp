@@ -62,6 +62,7 @@ class AsciiRecords {
     fail_at_line(code, std::move(message), place());
   }
   static constexpr const char* unit = "line";
+  static constexpr bool has_empty_lines = true;  // for records without properties
 
  private:
   std::string_view word() {
@@ -115,6 +116,7 @@ class BinaryRecords {
     fail_at_byte(code, std::move(message), place());
   }
   static constexpr const char* unit = "before byte";
+  static constexpr bool has_empty_lines = false;
 
  private:
   const char* take(PlyType type) {
@@ -242,6 +244,16 @@ void read_strips(Records& records, const PlyElement& element, std::int64_t verte
   });
 }
 
+template <class Records>
+void skip_records(Records& records, const PlyElement& element) {
+  if (element.properties.empty() && !Records::has_empty_lines) return;
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    records.begin(element);
+    for (const PlyProperty& property : element.properties) skip_property(records, property);
+    records.end();
+  }
+}
+
 std::int64_t vertex_count_of(const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") return element.count;
@@ -278,11 +290,7 @@ MeshData read_body(Records records, const PlyHeader& header) {
       if (element.name == "edge" && element.count > 0) {
         mesh.warnings.push_back({code::ignored_geometry, std::to_string(element.count) + " edges without area ignored"});
       }
-      for (std::int64_t i = 0; i < element.count; ++i) {
-        records.begin(element);
-        for (const PlyProperty& property : element.properties) skip_property(records, property);
-        records.end();
-      }
+      skip_records(records, element);
     }
   }
   records.check_end();

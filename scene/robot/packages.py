@@ -18,6 +18,7 @@ from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_folders_in
+from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
@@ -163,9 +164,9 @@ def _name_in_manifest(folder: Path) -> str | None:
     the folder counts."""
     note(folder / _PACKAGE_XML)
     try:
-        with (folder / _PACKAGE_XML).open("rb") as file:
-            root = read_elements(file.read(_MAX_BYTES))
-    except (OSError, MeshFileError):
+        place = folder / _PACKAGE_XML
+        root = read_elements(read_whole(str(place), place, _MAX_BYTES, MeshFileError))
+    except MeshFileError:
         return None
     name = root.find("name") if root.tag == "package" else None
     return name.text or None if name else None

@@ -7,8 +7,8 @@ from itertools import pairwise
 import pytest
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.limits import MAX_PLACEMENTS
-from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
+from satcheck.scene.loading.limits import MAX_DEPTH, MAX_PLACEMENTS
+from satcheck.scene.loading.placing import refuse_explosion
 
 Held = dict[str, list[tuple[str, int]]]
 

@@ -1,0 +1,133 @@
+"""What reads files, by the kind of the file, and small good files of each kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from satcheck.audit import check
+from satcheck.audit.baseline_file import read_baseline
+from satcheck.cli.config.file import read_config
+from satcheck.cli.config.search import nearest_config
+from satcheck.cli.report.picture.html import render as page
+from satcheck.cli.report_file import read_report
+from satcheck.cli.stated_scene import stated_scene
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import AssetsReport
+from satcheck.scene import MeshFileError, Scene, load_scene
+from satcheck.scene.loading.child_formats import Reply, Request, serve
+from satcheck.scene.loading.flatten import flattened
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.planar.flat_scene import flat_scene
+from satcheck.scene.robot.poses import read_poses
+from satcheck.verify import Rejected, parse, verify
+from tests.fuzz.written import written
+
+ROOT = Path(__file__).resolve().parents[2]
+SAMPLES = ROOT / "sample_meshes"
+SEEDS = ROOT / "scene" / "native" / "fuzz" / "seeds"
+
+# Reads the file at a path. Raises SatcheckError or Rejected for one that it refuses.
+Reader = Callable[[Path], object]
+
+
+def read_bodies(path: Path) -> None:
+    refuse_errors(load_scene([path], split="none"))
+    refuse_errors(load_scene([path], split="components"))
+
+
+def refuse_errors(scene: Scene) -> None:
+    for issue in scene.issues:
+        if issue.severity == "error":
+            raise SatcheckError(issue.code, issue.message)
+
+
+def read_in_this_process(path: Path) -> None:
+    """What a reading child does. Its parent would turn every exception into `reader-failed`."""
+    kind = path.suffix[1:]
+    request = Request(kind, str(path.parent), False, False, path.read_bytes())
+    reply = serve(msgspec.msgpack.encode(request))
+    content = msgspec.msgpack.decode(reply, type=Reply).content
+    if isinstance(content, Refusal):
+        raise MeshFileError(content.code, content.message)
+    flattened(content)
+
+
+def read_scene(path: Path) -> None:
+    scene = load_scene([path])
+    if len(scene.bodies) < 20:
+        check(scene)
+
+
+def read_states(path: Path) -> None:
+    """An SRDF beside the robot that it is about."""
+    refuse_errors(load_scene([SAMPLES / "arm.urdf", path]))
+
+
+def read_drawing(path: Path) -> None:
+    refuse_errors(flat_scene(load_scene([path]), "xy"))
+
+
+def read_settings(path: Path) -> None:
+    nearest_config(path.parent)
+    read_config(path)
+
+
+def verify_report(path: Path) -> None:
+    verify(parse(path.read_text("utf-8", "replace")), path.parent)
+
+
+def view_report(path: Path) -> None:
+    report = read_report(path)
+    reports = (
+        [asset.report for asset in report.assets] if isinstance(report, AssetsReport) else [report]
+    )
+    for each in reports:
+        scene, _ = stated_scene(each, path.parent)
+        page(each, scene)
+
+
+READERS: Mapping[str, Reader] = {
+    **dict.fromkeys(("obj", "stl", "ply", "off", "glb", "gltf"), read_bodies),
+    **dict.fromkeys(("3mf", "dae", "zae", "3dxml", "xaml"), read_in_this_process),
+    **dict.fromkeys(("svg", "dxf"), read_drawing),
+    **dict.fromkeys(("toml", "json", "urdf"), read_scene),
+    "srdf": read_states,
+    "config": read_settings,
+    "baseline": read_baseline,
+    "pose": lambda path: read_poses(str(path)),
+    "verify": verify_report,
+    "view": view_report,
+}
+# The name of a file of the kind, where its ending is not the kind.
+_NAMES = {
+    "config": "satcheck.toml",
+    **dict.fromkeys(("baseline", "pose", "verify", "view"), "document.json"),
+}
+
+
+def name_of(kind: str) -> str:
+    return _NAMES.get(kind, f"file.{kind}")
+
+
+def attempt(kind: str, path: Path) -> str:
+    """The code of the error; "" for a file that is read. Raises what no reader should raise."""
+    try:
+        READERS[kind](path)
+    except SatcheckError as error:
+        return error.code
+    except Rejected:
+        return "rejected"
+    return ""
+
+
+@cache
+def seeds(kind: str) -> list[bytes]:
+    """Good files, and of native readers also the inputs that the fuzzer started from."""
+    files = [path for path in sorted(SAMPLES.iterdir()) if path.suffix == f".{kind}"]
+    native = SEEDS / kind
+    files += sorted(native.iterdir()) if native.is_dir() else []
+    return [path.read_bytes() for path in files] + written(kind)
