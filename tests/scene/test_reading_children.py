@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,8 +29,8 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[worker._Child]:
     children: list[worker._Child] = []
 
     class Recorded(worker._Child):
-        def __init__(self, module: str, megabytes: int, grouped: bool) -> None:
-            super().__init__(module, megabytes, grouped)
+        def __init__(self, *arguments: Any) -> None:
+            super().__init__(*arguments)
             children.append(self)
 
     monkeypatch.setattr(worker, "_Child", Recorded)
