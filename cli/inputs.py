@@ -16,7 +16,7 @@ from satcheck.cli.report.words import counted, issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.input_kind import kind_of
+from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.path_kind import is_folder
@@ -28,6 +28,7 @@ class Inputs(Struct, frozen=True):
 
     paths: tuple[str, ...]
     packages: Mapping[str, Path] | None = None
+    geometry: GeometryKind | None = None
     split: Split | None = None
     units: str | None = None
     allow_outside: bool = False
@@ -131,6 +132,7 @@ def read(inputs: Inputs, paths: Sequence[str], *, hashed: bool) -> Scene:
         units=inputs.units,
         hashed=hashed,
         rules=inputs.rules,
+        geometry=inputs.geometry or "collision",
         seconds_per_file=inputs.seconds_per_file,
         megabytes_per_file=inputs.megabytes_per_file,
     )

@@ -420,7 +420,13 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="The folder of a ROS package, or of a folder in it (arm/meshes). Repeatable.",
+    help="The folder of a ROS package or a Gazebo model, or of a folder in it (arm/meshes). "
+    "Repeatable.",
+)
+geometry_option = click.option(
+    "--geometry",
+    type=click.Choice(("collision", "visual")),
+    help="Which geometry of the links of robots is checked.  [default: collision]",
 )
 _POSE_OPTIONS = (
     click.option(
@@ -458,7 +464,12 @@ def picture_options(command: _Command) -> _Command:
     return command
 
 
-_ONE_POSE_OPTIONS = (
+_ONEgeometry_option = click.option(
+    "--geometry",
+    type=click.Choice(("collision", "visual")),
+    help="Which geometry of the links of robots is checked.  [default: collision]",
+)
+_POSE_OPTIONS = (
     click.option(
         "--pose",
         multiple=True,

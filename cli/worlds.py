@@ -83,6 +83,7 @@ def check_options(
         packages=packages,
         allow_outside=inputs.allow_outside,
         units=inputs.units,
+        geometry=inputs.geometry or "collision",
         rules=tuple(map(str, inputs.rules)),
         settings={**options, **inputs.limits},
         seconds_per_file=inputs.seconds_per_file,

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.input_kind import SCENE_SUFFIXES
+from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.path_kind import exists, is_folder
 
-_ALWAYS = frozenset((*FORMATS, ".urdf"))
+_ALWAYS = ROBOT_SUFFIXES.union(FORMATS)
 # Other JSON and TOML files lie in most folders.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
 _PATTERN = frozenset("*?[")

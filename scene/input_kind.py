@@ -13,10 +13,11 @@ from satcheck.scene.loading.source import FORMATS
 InputKind = Literal["mesh", "scene", "robot", "srdf"]
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
+ROBOT_SUFFIXES = frozenset((".urdf", ".sdf", ".world"))
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
     **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),
-    ".urdf": "robot",
+    **dict.fromkeys(ROBOT_SUFFIXES, "robot"),
     ".srdf": "srdf",
 }
 _XACRO = ".xacro"  # expands to a URDF or an SRDF
@@ -35,7 +36,7 @@ def kind_of(path: str) -> InputKind:
     root, *below = _first_elements(Path(path))
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
-    return "robot" if suffix == _XACRO else "mesh"
+    return "robot" if root == "sdf" or suffix == _XACRO else "mesh"
 
 
 def _first_elements(location: Path) -> list[str]:

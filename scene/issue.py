@@ -74,9 +74,11 @@ _ALL = (
     Code("no-volume", "warning", "The mesh is closed and encloses no volume: it is a sheet."),
     Code("degenerate-triangles", "warning", "Some triangles have area 0."),
     Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
-    # The robot: URDF, SRDF and the values of joints.
-    Code("bad-robot", "error", "The URDF or SRDF is not what its format prescribes."),
-    Code("xacro", "error", "The file is xacro and has to be expanded first."),
+    # The robot: URDF, SRDF, SDFormat and the values of joints.
+    Code(
+        "bad-robot", "error", "The URDF, SRDF or SDFormat file is not what its format prescribes."
+    ),
+    Code("xacro", "error", "The file has macros (xacro, ERB) and has to be expanded first."),
     Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
     Code("unknown-element", "warning", "An element unknown to the format was ignored."),
     Code("unknown-attribute", "warning", "An attribute unknown to the format was ignored."),
@@ -84,6 +86,11 @@ _ALL = (
     Code("no-limits", "warning", "A joint has no usable limits and is treated as unlimited."),
     Code("no-leader", "warning", "A joint mimics a missing joint and moves independently."),
     Code("no-collision-geometry", "note", "Links with only visual geometry have no body."),
+    Code("visual-geometry", "note", "Visual geometry is checked, not collision geometry."),
+    Code("half-space", "warning", "A plane is no finite body: nothing is checked against it."),
+    Code("simplified-mesh", "warning", "A simulator replaces the mesh that is checked."),
+    Code("joint-not-moved", "warning", "A joint of this kind, or of a loop, is not moved."),
+    Code("stored-state", "warning", "A stored state of a simulation is not applied."),
     Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),
     Code("beyond-limits", "warning", "A joint stands beyond its limits."),
     Code("not-at-zero", "note", "0 is beyond the limits of a joint without a value in the pose."),

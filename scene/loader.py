@@ -20,6 +20,7 @@ from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
+    from satcheck.scene.robot.model import GeometryKind
 
 
 def load_scene(
@@ -33,6 +34,7 @@ def load_scene(
     hashed: bool = True,
     units: str | None = None,
     rules: Sequence[str | Path] = (),
+    geometry: GeometryKind = "collision",
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -41,6 +43,7 @@ def load_scene(
       all bodies.
     - A `.urdf` file, or other XML with <robot> as its root, is a robot at rest with a body for each
       <collision>. A `.srdf` file says which of its links may touch.
+    - A `.sdf` or `.world` file, or other XML with <sdf> as its root, is read as a robot too.
     - Files of rules and SRDFs have no bodies. They change no body and no id.
     Ids come from the scene file, the links, `plain_ids`, or the paths of nodes (after the id of
     their file if there are several files). Repeated ids get the suffix -2, -3, ...
@@ -49,12 +52,13 @@ def load_scene(
     node with a mesh in a GLB, glTF, 3MF or 3DXML file is a body; other formats have no nodes.
     "components": each edge-connected component of these is a body. None: "nodes" for a single file,
     else "none".
-    packages: folders of the packages that a URDF names, see `robot.MeshPlaces`.
+    packages: folders of the packages and models that a robot names, see `robot.MeshPlaces`.
     allow_outside: a scene, a robot or a glTF file may name files outside of its folder.
     hashed: compute the SHA-256 of each file, which some reports contain.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
     rules: files of rules, about all bodies. They count after those of the scenes.
+    geometry: which elements of the links of robots are bodies: "collision" or "visual".
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
@@ -76,7 +80,7 @@ def load_scene(
         if kind == "scene":
             builder.add_scene(scenes[path])
         elif kind == "robot":
-            builder.add_robot(path, Path(path), packages, allow_outside)
+            builder.add_robot(path, Path(path), packages, allow_outside, geometry)
         elif kind == "srdf":
             builder.add_srdf(path, Path(path))
         elif split == "none":

@@ -67,6 +67,11 @@ class Selector(Struct, frozen=True):
         return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
 
     @classmethod
+    def exactly_group(cls, group: str) -> Selector:
+        """The selector of this one group."""
+        return cls(GROUP + re.sub(_SPECIAL, r"[\g<0>]", group))
+
+    @classmethod
     def writable(cls, body: str) -> Selector:
         """The selector of this id, in characters that a text file can hold. A byte of the id that
         is not text becomes a pattern that matches all such bytes and no character."""

@@ -25,11 +25,12 @@ from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
-    from satcheck.scene.robot import SceneRobot, Srdf
+    from satcheck.scene.robot import Part, SceneRobot, Srdf
+    from satcheck.scene.robot.model import GeometryKind
 
 Split = Literal["nodes", "components", "none"]
 
-ROBOT_UNITS = "m"  # of every URDF
+ROBOT_UNITS = "m"  # of every URDF and SDFormat file
 
 
 class SceneBuilder:
@@ -42,6 +43,7 @@ class SceneBuilder:
         self._files = files
         self._given_units = units
         self._ids = UniqueNames()
+        self._group_names = UniqueNames()
         self._order: list[str] = []
         self._names: list[str] = []
         self._inputs: list[Input] = []
@@ -95,7 +97,7 @@ class SceneBuilder:
             self._names.append(scene.name)
             self._only_meshes = False
             self._begin("scene", path, scene.units)
-        self._scenes = self._scenes or JoinedScenes()
+        self._scenes = self._scenes or JoinedScenes(self._group_names)
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
         self._scenes.add(scene, ids, groups)
@@ -147,37 +149,48 @@ class SceneBuilder:
         location: Path,
         packages: Mapping[str, str | Path] | None,
         allow_outside: bool,
+        geometry: GeometryKind,
     ) -> None:
         from satcheck.scene.robot import (
-            MeshPlaces,
+            FilePlaces,
             RobotBody,
             SceneRobot,
             bare_links,
             parts_of,
-            read_urdf,
+            read_robot,
         )
 
-        robot, issues = read_urdf(path, location)
+        places = FilePlaces(packages, allow_outside=allow_outside)
+        robot, issues = read_robot(path, location, places, geometry)
         self._names.append(robot.name)
         self._only_meshes = False
         self._begin("robot", path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
+        parts = parts_of(robot, places)
+        groups = self._groups_of(robot.name, parts)
         bodies = []
-        for part in parts_of(robot, MeshPlaces(path, packages, allow_outside=allow_outside)):
+        for part in parts:
+            own = tuple(groups[group] for group in part.groups)
+            place, shape, offset = part.file, None, part.offset
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
                 file = self._files.whole(place, part.source)
-                offset = self._in_metres(file, part.offset)
-                id_ = self._add(part.id, part.id, place, file, offset)
+                offset = self._in_metres(file, offset)
             elif isinstance(part.source, MeshFileError):
-                file, offset = part.source, part.offset
-                id_ = self._add(part.id, part.id, path, file, offset)
+                file = part.source
             else:
-                file, offset = self._files.shape(part.source, path), part.offset
-                id_ = self._add(part.id, part.id, path, file, offset, shape=part.source)
-            self._entries[id_] = Entry(path, line=part.line)
-            bodies.append(RobotBody(id_, part.link, placing_mesh(file, offset) or offset))
-        self._robots.append(SceneRobot(robot, tuple(bodies)))
+                shape = part.source
+                file = self._files.shape(shape, place)
+            id_ = self._add(part.id, part.id, place, file, offset, own, part.static, shape)
+            self._entries[id_] = Entry(part.file, line=part.line)
+            offset = placing_mesh(file, offset) or offset
+            bodies.append(RobotBody(id_, part.link, offset, part.groups))
+        self._robots.append(SceneRobot(robot, tuple(bodies), groups=groups))
+
+    def _groups_of(self, robot: str, parts: Sequence[Part]) -> dict[str, str]:
+        """Groups of a robot -> their names in the check."""
+        groups = dict.fromkeys(group for part in parts for group in part.groups)
+        return {group: self._group_names.unique(f"{robot}: {group}") for group in groups}
 
     def _in_metres(self, file: MeshFile | MeshFileError, offset: Transform) -> Transform:
         return scaled_mesh(offset, self._scale(file, None)) or offset

@@ -24,11 +24,12 @@ MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
-    check_static: whether any file requires it. ignored: groups whose pairs are not checked.
+    group_names: makes names of groups unique in the check. check_static: whether any file requires
+    it. ignored: groups whose pairs are not checked.
     """
 
-    def __init__(self) -> None:
-        self._group_names = UniqueNames()
+    def __init__(self, group_names: UniqueNames) -> None:
+        self._group_names = group_names
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
         self.check_static = False

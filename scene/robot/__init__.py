@@ -1,10 +1,11 @@
-"""Robots: URDF and SRDF -> bodies in a pose.
+"""Robots: URDF, SRDF and SDFormat -> bodies in a pose.
 
 `load_scene` reads them. `posed` puts the robots of a scene into another pose without reading files
 again. `joint_samples` draws random poses.
 """
 
 from satcheck.scene.robot.assembly import (
+    Part,
     RobotBody,
     SceneRobot,
     bare_links,
@@ -15,16 +16,19 @@ from satcheck.scene.robot.assembly import (
     with_srdfs,
 )
 from satcheck.scene.robot.model import Joint, Link, Robot
-from satcheck.scene.robot.packages import MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
+from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.sampling import joint_samples
 from satcheck.scene.robot.srdf import Srdf, State, read_srdf
 from satcheck.scene.robot.urdf import read_urdf
 
 __all__ = [
+    "FilePlaces",
     "Joint",
     "Link",
     "MeshPlaces",
+    "Part",
     "Pose",
     "Posture",
     "Robot",
@@ -39,6 +43,7 @@ __all__ = [
     "pose_of_states",
     "posed",
     "read_poses",
+    "read_robot",
     "read_srdf",
     "read_urdf",
     "settle",

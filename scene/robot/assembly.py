@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations, product
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import Collision, Link, MeshReference, RefusedShape, Robot
-from satcheck.scene.robot.packages import MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf, State
 from satcheck.scene.rules import Rule, Selector
@@ -28,8 +28,8 @@ SAME_LINK = "one rigid link"
 
 
 class Part(Struct, frozen=True):
-    """One <collision> that becomes a body. offset: its geometry in the frame of the link. line: of
-    the URDF.
+    """One <collision> that becomes a body. offset: its geometry in the frame of the link. file,
+    line: where it is stated. groups: as the robot names them.
 
     source: the path of a mesh file, a shape, or the error if there is neither.
     """
@@ -38,23 +38,28 @@ class Part(Struct, frozen=True):
     link: str
     offset: Transform
     source: Path | Primitive | MeshFileError
+    file: str
     line: int
+    static: bool = False
+    groups: tuple[str, ...] = ()
 
 
 class RobotBody(Struct, frozen=True):
-    """A body of a link of a robot, readable or not."""
+    """A body of a link of a robot, readable or not. groups: as the robot names them."""
 
     id: str
     link: str
     offset: Transform
+    groups: tuple[str, ...] = ()
 
 
 class SceneRobot(Struct, frozen=True):
-    """A robot, its bodies, and its SRDF."""
+    """A robot, its bodies, and its SRDF. groups: as the robot names them -> as the check does."""
 
     robot: Robot
     bodies: tuple[RobotBody, ...]
     srdf: Srdf | None = None
+    groups: Mapping[str, str] = {}
 
     @property
     def states(self) -> tuple[State, ...]:
@@ -83,12 +88,12 @@ class SceneRobot(Struct, frozen=True):
         return pairs
 
 
-def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
+def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
     """One part for each <collision>. Its id is the name of the link; if the link has several,
     "link/name" or "link/number". Parts that fail for the same cause share one message, which states
     their number."""
     collisions = [
-        (link, collision, number, _source(collision, places))
+        (link, collision, number, _source(collision, places.of(collision.file or robot.file)))
         for link in robot.links.values()
         for number, collision in enumerate(link.collisions, 1)
     ]
@@ -104,7 +109,10 @@ def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
             source=_placed(source, lost[source.code, source.message])
             if isinstance(source, MeshFileError)
             else source,
+            file=collision.file or robot.file,
             line=collision.line,
+            static=link.static,
+            groups=collision.groups,
         )
         for link, collision, number, source in collisions
     ]
@@ -121,13 +129,14 @@ def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
 
 
 def bare_links(robot: Robot) -> list[Issue]:
-    """A note on links with visual geometry but without collision geometry."""
-    bare = [link.name for link in robot.links.values() if link.visual and not link.collisions]
+    """A note on links that have only geometry of the kind that is not checked."""
+    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
     if not bare:
         return []
     have = "link has" if len(bare) == 1 else "links have"
+    others = "visual" if robot.geometry == "collision" else "collision"
     message = (
-        f"{len(bare)} {have} visual geometry and no <collision>, so no body is checked: "
+        f"{len(bare)} {have} {others} geometry and no <{robot.geometry}>, so no body is checked: "
         f"{listed(bare)}"
     )
     return [issue("no-collision-geometry", message, file=robot.file)]
@@ -162,6 +171,7 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
     for link in robot.robot.links:
         for pair in combinations(robot.bodies_of(link), 2):
             allowed.append(_allowed(pair, SAME_LINK, robot.robot.file))
+    allowed += exempted(robot)
     solid = list(dict.fromkeys(body.link for body in robot.bodies))
     if robot.srdf is not None:
         for a, b in combinations(solid, 2):
@@ -172,8 +182,30 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
     return allowed, [*_other_name(robot), *_unknown_links(robot), *_checked_neighbours(robot)]
 
 
-def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
-    a, b = map(Selector.exactly, pair)
+def exempted(robot: SceneRobot) -> list[Rule]:
+    """Rules for the pairs that the format does not check: of groups, then of links."""
+    exempt, file = robot.robot.exempt, robot.robot.file
+    if exempt is None:
+        return []
+    members = Counter(group for body in robot.bodies for group in body.groups)
+    rules = [
+        _allowed((robot.groups[e.a], robot.groups[e.b]), e.reason, file, Selector.exactly_group)
+        for e in exempt.groups
+        if (members[e.a] > 1 if e.a == e.b else members[e.a] and members[e.b])
+    ]
+    for e in exempt.links:
+        for pair in product(robot.bodies_of(e.a), robot.bodies_of(e.b)):
+            rules.append(_allowed(pair, e.reason, file))
+    return rules
+
+
+def _allowed(
+    pair: tuple[str, str],
+    reason: str,
+    file: str,
+    select: Callable[[str], Selector] = Selector.exactly,
+) -> Rule:
+    a, b = map(select, pair)
     return Rule(a=a, b=b, allowed=True, reason=reason, where=file, file=file)
 
 
@@ -266,6 +298,8 @@ def _unknown_links(robot: SceneRobot) -> list[Issue]:
 
 
 def _checked_neighbours(robot: SceneRobot) -> list[Issue]:
+    if robot.robot.exempt is not None:
+        return []
     permitted = robot.srdf.permission if robot.srdf else lambda *_: None
     checked = [f"{a} and {b}" for a, b in robot.neighbours() if permitted(a, b) is None]
     if not checked:

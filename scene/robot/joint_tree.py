@@ -41,7 +41,7 @@ def in_order(
         reached = {*roots, *(joint.child for joint in ordered)}
         circle = _circle(next(name for name in links if name not in reached), carriers)
         robot.refuse(f"joints form a cycle: {circle}", "reference-cycle")
-    _check_mimics(joints)
+    check_mimics(joints)
     return roots[0], ordered
 
 
@@ -68,12 +68,15 @@ def _circle(link: str, carriers: Mapping[str, Joint]) -> str:
     return " -> ".join(map(repr, round_trip))
 
 
-def _check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
+def check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
+    """Raises SceneFileError for a joint that mimics itself or a joint that it cannot mimic."""
     by_name = {joint.name: joint for joint, _ in joints}
     for joint, element in joints:
         chain = [joint]
         while (mimic := chain[-1].mimic) is not None:
-            leader = by_name[mimic.joint]
+            leader = by_name.get(mimic.joint)
+            if leader is None:  # it does not move
+                break
             if leader.freedoms > 1:
                 element.refuse(f"{chain[-1].name!r} mimics {leader.name!r}, a {leader.kind} joint")
             if leader in chain:

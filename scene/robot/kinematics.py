@@ -30,14 +30,37 @@ _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def link_poses(robot: Robot, values: Mapping[str, Values]) -> dict[str, Transform]:
-    """World pose of each link. The root has the identity. values: of every joint that moves."""
-    poses = {robot.root: IDENTITY}
+    """World pose of each link. values: of every joint that moves.
+
+    A link with a pose at rest has exactly this pose while no joint above it has moved.
+    """
+    poses = dict(robot.roots)
+    still = set(poses)
     for joint in robot.joints:
-        placed = compose(poses[joint.parent], joint.origin)
-        if joint.freedoms:
-            placed = compose(placed, motion(joint, values[joint.name]))
-        poses[joint.child] = placed
+        own = values[joint.name] if joint.freedoms else ()
+        if joint.parent in still and not any(own):
+            still.add(joint.child)
+        link = robot.links[joint.child]
+        if link.rest is not None and joint.child in still:
+            poses[joint.child] = link.rest
+        else:
+            poses[joint.child] = _carried(joint, poses[joint.parent], own)
     return poses
+
+
+def _carried(joint: Joint, parent: Transform, values: Values) -> Transform:
+    pose = compose(parent, joint.origin)
+    if joint.freedoms:
+        pose = compose(pose, motion(joint, values))
+    return pose if joint.child_origin == IDENTITY else compose(pose, joint.child_origin)
+
+
+def inverse(pose: Transform) -> Transform:
+    """Of a rigid pose."""
+    turn = (*pose[0:9:4], *pose[1:10:4], *pose[2:11:4])
+    x, y, z = pose[3:12:4]
+    shift = (-(a * x + b * y + c * z) for a, b, c in (turn[0:3], turn[3:6], turn[6:9]))
+    return placed(turn, tuple(shift))
 
 
 def motion(joint: Joint, values: Sequence[float]) -> Transform:

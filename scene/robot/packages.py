@@ -1,11 +1,12 @@
-"""Finds the mesh files that a URDF names: package://, model://, file://, and plain paths.
+"""Finds the files that a URDF or SDFormat file names: package://, model://, file://, and plain
+paths.
 
-A URDF is untrusted. Only files in its package, or in a folder that the user named, are opened.
-Other files need `allow_outside`.
+A robot file is untrusted. Only files in its package, or in a folder that the user named, are
+opened. Other files need `allow_outside`.
 
-The package of a URDF is the nearest parent folder with a package.xml (or Gazebo's model.config).
-Without one it is the parent of the URDF's folder, because most repositories have robot/urdf and
-robot/meshes.
+The package of a file is the nearest parent folder with a package.xml (or Gazebo's model.config).
+Without one it is the parent of the file's folder, because most repositories have robot/urdf and
+robot/meshes, or worlds and models.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -20,6 +22,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
+from satcheck.scene.path_kind import is_file, is_folder
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")
@@ -27,32 +30,45 @@ _PACKAGE_XML = "package.xml"
 _MANIFESTS = (_PACKAGE_XML, "model.config")  # mark the root of a package, of a Gazebo model
 _MAX_BYTES = 1 << 20
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
+_MODELS = "models"  # the usual name of a folder with Gazebo models, each a folder
+# Environment variables with folders that hold packages, models or files.
+_VARIABLES = (
+    "ROS_PACKAGE_PATH",
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
+)
+_AMENT = "AMENT_PREFIX_PATH"  # the packages are in `share` of its folders
+MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old Gazebo models
 
 
 class MeshPlaces:
-    """Resolves the mesh URIs of one URDF.
+    """Resolves the URIs of one URDF or SDFormat file.
 
     packages: the name of a package, or of a folder in it ("name/meshes") -> its location; the
-    longest matching name counts. Other packages are searched in the folders above the URDF and
-    their siblings, then in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH. They match by the name of the
-    folder, or else by the <name> in package.xml.
+    longest matching name counts. Other packages are searched in the folders above the file, their
+    siblings and the folders `models` among these, then in the folders of environment variables.
+    They match by the name of the folder, or else by the <name> in package.xml.
     """
 
     def __init__(
         self,
-        urdf: str,
+        file: str,
         packages: Mapping[str, str | Path] | None = None,
         *,
         allow_outside: bool = False,
     ) -> None:
-        self._folder = Path(urdf).parent
+        self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._allow_outside = allow_outside
         self._root = self._upwards(self._steps_to_root())
         self._own = self._root.resolve()
 
-    def locate(self, uri: str) -> Path:
-        """The path of an existing file, relative if the path of the URDF is relative.
+    def locate(self, uri: str, *, models: bool = False) -> Path:
+        """The path of an existing file, relative if the path of the URDF is relative. models: or of
+        the folder of a Gazebo model.
 
         Raises MeshFileError. Its message names the cause and not the file, so that files with the
         same cause share one message.
@@ -65,10 +81,13 @@ class MeshPlaces:
         match = _SCHEME.fullmatch(uri)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", uri)
         if scheme in _PACKAGE_SCHEMES:
-            return self._in_package(rest.replace("\\", "/").lstrip("/"))  # some write package:///
+            # Some write package:///
+            return self._in_package(rest.replace("\\", "/").lstrip("/"), models)
         if scheme not in ("", "file"):
             raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched")
-        place = _existing(self._folder, rest, quoted=scheme == "file")
+        place = self._plain(rest, models, quoted=scheme == "file")
+        if _is_from_environment(place):
+            return place
         if not self._may_open(place):
             raise MeshFileError(
                 "outside-path",
@@ -77,9 +96,19 @@ class MeshPlaces:
             )
         return place
 
-    def _in_package(self, rest: str) -> Path:
+    def _plain(self, rest: str, models: bool, *, quoted: bool) -> Path:
+        """Beside the file, or else in a folder of the environment."""
+        try:
+            return _existing(self._folder, rest, models, quoted=quoted)
+        except MeshFileError:
+            for root in _environment():
+                with suppress(MeshFileError):
+                    return _existing(root, rest, models, quoted=quoted)
+            raise
+
+    def _in_package(self, rest: str, models: bool) -> Path:
         name, _, inner = rest.partition("/")
-        if named := self._named(rest):
+        if named := self._named(rest, models):
             return named
         folders = []
         places = []
@@ -87,7 +116,7 @@ class MeshPlaces:
         for folder in filter(_is_folder, self._folders_of(name)):
             folders.append(folder)
             try:
-                place = _existing(folder, inner, quoted=True)
+                place = _existing(folder, inner, models, quoted=True)
             except MeshFileError as error:
                 reasons.append(error)
                 continue
@@ -106,7 +135,7 @@ class MeshPlaces:
         message = f"package {name!r} is not found: --package {name}={likely} says where it lies"
         raise MeshFileError("missing-resource", message)
 
-    def _named(self, rest: str) -> Path | None:
+    def _named(self, rest: str, models: bool) -> Path | None:
         """Resolves by the packages that the user named. Files in their folders are trusted."""
         parts = rest.split("/")
         for length in range(len(parts), 0, -1):
@@ -115,7 +144,7 @@ class MeshPlaces:
                 inside = "/".join(parts[length:])
                 if not self._allow_outside and not _within(folder / inside, folder.resolve()):
                     raise MeshFileError("outside-path", f"the path leaves {folder}: refused")
-                return _existing(folder, inside, quoted=True)
+                return _existing(folder, inside, models, quoted=True)
         return None
 
     def _folders_of(self, name: str) -> Iterator[Path]:
@@ -130,6 +159,7 @@ class MeshPlaces:
             if above.name == name:
                 yield folder
             yield folder / name
+            yield folder / _MODELS / name
         for root in _environment():
             yield root if root.name == name else root / name
 
@@ -156,7 +186,24 @@ class MeshPlaces:
         return self._allow_outside or _within(place, self._own)
 
     def _outside(self) -> str:
-        return f"outside of {self._own}, where the package of the URDF is"
+        return f"outside of {self._own}, where the package of the file is"
+
+
+class FilePlaces:
+    """The MeshPlaces of each of several files. packages, allow_outside: as for these."""
+
+    def __init__(
+        self, packages: Mapping[str, str | Path] | None = None, *, allow_outside: bool = False
+    ) -> None:
+        self._packages = packages
+        self._allow_outside = allow_outside
+        self._places: dict[str, MeshPlaces] = {}
+
+    def of(self, file: str) -> MeshPlaces:
+        if file not in self._places:
+            outside = self._allow_outside
+            self._places[file] = MeshPlaces(file, self._packages, allow_outside=outside)
+        return self._places[file]
 
 
 def _name_in_manifest(folder: Path) -> str | None:
@@ -172,8 +219,9 @@ def _name_in_manifest(folder: Path) -> str | None:
     return name.text or None if name else None
 
 
-def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
-    r"""The file at `path` from `folder`. quoted: %20 may stand for a space.
+def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path:
+    r"""The file at `path` from `folder`. models: or the folder of a model. quoted: %20 may stand
+    for a space.
 
     Tries the path as written first, then with / for \, because some files are written on Windows.
     """
@@ -181,12 +229,19 @@ def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
     spellings += [spelling.replace("\\", "/") for spelling in spellings if "\\" in spelling]
     places = [_tidy(folder / spelling) for spelling in spellings]
     for place in places:
-        if _is_file(place):
+        if _is_file(place) or (models and _is_model(place)):
             return place
+    if models and any(map(_is_folder, places)):
+        raise MeshFileError("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
     above = places[-1].parent
     where = f"{above.as_posix().rstrip('/')}/"
     what = f"no such file in {where}" if _is_folder(above) else f"there is no folder {above}"
     raise MeshFileError("missing-resource", what)
+
+
+def _is_model(folder: Path) -> bool:
+    """Whether it is the folder of a Gazebo model."""
+    return any(_is_file(folder / manifest) for manifest in MODEL_MANIFESTS)
 
 
 def _folders_in(folder: Path) -> list[Path]:
@@ -197,24 +252,25 @@ def _folders_in(folder: Path) -> list[Path]:
         return []
 
 
-def search_path() -> tuple[str, str]:
-    """The environment variables of ROS 1 and ROS 2 that name folders of packages."""
-    return os.environ.get("ROS_PACKAGE_PATH", ""), os.environ.get("AMENT_PREFIX_PATH", "")
+def search_path() -> tuple[str, ...]:
+    """The environment variables of ROS and Gazebo that name folders of packages and models."""
+    return tuple(os.environ.get(name, "") for name in (_AMENT, *_VARIABLES))
 
 
 def _environment() -> list[Path]:
-    ros, ament = (text.split(os.pathsep) for text in search_path())
-    return [Path(entry) for entry in ros if entry] + [Path(e) / "share" for e in ament if e]
+    ament, *others = (text.split(os.pathsep) for text in search_path())
+    plain = [Path(entry) for entries in others for entry in entries if entry]
+    return plain + [Path(entry) / "share" for entry in ament if entry]
 
 
 def _is_file(place: Path) -> bool:
     note(place)
-    return place.is_file()
+    return is_file(place)
 
 
 def _is_folder(place: Path) -> bool:
     note(place)
-    return place.is_dir()
+    return is_folder(place)
 
 
 def _is_from_environment(place: Path) -> bool:

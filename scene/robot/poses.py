@@ -3,8 +3,8 @@
     {"joint": value, ...}          one pose; a list of such objects is several
 
 A value is a number (radians; metres for a prismatic joint), or a list of numbers: [x, y, angle] for
-a planar joint, [x, y, z, roll, pitch, yaw] for a floating one. Joints without a value stand at 0,
-or at the nearer limit if 0 is beyond their limits.
+a planar joint, [x, y, z, roll, pitch, yaw] for a floating one. Joints without a value stand at 0.
+If 0 is beyond its limits, a joint of a URDF stands at the nearer limit.
 """
 
 from __future__ import annotations
@@ -187,7 +187,7 @@ def _check_named(
 
 
 def _rest(joint: Joint, issues: list[Issue]) -> Values:
-    if joint.limits is None:
+    if joint.limits is None or joint.stands_at_zero:
         return (0.0,) * joint.freedoms
     value = min(max(0.0, joint.limits.lower), joint.limits.upper)
     if value:

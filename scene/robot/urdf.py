@@ -16,12 +16,13 @@ from typing import NoReturn, get_args
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.issue import Issue
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 from satcheck.scene.robot.model import (
     Collision,
     Geometry,
+    GeometryKind,
     Joint,
     JointKind,
     Limits,
@@ -31,8 +32,8 @@ from satcheck.scene.robot.model import (
     RefusedShape,
     Robot,
 )
+from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
-from satcheck.scene.words import meant
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
@@ -49,6 +50,7 @@ _SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
     "capsule": {"radius": 1, "length": 1},
 }
 _COLLISION_PARTS = frozenset(("origin", "geometry"))
+_NO_GEOMETRY = _COLLISION_PARTS | {"material"}  # of a <visual>
 # Elements that simulators add to links, joints and collisions, and that place nothing.
 _EXTENSIONS = frozenset(("contact", "material", "sensor", "verbose", "hardwareInterface", "limits"))
 
@@ -58,33 +60,22 @@ def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
 
     path: of the file, for messages; location: where it lies. No mesh is opened.
     """
-    return _Reader(path).read(read_tree(path, location, "robot"))
+    return robot_of(read_tree(path, location, "robot"))
 
 
-class _Slips:
-    """Collects harmless mistakes in file order, with one warning for each cause."""
-
-    def __init__(self) -> None:
-        self._lines: dict[tuple[str, str], list[int]] = {}
-
-    def note(self, code: str, element: Element, cause: str) -> None:
-        self._lines.setdefault((code, cause), []).append(element.line)
-
-    def issues(self, file: str) -> tuple[Issue, ...]:
-        return tuple(
-            issue(code, f"line {lines[0]}: {cause}{_more(lines)}", file=file)
-            for (code, cause), lines in self._lines.items()
-        )
-
-
-def _more(lines: list[int]) -> str:
-    return f" ({len(lines)} times)" if len(lines) > 1 else ""
+def robot_of(
+    root: Element, geometry: GeometryKind = "collision"
+) -> tuple[Robot, tuple[Issue, ...]]:
+    """As `read_urdf`. root: the outermost element. geometry: which elements become bodies."""
+    return _Reader(root.file, geometry).read(root)
 
 
 class _Reader:
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, geometry: GeometryKind) -> None:
         self._path = path
-        self._slips = _Slips()
+        self._geometry = geometry
+        self._others = "visual" if geometry == "collision" else "collision"
+        self._slips = Slips()
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
         links: dict[str, Link] = {}
@@ -104,16 +95,17 @@ class _Reader:
             joints[joint.name] = joint, element
         base, ordered = in_order(root, links, list(joints.values()))
         name = root.attributes.get("name") or Path(self._path).stem
-        return Robot(name, self._path, base, links, ordered), self._slips.issues(self._path)
+        robot = Robot(name, self._path, {base: IDENTITY}, links, ordered, geometry=self._geometry)
+        return robot, self._slips.issues()
 
     def _link(self, element: Element) -> Link:
         name = element.attribute("name")
         self._note_unknown(element, _LINK_PARTS)
-        collisions = (self._collision(inner) for inner in element.all("collision"))
+        collisions = (self._collision(inner) for inner in element.all(self._geometry))
         return Link(
             name=name,
             collisions=tuple(collision for collision in collisions if collision is not None),
-            visual=bool(element.all("visual")),
+            unused=bool(element.all(self._others)),
         )
 
     def _collision(self, element: Element) -> Collision | None:
@@ -123,7 +115,9 @@ class _Reader:
         try:
             shape = _only_shape(element)
             if shape is None:
-                self._slips.note("no-shape", element, "a <collision> without geometry: no body")
+                self._slips.note(
+                    "no-shape", element, f"a <{element.tag}> without geometry: no body"
+                )
                 return None
             if _is_point(shape):
                 self._slips.note("no-shape", shape, f"a <{shape.tag}> of size 0: no body")
@@ -200,18 +194,14 @@ class _Reader:
         return None
 
     def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
-        for child in element.children:
-            if child.tag not in known and child.tag not in _EXTENSIONS and ":" not in child.tag:
-                hint = meant(child.tag, known)
-                cause = f"unknown <{child.tag}> in <{element.tag}>{hint}: ignored"
-                self._slips.note("unknown-element", child, cause)
+        self._slips.note_unknown(element, known, _EXTENSIONS)
 
 
 def _only_shape(collision: Element) -> Element | None:
     """The geometry of a collision; None if it has no shape, not even a misspelt one."""
     geometry = collision.only("geometry")
     if geometry is None:
-        if all(child.tag in _COLLISION_PARTS for child in collision.children):
+        if all(child.tag in _NO_GEOMETRY for child in collision.children):
             return None
         collision.refuse("<geometry> is missing")
     if len(geometry.children) > 1:

@@ -56,6 +56,7 @@ class Element(xml_tree.Element):
     def says_the_same_as(self, other: Self) -> bool:
         return (
             self.tag == other.tag
+            and self.text == other.text
             and self.attributes == other.attributes
             and len(self.children) == len(other.children)
             and all(
@@ -77,15 +78,14 @@ class Element(xml_tree.Element):
         """`count` finite numbers. Without a default the attribute is required."""
         if default is not None and attribute not in self.attributes:
             return default
-        value = self.attribute(attribute)
-        words = value.split()
-        if len(words) != count:
-            wanted = "1 number" if count == 1 else f"{count} numbers"
-            self._refuse_value(attribute, value, f"should be {wanted}")
-        return tuple(self._number(attribute, word) for word in words)
+        return self._numbers(f"{attribute}=", self.attribute(attribute), count)
 
     def number(self, attribute: str, default: float | None = None) -> float:
         return self.numbers(attribute, 1, None if default is None else (default,))[0]
+
+    def text_numbers(self, count: int) -> tuple[float, ...]:
+        """`count` finite numbers, which are the text of the element."""
+        return self._numbers("", self.text, count)
 
     def knows(self, attributes: Collection[str], *, others: bool = False) -> None:
         """Refuses unknown attributes; with `others` only those that resemble a known one.
@@ -101,26 +101,35 @@ class Element(xml_tree.Element):
     def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
         raise RefusedElement(code, self.line, f"<{self.tag}>: {message}", self.file)
 
-    def _number(self, attribute: str, word: str) -> float:
+    def _numbers(self, before: str, value: str, count: int) -> tuple[float, ...]:
+        """before: what stands in front of the value in messages."""
+        words = value.split()
+        if len(words) != count:
+            wanted = "1 number" if count == 1 else f"{count} numbers"
+            self._refuse_value(before, value, f"should be {wanted}")
+        return tuple(self._number(before, word) for word in words)
+
+    def _number(self, before: str, word: str) -> float:
         value = float(word) if _NUMBER.fullmatch(word) else math.nan
         if not math.isfinite(value):
-            self._refuse_value(attribute, word, "is not a finite number")
+            self._refuse_value(before, word, "is not a finite number")
         return value
 
-    def _refuse_value(self, attribute: str, value: str, what: str) -> NoReturn:
+    def _refuse_value(self, before: str, value: str, what: str) -> NoReturn:
         if _XACRO.search(value):
-            self.refuse(f'{attribute}="{value}": {EXPAND}', "xacro")
-        self.refuse(f'{attribute}="{value}" {what}')
+            self.refuse(f'{before}"{value}": {EXPAND}', "xacro")
+        self.refuse(f'{before}"{value}" {what}')
 
 
-def read_tree(path: str, location: Path, root: str) -> Element:
-    """The outermost element, whose tag has to be `root`.
+def read_tree(path: str, location: Path, *roots: str) -> Element:
+    """The outermost element, whose tag has to be one of `roots`.
 
     Text between elements is ignored. Raises SceneFileError, with the line.
     """
     document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
-    if document.tag != root:
-        document.refuse(f"the outermost element should be <{root}>", "not-this-format")
+    if document.tag not in roots:
+        wanted = " or ".join(f"<{root}>" for root in roots)
+        document.refuse(f"the outermost element should be {wanted}", "not-this-format")
     _refuse_macros(document)
     return document
 

@@ -29,7 +29,7 @@ def geometry(shape: str, beside: str = "") -> str:
 
 def test_the_sample() -> None:
     robot, issues = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
-    assert (robot.name, robot.root, issues) == ("arm", "base", ())
+    assert (robot.name, list(robot.roots), issues) == ("arm", ["base"], ())
     assert [j.name for j in robot.joints][:4] == ["turn", "shoulder", "elbow", "grip"]
     assert {j.name: j.kind for j in robot.joints if j.free} == {
         "turn": "continuous",
@@ -214,7 +214,7 @@ def test_what_is_said_twice_in_the_same_words_is_said_once(tmp_path: Path) -> No
 
 def test_lines_before_the_declaration_do_not_matter(tmp_path: Path) -> None:
     text = "\n\n<?xml version='1.0'?>\n" + robot_of(link("a"))
-    assert read(tmp_path, text).root == "a"
+    assert list(read(tmp_path, text).roots) == ["a"]
     text = "\n\n<?xml version='1.0'?>\n" + robot_of(link("a"), link("a"))
     assert refusal(tmp_path, text)[1].startswith("line 6: ")
 

@@ -1,0 +1,55 @@
+"""The geometry of a <collision> or <visual> of SDFormat."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NoReturn
+
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.scene.robot.model import Geometry, MeshReference
+from satcheck.scene.robot.sdf.values import number, text_of, vector
+from satcheck.scene.robot.xml_tree import Element
+
+PLANE = "plane"
+_EMPTY = "empty"
+
+
+def shape_in(part: Element) -> Element | None:
+    """The element of its shape; None: it has none."""
+    geometry = part.need("geometry")
+    shapes = [child for child in geometry.children if ":" not in child.tag]
+    if len(shapes) > 1:
+        geometry.refuse(f"should hold one shape, not {len(shapes)}")
+    return shapes[0] if shapes and shapes[0].tag != _EMPTY else None
+
+
+def geometry_of(shape: Element) -> Geometry:
+    """Raises RefusedElement if it cannot be checked."""
+    try:
+        return _SHAPES[shape.tag](shape) if shape.tag in _SHAPES else _unknown(shape)
+    except ValueError as error:  # a size that is not positive
+        shape.refuse(str(error))
+
+
+def _unknown(shape: Element) -> NoReturn:
+    shape.refuse(f"no geometry that is read ({', '.join(_SHAPES)})", "unsupported-feature")
+
+
+def _mesh(shape: Element) -> MeshReference:
+    if (submesh := shape.only("submesh")) is not None:
+        submesh.refuse("a part of a mesh file is not read", "unsupported-feature")
+    scale = vector(shape, "scale", (1.0, 1.0, 1.0))
+    if 0.0 in scale:
+        shape.refuse("scale 0 flattens the mesh", "singular-transform")
+    return MeshReference(text_of(shape, "uri"), scale)
+
+
+_SHAPES: dict[str, Callable[[Element], Geometry]] = {
+    "mesh": _mesh,
+    "box": lambda shape: Box(vector(shape, "size")),
+    "sphere": lambda shape: Sphere(number(shape, "radius")),
+    "cylinder": lambda shape: Cylinder(number(shape, "radius"), number(shape, "length")),
+    "capsule": lambda shape: Capsule(number(shape, "radius"), number(shape, "length")),
+    "cone": lambda shape: Cone(number(shape, "radius"), number(shape, "length")),
+    "ellipsoid": lambda shape: Ellipsoid(vector(shape, "radii")),
+}

@@ -1,0 +1,101 @@
+"""Reads SDFormat. A mistake that could move, hide or reshape a body is an error, any other a
+warning.
+
+An error inside a <collision>, and a model that cannot be included, refuse only that body. Other
+errors refuse the file, with the line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.issue import Issue
+from satcheck.scene.robot.joint_tree import check_mimics
+from satcheck.scene.robot.model import Exemption, GeometryKind, Link, Robot
+from satcheck.scene.robot.sdf.contents import Contents, FoundLink
+from satcheck.scene.robot.sdf.exemptions import exempt
+from satcheck.scene.robot.sdf.frames import WORLD
+from satcheck.scene.robot.sdf.includes import Includes
+from satcheck.scene.robot.sdf.joint_trees import Edge, trees_of
+from satcheck.scene.robot.sdf.joints import Found, moves_of
+from satcheck.scene.robot.sdf.parts import Mask, Part, parts_in
+from satcheck.scene.robot.slips import Slips
+from satcheck.scene.robot.xml_tree import Element
+
+
+def read_sdf(
+    root: Element, includes: Includes, geometry: GeometryKind = "collision"
+) -> tuple[Robot, tuple[Issue, ...]]:
+    """All links of the file and of the models that it includes as one robot, and warnings.
+
+    root: the outermost element, <sdf>. geometry: which elements of links become bodies. Links and
+    joints have their paths as names. Raises SceneFileError with the file, the line and the element.
+    No mesh is opened.
+    """
+    slips = Slips()
+    others = "visual" if geometry == "collision" else "collision"
+    contents = Contents(includes, slips, geometry)
+    contents.read(root)
+    poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
+    edges = [_edge(joint, contents, slips) for joint in contents.joints]
+    parts = {path: _parts(path, contents, slips, geometry) for path in contents.links}
+    contacts = {path: found.contacts for path, found in contents.links.items()}
+    collisions, exempted = exempt(contacts, parts, _joined(edges))
+    links = {
+        path: Link(
+            name=path,
+            collisions=collisions[path],
+            unused=bool(found.element.all(others)),
+            static=found.contacts.static,
+            rest=poses[path],
+        )
+        for path, found in contents.links.items()
+    }
+    still = frozenset((WORLD, *(path for path, link in links.items() if link.static)))
+    trees = trees_of([*_starts(contents)], still, poses, edges, slips)
+    elements = {edge.path: edge.element for edge in edges}
+    check_mimics([(joint, elements[joint.name]) for joint in trees.joints])
+    roots: dict[str, Transform] = {path: poses[path] for path in trees.roots}
+    robot = Robot(_name(root), root.file, roots, links, trees.joints, exempted, geometry)
+    return robot, slips.issues()
+
+
+def _parts(path: str, contents: Contents, slips: Slips, geometry: GeometryKind) -> list[Part]:
+    found: FoundLink = contents.links[path]
+    if found.refusal is not None:
+        return [Part(found.refusal, Mask())]
+    return parts_in(found.element, path, found.scope, contents.frames, slips, geometry)
+
+
+def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge:
+    parent, child = contents.body(joint.parent), contents.body(joint.child)
+    if parent == child:
+        joint.element.refuse(f"joint {joint.path!r} connects {child or 'the world'!r} to itself")
+    frames = contents.frames
+    moves = moves_of(joint, frames, slips)
+    return Edge(joint.path, joint.element, parent, child, frames.world(joint.path), moves)
+
+
+def _joined(edges: list[Edge]) -> Iterator[Exemption]:
+    for edge in edges:
+        if WORLD not in (edge.parent, edge.child):
+            yield Exemption(edge.parent, edge.child, f"SDF: joint {edge.path}")
+
+
+def _starts(contents: Contents) -> Iterator[str]:
+    """The world, the canonical link of each outermost model, then all links."""
+    yield WORLD
+    for model in dict.fromkeys(found.contacts.model for found in contents.links.values()):
+        yield contents.body(model)
+    yield from contents.links
+
+
+def _name(root: Element) -> str:
+    """Of the world, or of the first model."""
+    for element in (*root.all("world"), *root.all("model")):
+        if name := element.attributes.get("name"):
+            return name
+    return Path(root.file).stem

@@ -1,0 +1,90 @@
+"""Values that SDFormat writes as the text of elements."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
+from satcheck.scene.robot.xml_tree import Element
+
+_BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
+_EULER, _QUATERNION = "euler_rpy", "quat_xyzw"
+
+
+def text_of(element: Element, tag: str) -> str:
+    """The text of a required child, which may not be empty."""
+    child = element.need(tag)
+    return child.text or child.refuse("is empty")
+
+
+def number(element: Element, tag: str) -> float:
+    """Of a required child."""
+    return element.need(tag).text_numbers(1)[0]
+
+
+def vector(element: Element, tag: str, default: Vector | None = None) -> Vector:
+    """Of a child, which is required if there is no default."""
+    child = element.only(tag)
+    if child is None and default is not None:
+        return default
+    x, y, z = (child or element.need(tag)).text_numbers(3)
+    return x, y, z
+
+
+def boolean(element: Element, tag: str, default: bool, instead: Element | None = None) -> bool:
+    """Of a child. instead: an element that overrides it."""
+    child = instead or element.only(tag)
+    return default if child is None else truth(child, child.text)
+
+
+def truth(element: Element, text: str) -> bool:
+    """The Boolean that the text is. element: where it stands."""
+    value = _BOOLEANS.get(text.strip().lower())
+    return element.refuse(f'"{text}" should be true or false') if value is None else value
+
+
+def flag(element: Element, attribute: str) -> bool:
+    """An attribute that is false if it is missing."""
+    return truth(element, element.attributes.get(attribute) or "false")
+
+
+def bits(element: Element, tag: str) -> int | None:
+    """A mask of bits, such as 0x0f; None: there is none."""
+    child = element.only(tag)
+    if child is None:
+        return None
+    try:
+        return int(child.text, 0)
+    except ValueError:
+        child.refuse(f'"{child.text}" should be a whole number')
+
+
+def pose_of(element: Element | None) -> Transform:
+    """The pose that a <pose> states, in the frame that it is relative to."""
+    if element is None or not element.text:
+        return IDENTITY
+    element.knows(("relative_to", "frame", "degrees", "rotation_format"))
+    form = element.attributes.get("rotation_format") or _EULER
+    degrees = flag(element, "degrees")
+    if form == _QUATERNION:
+        return _from_quaternion(element, degrees)
+    if form != _EULER:
+        element.refuse(f"rotation_format {form!r} is none of {_EULER}, {_QUATERNION}")
+    x, y, z, *angles = element.text_numbers(6)
+    if degrees:
+        roll, pitch, yaw = map(cos_sin, angles)
+        return placed(about_fixed_axes(roll, pitch, yaw), (x, y, z))
+    return from_rpy((x, y, z), (angles[0], angles[1], angles[2]))
+
+
+def _from_quaternion(element: Element, degrees: bool) -> Transform:
+    if degrees:
+        element.refuse("a quaternion has no degrees")
+    x, y, z, *quaternion = element.text_numbers(7)
+    if math.hypot(*quaternion) == 0.0:
+        element.refuse("a quaternion of length 0")
+    a, b, c, d = quaternion
+    return from_quaternion((x, y, z), (a, b, c, d))
