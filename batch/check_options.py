@@ -11,6 +11,7 @@ from satcheck.audit.request.in_units import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.report.config import StatedConfig
 from satcheck.scene import Scene, load_scene
+from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.scene_builder import Split
 from satcheck.scene.units import Length
@@ -21,13 +22,14 @@ SettingValue = bool | int | float | str | Length | None
 
 
 class CheckOptions(Struct, frozen=True, kw_only=True):
-    """split, packages, allow_outside, units, rules, seconds_per_file, megabytes_per_file: as in
-    `load_scene`. settings: values of `audit.Settings` by name, lengths as given. names: what
+    """split, packages, geometry, allow_outside, units, rules, seconds_per_file, megabytes_per_file:
+    as in `load_scene`. settings: values of `audit.Settings` by name, lengths as given. names: what
     messages call these lengths. places: state where scene files name the bodies of findings.
     baseline: a file of known findings. config: what a report states of a config file."""
 
     split: Split | None = None
     packages: Mapping[str, str] | None = None
+    geometry: GeometryKind = "collision"
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()
@@ -45,6 +47,7 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
             world,
             split=self.split,
             packages=self.packages,
+            geometry=self.geometry,
             allow_outside=self.allow_outside,
             units=self.units,
             hashed=hashed,

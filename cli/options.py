@@ -464,12 +464,7 @@ def picture_options(command: _Command) -> _Command:
     return command
 
 
-_ONEgeometry_option = click.option(
-    "--geometry",
-    type=click.Choice(("collision", "visual")),
-    help="Which geometry of the links of robots is checked.  [default: collision]",
-)
-_POSE_OPTIONS = (
+_ONE_POSE_OPTIONS = (
     click.option(
         "--pose",
         multiple=True,

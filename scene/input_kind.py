@@ -11,6 +11,7 @@ from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
 
 InputKind = Literal["mesh", "scene", "robot", "srdf"]
+GeometryKind = Literal["collision", "visual"]  # the elements of the links of a robot
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 ROBOT_SUFFIXES = frozenset((".urdf", ".sdf", ".world"))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Scene
-from satcheck.scene.input_kind import kind_of
+from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
@@ -20,7 +20,6 @@ from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
-    from satcheck.scene.robot.model import GeometryKind
 
 
 def load_scene(

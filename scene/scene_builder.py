@@ -16,6 +16,7 @@ from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, s
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
+from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
@@ -26,7 +27,6 @@ from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Part, SceneRobot, Srdf
-    from satcheck.scene.robot.model import GeometryKind
 
 Split = Literal["nodes", "components", "none"]
 

@@ -17,6 +17,7 @@ from satcheck.cli.options import (
     debug_option,
     form_of,
     form_option,
+    geometry_option,
     merge_option,
     one_pose_options,
     open_option,
@@ -69,6 +70,7 @@ TABLE_ROWS = 20
 @open_option
 @reading_options
 @package_option
+@geometry_option
 @one_pose_options
 @color_option
 @debug_option

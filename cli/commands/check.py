@@ -33,6 +33,7 @@ from satcheck.cli.options import (
     debug_option,
     exit_zero_option,
     form_of,
+    geometry_option,
     jobs_option,
     length,
     merge_option,
@@ -233,6 +234,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @units_option
 @reading_options
 @package_option
+@geometry_option
 @pose_options
 @color_option
 @no_config_option

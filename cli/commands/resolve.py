@@ -20,6 +20,7 @@ from satcheck.cli.options import (
     debug_option,
     form_of,
     form_option,
+    geometry_option,
     in_units_of,
     jobs_option,
     length,
@@ -86,6 +87,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @split_option
 @merge_option
 @package_option
+@geometry_option
 @one_pose_options
 @units_option
 @reading_options

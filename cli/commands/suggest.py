@@ -16,6 +16,7 @@ from satcheck.cli.options import (
     Command,
     color_option,
     debug_option,
+    geometry_option,
     merge_option,
     output_option,
     package_option,
@@ -74,6 +75,7 @@ def _form_of(output: Path | None) -> str:
 @units_option
 @reading_options
 @package_option
+@geometry_option
 @pose_options
 @color_option
 @debug_option

@@ -15,6 +15,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.input_kind import GeometryKind
 
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
@@ -34,7 +35,6 @@ class RefusedShape(Struct, frozen=True):
     reason: str
 
 
-GeometryKind = Literal["collision", "visual"]
 Geometry = MeshReference | Primitive | RefusedShape
 
 

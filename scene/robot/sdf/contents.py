@@ -9,7 +9,8 @@ from urllib.parse import urlsplit
 
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.robot.model import Collision, GeometryKind, RefusedShape
+from satcheck.scene.input_kind import GeometryKind
+from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.exemptions import Contacts
 from satcheck.scene.robot.sdf.frames import WORLD, Frame, Frames, Name, Scope
 from satcheck.scene.robot.sdf.includes import Includes, version_of

@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Collision, GeometryKind, RefusedShape
+from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.frames import Frames, Name, Scope
 from satcheck.scene.robot.sdf.geometry import PLANE, geometry_of, shape_in
 from satcheck.scene.robot.sdf.values import bits, pose_of
