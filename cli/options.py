@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 import click
 from click.core import ParameterSource
@@ -19,6 +19,7 @@ from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.picture import FORMATS as PICTURE_FORMATS
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
+from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.loading.source import FORMATS as MESHES
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.units import MICROMETRES, Length, parse_length
@@ -420,13 +421,13 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="The folder of a ROS package or a Gazebo model, or of a folder in it (arm/meshes). "
-    "Repeatable.",
+    help="The folder of a package or model, or of a folder in it (arm/meshes). Repeatable.",
 )
 geometry_option = click.option(
     "--geometry",
-    type=click.Choice(("collision", "visual")),
-    help="Which geometry of the links of robots is checked.  [default: collision]",
+    type=click.Choice(get_args(GeometryKind)),
+    metavar="KIND",
+    help="Of robots: collision (the default) or visual.",
 )
 _POSE_OPTIONS = (
     click.option(
@@ -446,7 +447,7 @@ _POSE_OPTIONS = (
         "--sample",
         type=click.IntRange(min=1),
         metavar="N",
-        help="Check N random poses within the limits; joints in --pose and --state stay.",
+        help="Check N random poses; joints in --pose and --state stay.",
     ),
     click.option(
         "--seed",

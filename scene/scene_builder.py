@@ -160,7 +160,7 @@ class SceneBuilder:
             read_robot,
         )
 
-        places = FilePlaces(packages, allow_outside=allow_outside)
+        places = FilePlaces(path, packages, allow_outside=allow_outside)
         robot, issues = read_robot(path, location, places, geometry)
         self._names.append(robot.name)
         self._only_meshes = False

@@ -50,7 +50,8 @@ class MeshPlaces:
     packages: the name of a package, or of a folder in it ("name/meshes") -> its location; the
     longest matching name counts. Other packages are searched in the folders above the file, their
     siblings and the folders `models` among these, then in the folders of environment variables.
-    They match by the name of the folder, or else by the <name> in package.xml.
+    They match by the name of the folder, or else by the <name> in package.xml. included_by: the
+    file that leads to this one; what it may open, this one may open too.
     """
 
     def __init__(
@@ -59,7 +60,9 @@ class MeshPlaces:
         packages: Mapping[str, str | Path] | None = None,
         *,
         allow_outside: bool = False,
+        included_by: MeshPlaces | None = None,
     ) -> None:
+        self._included_by = included_by
         self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._allow_outside = allow_outside
@@ -183,26 +186,38 @@ class MeshPlaces:
         return _tidy(self._folder.joinpath(*[".."] * steps))
 
     def _may_open(self, place: Path) -> bool:
-        return self._allow_outside or _within(place, self._own)
+        if self._allow_outside or _within(place, self._own):
+            return True
+        return self._included_by is not None and self._included_by._may_open(place)
 
     def _outside(self) -> str:
         return f"outside of {self._own}, where the package of the file is"
 
 
 class FilePlaces:
-    """The MeshPlaces of each of several files. packages, allow_outside: as for these."""
+    """The MeshPlaces of a file and of the files that it includes. All of these may open what the
+    first file may open. packages, allow_outside: as for MeshPlaces."""
 
     def __init__(
-        self, packages: Mapping[str, str | Path] | None = None, *, allow_outside: bool = False
+        self,
+        first: str,
+        packages: Mapping[str, str | Path] | None = None,
+        *,
+        allow_outside: bool = False,
     ) -> None:
         self._packages = packages
         self._allow_outside = allow_outside
-        self._places: dict[str, MeshPlaces] = {}
+        self._first = MeshPlaces(first, packages, allow_outside=allow_outside)
+        self._places = {first: self._first}
 
     def of(self, file: str) -> MeshPlaces:
         if file not in self._places:
-            outside = self._allow_outside
-            self._places[file] = MeshPlaces(file, self._packages, allow_outside=outside)
+            self._places[file] = MeshPlaces(
+                file,
+                self._packages,
+                allow_outside=self._allow_outside,
+                included_by=self._first,
+            )
         return self._places[file]
 
 

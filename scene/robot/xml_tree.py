@@ -23,6 +23,8 @@ _MAX_BYTES = 64 << 20
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
+_ERB = b"<%"
+_EXPAND_ERB = "this is ERB, a macro language: expand it first (erb FILE.erb > FILE)"
 _XACRO_NAMESPACE = "xacro"  # at the end of its URI; its prefix may differ
 # Harmless xacro: definitions, and macros inside elements that place no geometry.
 _DEFINES = frozenset(("property", "arg", "macro"))
@@ -179,4 +181,6 @@ def _parse(path: str, data: bytes) -> Element:
     try:
         return parse_elements(guarded_parser(namespaces=False), stream, partial(Element, file=path))
     except MeshFileError as error:
+        if _ERB in data:
+            raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
         raise SceneFileError(error.code, error.message, file=path) from None

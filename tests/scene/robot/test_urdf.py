@@ -45,7 +45,7 @@ def test_the_sample() -> None:
     assert robot.links["right"].collisions[0].geometry == MeshReference(
         "arm_finger.obj", (1.0, -1.0, 1.0)
     )
-    assert robot.links["camera"].visual
+    assert robot.links["camera"].unused
     assert not robot.links["camera"].collisions
 
 

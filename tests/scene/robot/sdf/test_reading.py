@@ -1,0 +1,261 @@
+"""Bodies of SDFormat files, and the pairs that the format does not check."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from satcheck.audit import Settings
+from satcheck.audit.check import check
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.robot.model import RefusedShape
+from tests.scene.robot.sdf.files import (
+    BOX,
+    axis,
+    codes,
+    joint,
+    link,
+    model,
+    read,
+    refusal,
+    sdf,
+    world,
+    write,
+)
+
+
+def shape(inside: str, name: str = "c", more: str = "") -> str:
+    return f'<collision name="{name}"><geometry>{inside}</geometry>{more}</collision>'
+
+
+def masked(bits: str) -> str:
+    contact = f"<contact><collide_bitmask>{bits}</collide_bitmask></contact>"
+    return shape("<box><size>1 1 1</size></box>", more=f"<surface>{contact}</surface>")
+
+
+def geometry(folder: Path, inside: str) -> object:
+    robot, _ = read(folder, sdf(model("m", link("a", inside=shape(inside)))))
+    (collision,) = robot.links["m::a"].collisions
+    return collision.geometry
+
+
+def load(folder: Path, text: str) -> Scene:
+    return load_scene([write(folder, text)])
+
+
+def allowed(scene: Scene) -> dict[tuple[str, str], str]:
+    """The pairs that rules exempt, with the reason of the last rule."""
+    found = {}
+    for pair in combinations(scene.bodies, 2):
+        for rule in scene.rules:
+            a, b = ({body.id for body in s.select(scene.bodies)} for s in (rule.a, rule.b))
+            x, y = pair[0].id, pair[1].id
+            if (x in a and y in b) or (y in a and x in b):
+                found[x, y] = rule.reason
+    return found
+
+
+def test_the_shapes(tmp_path: Path) -> None:
+    size = "<radius>1</radius><length>3</length>"
+    assert geometry(tmp_path, "<box><size>1 2 3</size></box>") == Box((1.0, 2.0, 3.0))
+    assert geometry(tmp_path, "<sphere><radius>2</radius></sphere>") == Sphere(2.0)
+    assert geometry(tmp_path, f"<cylinder>{size}</cylinder>") == Cylinder(1.0, 3.0)
+    assert geometry(tmp_path, f"<capsule>{size}</capsule>") == Capsule(1.0, 3.0)
+    assert geometry(tmp_path, f"<cone>{size}</cone>") == Cone(1.0, 3.0)
+    assert geometry(tmp_path, "<ellipsoid><radii>1 2 3</radii></ellipsoid>") == Ellipsoid(
+        (1.0, 2.0, 3.0)
+    )
+
+
+@pytest.mark.parametrize(
+    ("inside", "code"),
+    [
+        ("<box><size>1 1</size></box>", "bad-robot"),
+        ("<box/>", "bad-robot"),
+        ("<box><size>1 1 0</size></box>", "bad-robot"),
+        ("<box><size>1 1 1</size><size>2 2 2</size></box>", "bad-robot"),
+        ("<sphere><radius>-1</radius></sphere>", "bad-robot"),
+        ("<box><size>1 1 1</size></box><sphere><radius>1</radius></sphere>", "bad-robot"),
+        ("<mesh/>", "bad-robot"),
+        ("<mesh><uri>m.stl</uri><scale>1 0 1</scale></mesh>", "singular-transform"),
+        ("<mesh><uri>m.stl</uri><submesh><name>x</name></submesh></mesh>", "unsupported-feature"),
+        ("<heightmap><uri>h.png</uri></heightmap>", "unsupported-feature"),
+        ("<polyline><height>1</height></polyline>", "unsupported-feature"),
+        ("<image><uri>i.png</uri></image>", "unsupported-feature"),
+        ("<ball><radius>1</radius></ball>", "unsupported-feature"),
+    ],
+)
+def test_geometry_that_is_not_read_refuses_its_body(tmp_path: Path, inside: str, code: str) -> None:
+    found = geometry(tmp_path, inside)
+    assert isinstance(found, RefusedShape)
+    assert found.code == code
+
+
+def test_what_has_no_body(tmp_path: Path) -> None:
+    plane = link("a", inside=shape("<plane><normal>0 0 1</normal></plane>"))
+    none = link("b", inside=shape("<empty/>"))
+    bare = link("c", inside=shape(""))
+    seen = link("d", inside="<visual name='v'><geometry/></visual>")
+    text = world(model("m", plane, none, bare, seen), '<actor name="x"/>')
+    scene = load(tmp_path, text)
+    assert scene.order == ()
+    assert codes(tmp_path, text) == [
+        "no-collision-geometry",
+        "half-space",
+        "no-shape",
+        "no-collision-geometry",
+    ]
+
+
+def test_ids(tmp_path: Path) -> None:
+    two = shape("<sphere><radius>1</radius></sphere>", "x") + shape(
+        "<sphere><radius>1</radius></sphere>", "y"
+    )
+    scene = load(tmp_path, sdf(model("m", link("a"), model("n", link("b", inside=two)))))
+    assert scene.order == ("m::a", "m::n::b/x", "m::n::b/y")
+    assert (scene.name, scene.units) == ("m", "m")
+
+
+def test_a_collision_may_be_relative_to_another_frame(tmp_path: Path) -> None:
+    posed = '<pose relative_to="__model__">0 0 0 0 0 0</pose>'
+    text = link("a", "5 0 0 0 0 0", shape("<box><size>1 1 1</size></box>", more=posed))
+    (body,) = load(tmp_path, sdf(model("m", text))).bodies
+    assert body.transform is not None
+    assert body.transform[3::4] == (0.0, 0.0, 0.0, 1.0)
+    wrong = posed.replace("__model__", "x")
+    text = link("a", inside=shape("<box><size>1 1 1</size></box>", more=wrong))
+    (lost,) = load(tmp_path, sdf(model("m", text))).unreadable
+    assert lost.issue.code == "index-out-of-range"
+
+
+def test_visual_geometry_instead(tmp_path: Path) -> None:
+    seen = "<visual name='v'><geometry><sphere><radius>2</radius></sphere></geometry></visual>"
+    path = write(tmp_path, sdf(model("m", link("a", inside=BOX + seen), link("b"))))
+    scene = load_scene([path], geometry="visual")
+    assert [(body.id, body.shape) for body in scene.bodies] == [("m::a", Sphere(2.0))]
+    assert [issue.code for issue in scene.issues] == ["visual-geometry", "no-collision-geometry"]
+
+
+def test_links_of_one_model_and_static_models(tmp_path: Path) -> None:
+    scene = load(
+        tmp_path,
+        world(
+            model("m", link("a"), link("b"), link("c"), joint("j", "a", "b")),
+            model("s", "<static>true</static>", link("l")),
+            model("t", "<static>1</static>", link("l"), model("u", link("l"))),
+        ),
+    )
+    of_m = "SDF: links of model m without self_collide"
+    of_t = "SDF: links of model t without self_collide"
+    assert allowed(scene) == {
+        ("m::a", "m::b"): "SDF: joint m::j",
+        ("m::a", "m::c"): of_m,
+        ("m::b", "m::c"): of_m,
+        ("s::l", "t::l"): "SDF: both static",
+        ("s::l", "t::u::l"): "SDF: both static",
+        ("t::l", "t::u::l"): of_t,
+    }
+    assert {body.id for body in scene.bodies if body.static} == {"s::l", "t::l", "t::u::l"}
+    assert {rule.where for rule in scene.rules} == {str(tmp_path / "w.sdf")}
+
+
+def test_self_collide(tmp_path: Path) -> None:
+    own = "<self_collide>true</self_collide>"
+    text = model("m", link("a", inside=BOX + own), link("b"), link("c"), joint("j", "a", "b"))
+    assert allowed(load(tmp_path, sdf(text))) == {
+        ("m::a", "m::b"): "SDF: joint m::j",
+        ("m::b", "m::c"): "SDF: links of model m without self_collide",
+    }
+    text = model("m", own, link("a"), link("b"), link("c"), joint("j", "a", "b"))
+    assert allowed(load(tmp_path, sdf(text))) == {("m::a", "m::b"): "SDF: joint m::j"}
+
+
+def test_bit_masks(tmp_path: Path) -> None:
+    names = {"a": "0x01", "b": "2", "c": "0x03", "d": "0"}
+    models = [model(name, link("l", inside=masked(bits))) for name, bits in names.items()]
+    found = allowed(load(tmp_path, world(*models, model("e", link("l")))))
+    assert set(found) == {
+        ("a::l", "b::l"),
+        ("a::l", "d::l"),
+        ("b::l", "d::l"),
+        ("c::l", "d::l"),
+        ("d::l", "e::l"),
+    }
+    assert found["a::l", "b::l"] == (
+        "SDF: collide_bitmask 0x0001 and collide_bitmask 0x0002 share no bit"
+    )
+
+
+def test_two_files_keep_their_rules_apart(tmp_path: Path) -> None:
+    (tmp_path / "x.sdf").write_text(sdf(model("m", link("a"), link("b"))))
+    scene = load_scene([tmp_path / "x.sdf", write(tmp_path, sdf(model("m", link("a"))))])
+    assert set(allowed(scene)) == {("m::a", "m::b")}
+    assert check(scene, Settings(depth=False)).summary.verdict == "fail"
+
+
+def test_every_rule_has_an_effect(tmp_path: Path) -> None:
+    ground = model("g", "<static>true</static>", link("l"))
+    scene = load(tmp_path, world(ground, model("m", link("a", "5 0 0 0 0 0"))))
+    assert scene.rules == ()
+    assert check(scene, Settings(depth=False)).issues == ()
+
+
+def test_a_joint_through_a_link_without_geometry_needs_no_note(tmp_path: Path) -> None:
+    text = model("m", link("a"), link("b"), joint("j", "a", "b", "revolute", axis()))
+    assert codes(tmp_path, sdf(text)) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "words"),
+    [
+        ("<gazebo version='1.0'/>", "not-this-format", "<robot> or <sdf>"),
+        ('<sdf version="1.0"/>', "unsupported-feature", "gz sdf"),
+        ("<sdf/>", "bad-robot", "version"),
+        (sdf(link("a")), "bad-robot", "in a model"),
+        (sdf('<world name="a"/>', '<world name="b"/>'), "bad-robot", "a second <world>"),
+        (sdf("<model/>"), "bad-robot", "name"),
+        (sdf("<model name='a'>"), "bad-record", "not well-formed"),
+        (sdf("<% 3.times do %>"), "xacro", "ERB"),
+        (
+            '<sdf version="1.9" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:m/></sdf>',
+            "xacro",
+            "expand",
+        ),
+    ],
+)
+def test_a_file_that_is_refused(tmp_path: Path, text: str, code: str, words: str) -> None:
+    path = write(tmp_path, text)
+    with pytest.raises(Exception, match=r"w\.sdf: ") as caught:
+        load_scene([path])
+    assert caught.value.code == code  # type: ignore[attr-defined]
+    assert words in str(caught.value)
+
+
+def test_unknown_elements_are_named(tmp_path: Path) -> None:
+    text = sdf(model("m", '<link name="a"><colision/><mine:x/></link>'))
+    _, issues = read(tmp_path, text)
+    assert [issue.message for issue in issues] == [
+        "line 3: unknown <colision> in <link> (did you mean 'collision'?): ignored"
+    ]
+
+
+def test_what_is_placed_by_chance_or_a_script(tmp_path: Path) -> None:
+    walker = f'<actor name="walker"><link name="l">{BOX}</link></actor>'
+    text = world(walker, '<population name="cans"/>', "<state><model name='m'/></state>")
+    scene = load(tmp_path, text)
+    assert [body.id for body in scene.unreadable] == ["walker", "cans"]
+    assert "stored-state" in [issue.code for issue in scene.issues]
+
+
+def test_a_simplified_mesh_is_named(tmp_path: Path) -> None:
+    mesh = '<mesh optimization="convex_hull"><uri>m.stl</uri></mesh>'
+    _, (warning,) = read(tmp_path, sdf(model("m", link("a", inside=shape(mesh)))))
+    assert warning.code == "simplified-mesh"
+
+
+def test_too_many_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("satcheck.scene.robot.sdf.frames.MOST_FRAMES", 2)
+    assert refusal(tmp_path, sdf(model("m", link("a"), link("b"))))[0] == "too-large"
