@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -21,8 +22,9 @@ from satcheck.cli.options import (
     outside_option,
     root_option,
 )
-from satcheck.cli.output import Document, talk
-from satcheck.cli.report.words import issue_line
+from satcheck.cli.output import Document
+from satcheck.cli.results.difference import FORMATS as DIFFERENCE_FORMATS
+from satcheck.cli.results.difference import compare
 from satcheck.cli.results.query import FORMATS as QUERY_FORMATS
 from satcheck.cli.results.query import answer
 from satcheck.cli.results.report import TOP, Chosen, report
@@ -53,13 +55,21 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
     metavar="N",
     help="Report the N worst scenes, the worst first; of html and --pictures the N worst findings. "
     f"The summary and the exit code count all.  [default: {TOP} in a table and of html, "
-    "otherwise all]. Of --sql, the first N rows.",
+    "otherwise all]. Of --sql and --against, the first N rows.",
 )
 @click.option(
     "--sql",
     metavar="QUERY",
     help="Answer a question about the tables scenes, findings and issues, as table, json, jsonl, "
     "csv or parquet (pip install 'satcheck[query]').",
+)
+@click.option(
+    "--against",
+    type=click.Path(dir_okay=False, path_type=Path),
+    multiple=True,
+    metavar="OLD",
+    help="Compare with the results of an older batch: which findings are new, gone, worse or "
+    "better. As table, json or markdown. Repeatable, for shards.",
 )
 @click.option(
     "--pictures",
@@ -79,6 +89,7 @@ def command(
     output: Path | None,
     top: int | None,
     sql: str | None,
+    against: tuple[Path, ...],
     folder: Path | None,
     root: Path,
     allow_outside: bool,
@@ -92,19 +103,32 @@ def command(
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked or the batch did not finish, else 0. With --sql only the files
-    count: 2 if one has lines that are no results, 3 if a batch did not finish, else 0.
+    count: 2 if one has lines that are no results, 3 if a batch did not finish, else 0. With
+    --against it is 1 if a finding is new or worse, 3 if that is not decided for one, and 2 if a
+    scene cannot be read that could be.
     """
-    if sql is not None and folder is not None:
-        raise click.UsageError("--pictures: the answer to --sql has no pictures")
-    form = form_of(form, output, FORMATS if sql is None else QUERY_FORMATS)
-    refuse_early(Inputs(paths=tuple(map(str, results))), output)
+    forms = _forms(sql, against, folder)
+    form = form_of(form, output, forms)
+    refuse_early(Inputs(paths=tuple(map(str, (*results, *against)))), output)
     document = Document()
     with StoredResults(results) as stored:
         if sql is not None:
-            answer(stored, sql, form, output, top, document)
-            for issue in stored.issues:
-                talk(f"satcheck: {issue_line(issue)}")
-            return exit_codes.for_assets(stored.least, exit_zero=exit_zero)
-        chosen = Chosen(form, output, top, folder, root, allow_outside)
-        verdict = report(stored, chosen, document)
+            verdict = answer(stored, sql, form, output, top, document)
+        elif against:
+            with StoredResults(against) as before:
+                verdict = compare(before, stored, form, output, top, document)
+        else:
+            chosen = Chosen(form, output, top, folder, root, allow_outside)
+            verdict = report(stored, chosen, document)
     return exit_codes.for_assets(verdict, exit_zero=exit_zero)
+
+
+def _forms(sql: str | None, against: Sequence[Path], folder: Path | None) -> Sequence[str]:
+    """Those of what is asked."""
+    if sql is not None and against:
+        raise click.UsageError("--sql and --against contradict each other")
+    if folder is not None and (sql is not None or against):
+        raise click.UsageError("--pictures: --sql and --against have no pictures")
+    if sql is not None:
+        return QUERY_FORMATS
+    return DIFFERENCE_FORMATS if against else FORMATS

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import islice
 from pathlib import Path
 
-from satcheck.batch.query import Tables, require_duckdb
+from satcheck.batch.query import Tables
 from satcheck.batch.stored import StoredResults
-from satcheck.cli.output import Document
+from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.report.answer import render
+from satcheck.cli.report.words import issue_line
+from satcheck.report.assets import AssetVerdict
 
 FORMATS = ("table", "json", "jsonl", "csv", "parquet")
 
@@ -20,17 +23,21 @@ def answer(
     output: Path | None,
     top: int | None,
     document: Document,
-) -> None:
-    """top: rows at most."""
-    require_duckdb()
+) -> AssetVerdict:
+    """top: rows at most. The verdict is about the files of results alone."""
     with Tables(stored) as tables:
-        if form == "parquet":
-            content = tables.parquet(query)
-            document.deliver(lambda _: content, output)
-            return
-        names, rows = tables.answer(query)
         document.deliver(
-            lambda page: render(names, islice(rows, top), form, page),
-            output,
-            utf8=form != "table",
+            lambda page: _render(tables, query, form, top, page), output, utf8=form != "table"
         )
+    for issue in stored.issues:
+        talk(f"satcheck: {issue_line(issue)}")
+    return stored.least
+
+
+def _render(
+    tables: Tables, query: str, form: str, top: int | None, page: Page
+) -> str | bytes | Iterable[str]:
+    if form == "parquet":
+        return tables.parquet(query)
+    names, rows = tables.answer(query)
+    return render(names, islice(rows, top), form, page)

@@ -24,13 +24,13 @@ def render(reports: Reports) -> list[str]:
     lines = ["## satcheck", ""]
     for name, report in reports.items():
         verdict = asset(name, report).verdict
-        lines.append(f"- **{verdict}** {_text(name)}: {_text(summary_line(report))}")
+        lines.append(f"- **{verdict}** {as_text(name)}: {as_text(summary_line(report))}")
     for line in config_lines(reports.values()):
-        lines += ["", _text(line)]
+        lines += ["", as_text(line)]
     if listed:
         lines += ["", "| severity | kind | what |", "|---|---|---|"]
         lines += [
-            f"| {problem.level} | {_text(problem.kind)} | {_text(problem.message)} |"
+            f"| {problem.level} | {as_text(problem.kind)} | {as_text(problem.message)} |"
             for problem in listed[:MOST_ROWS]
         ]
     if len(listed) > MOST_ROWS:
@@ -38,6 +38,6 @@ def render(reports: Reports) -> list[str]:
     return [f"{line}\n" for line in lines]
 
 
-def _text(text: str) -> str:
+def as_text(text: str) -> str:
     """Names from files are text, never markup."""
     return _MARKUP.sub(r"\\\1", " ".join(text.split()))
