@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,12 @@ from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
 from satcheck.audit.request.effects import effects_of
 from satcheck.audit.request.planner import Planner, Request
-from satcheck.audit.request.settings import LISTED_PAIRS, Settings, require_settings
+from satcheck.audit.request.settings import (
+    LISTED_PAIRS,
+    LISTED_UNDECIDABLE,
+    Settings,
+    require_settings,
+)
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.summary import (
     body_reports,
@@ -67,7 +73,8 @@ def check(
     single usable body passes.
 
     Findings come in the order of the bodies. There is one for every pair that was neither pruned
-    nor allowed, and, in a scene of few pairs, for pruned pairs too (Settings.list_pruned).
+    nor allowed, and, in a scene of few pairs, for pruned pairs too (Settings.list_pruned). Of the
+    pairs whose bodies cannot be used or compared, only the first LISTED_UNDECIDABLE are listed.
     Report.truncated counts those left out.
 
     Raises SatcheckError (`too-few-bodies`; from loading: what the scene
@@ -121,7 +128,7 @@ def _check(
     findings = _findings(bodies, close, examined, planner)
     motion_issues = () if movers is None else movers.issues(bodies.ids)
     pair_issues = (issue for pair in examined for issue in pair.issues)
-    counts = count(bodies, len(close), findings)
+    counts = count(bodies, [pair.finding for pair in examined], findings)
     size_issues = doubtful_sizes(bodies, findings, settings.planar)
     issues = issues_of(scene, bodies, counts, (*size_issues, *motion_issues, *pair_issues))
     return Report(
@@ -138,7 +145,7 @@ def _check(
             planner,
             map(_request_and_finding, examined),
             counts,
-            units_unknown=sum(1 for _ in bodies.pairs_of_several_units()),
+            units_unknown=bodies.several_units_count,
         ),
         motions=() if movers is None else movers.stated(),
         pose=scene.posture.pose() if scene.posture else None,
@@ -299,12 +306,15 @@ def _findings(
     planner: Planner,
 ) -> list[Finding]:
     findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
-    for i, j, reason in bodies.undecidable_pairs():
-        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
     settings = planner.settings
     total, allowed = bodies.book.count()
     listed = settings.list_pruned
-    if total - allowed <= LISTED_PAIRS if listed is None else listed:
+    if listed is None:
+        listed = total - allowed <= LISTED_PAIRS
+    most = None if listed else LISTED_UNDECIDABLE
+    for i, j, reason in islice(bodies.undecidable_pairs(), most):
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
+    if listed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:
                 pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))

@@ -48,25 +48,40 @@ def tool() -> Tool:
     return Tool("satcheck", __version__)
 
 
-def count(bodies: PlacedBodies, close: int, findings: Sequence[Finding]) -> PairCounts:
-    """close: the number of pairs that the broad phase kept. Raises RuntimeError if a pair is
-    missing."""
-    unreadable = sum(1 for _ in bodies.undecidable_pairs())
-    indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
+def count(
+    bodies: PlacedBodies, close: Sequence[Finding], findings: Sequence[Finding]
+) -> PairCounts:
+    """close: of the pairs that the broad phase kept. Raises RuntimeError if a pair is missing."""
+    undecidable, left_open = bodies.undecidable_count, _indeterminate(close)
     total, allowed = bodies.book.count()
     number = len(bodies.ids)
     counts = PairCounts(
         total=total,
-        pruned=total - allowed - unreadable - close,
-        decided=close - (indeterminate - unreadable),
+        pruned=total - allowed - undecidable - len(close),
+        decided=len(close) - left_open,
         allowed=allowed,
-        indeterminate=indeterminate,
+        indeterminate=undecidable + left_open,
         exempt=number * (number - 1) // 2 - total,
     )
-    unlisted = counts.total - counts.allowed - len(findings)
-    if counts.pruned < 0 or unlisted not in (0, counts.pruned):
+    unlisted_open = unlisted_indeterminate(counts, findings)
+    unlisted_apart = _unlisted(counts, findings) - unlisted_open
+    if min(counts.pruned, unlisted_open) < 0 or unlisted_apart not in (0, counts.pruned):
         raise RuntimeError(f"pairs do not add up: {counts}, {len(findings)} findings")
     return counts
+
+
+def _indeterminate(findings: Iterable[Finding]) -> int:
+    return sum(finding.relation == "indeterminate" for finding in findings)
+
+
+def _unlisted(counts: PairCounts, findings: Sequence[Finding]) -> int:
+    """The number of checked pairs without a finding."""
+    return counts.asked - len(findings)
+
+
+def unlisted_indeterminate(counts: PairCounts, findings: Sequence[Finding]) -> int:
+    """The number of undecidable pairs without a finding."""
+    return counts.indeterminate - _indeterminate(findings)
 
 
 def summarise(
@@ -74,7 +89,9 @@ def summarise(
 ) -> Summary:
     """alone: the scene is one usable body, which has nothing to collide with."""
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
-    by_relation["separated"] += counts.total - counts.allowed - len(findings)
+    unlisted_open = unlisted_indeterminate(counts, findings)
+    by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
+    by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)
     return Summary(
         verdict="pass" if alone else _verdict(counts, findings, fail_on),
@@ -100,7 +117,9 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
     passes. A finding that a baseline contains, unchanged, does not fail."""
     if any(is_failure(finding, fail_on) for finding in findings):
         return "fail"
-    unchecked = any(finding.undecided is not None for finding in findings)
+    unchecked = unlisted_indeterminate(counts, findings) or any(
+        finding.undecided is not None for finding in findings
+    )
     return "incomplete" if unchecked or not counts.asked else "pass"
 
 
@@ -202,8 +221,12 @@ def exempt_of(scene: Scene) -> Exempt:
 
 def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated | None:
     """The findings that the report leaves out."""
-    left_out = counts.total - counts.allowed - len(findings)
-    return Truncated(left_out, "their boxes are apart") if left_out else None
+    left_out = _unlisted(counts, findings)
+    if not left_out:
+        return None
+    unlisted_open = unlisted_indeterminate(counts, findings)
+    why = ", or nothing decides them, as a body cannot be used or compared" if unlisted_open else ""
+    return Truncated(left_out, f"their boxes are apart{why}")
 
 
 def issues_of(

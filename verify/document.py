@@ -86,9 +86,9 @@ def verify(
     faults = list(report.faults)
     pruned = exempt = 0
     if not report.missing:
-        pruned, exempt = report.check_unlisted(faults)
+        pruned, exempt, left_open = report.check_unlisted(faults)
         try:
-            report.check_summary(pruned)
+            report.check_summary(pruned, left_open)
         except Rejected as why:
             faults.append(str(why))
     return Verification(
@@ -210,26 +210,28 @@ class _Report:
         )
         return replace(request, clearance=None) if request.limited else request
 
-    def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
-        """The number of unlisted pairs whose boxes are apart, and of exempt ones."""
-        pruned = exempted = 0
+    def check_unlisted(self, faults: list[str]) -> tuple[int, int, int]:
+        """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
+        nothing decides, because a body cannot be used or compared."""
+        pruned = exempted = left_open = 0
         for a, b in _unlisted(list(self.bodies.values()), self.listed):
             if self.rules.is_exempt(a, b):
                 exempted += 1
-            elif self.units[a.id] != self.units[b.id]:
-                faults.append(f"{a.id} and {b.id} are not in one unit, and not listed")
+            elif self.units[a.id] != self.units[b.id] or not (a.claims and b.claims):
+                left_open += 1
             elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
-        return pruned, exempted
+        return pruned, exempted, left_open
 
-    def check_summary(self, pruned: int) -> None:
+    def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the
         findings."""
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
-            check_summary(self.report, findings, self.rules, pruned, self.listed_apart)
+            listed_apart = self.listed_apart
+            check_summary(self.report, findings, self.rules, pruned, listed_apart, left_open)
 
 
 def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:

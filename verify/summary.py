@@ -19,12 +19,18 @@ UNDECIDED = (
 
 
 def check_summary(
-    report: Report, findings: Sequence[Finding], rules: Rules, pruned: int, listed_apart: int
+    report: Report,
+    findings: Sequence[Finding],
+    rules: Rules,
+    pruned: int,
+    listed_apart: int,
+    left_open: int,
 ) -> None:
     """pruned: pairs without a finding whose boxes are apart. listed_apart: pairs with one whose
-    boxes may be apart."""
+    boxes may be apart. left_open: pairs without a finding that nothing decides."""
     total, allowed = rules.count()
     relations = Counter(str(finding.relation) for finding in findings)
+    relations["indeterminate"] += left_open
     undecided = Counter(finding.undecided for finding in findings)
     _check_pairs(report, total, allowed, relations["indeterminate"], pruned, listed_apart)
     relations["separated"] += pruned
@@ -36,15 +42,15 @@ def check_summary(
             raise Rejected(f"the summary's {key} is not {undecided[kind]}")  # type: ignore[index]
     _check_effects(report, total)
     truncated = report.truncated
-    if (0 if truncated is None else truncated.pairs) != pruned:
-        raise Rejected(f"the findings leave out {pruned} pairs")
+    if (0 if truncated is None else truncated.pairs) != pruned + left_open:
+        raise Rejected(f"the findings leave out {pruned + left_open} pairs")
     least = SEVERITIES.index(report.settings.fail_on)
     _check_baseline(report, findings, least)
     new = (finding for finding in findings if finding.baseline_state != "unchanged")
     failed = any(_fails(finding, least) for finding in new)
     alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
-    left_open = undecided.total() > undecided[None] or (total == allowed and not alone)
-    verdict = "fail" if failed else "incomplete" if left_open else "pass"
+    open_ = left_open or undecided.total() > undecided[None] or (total == allowed and not alone)
+    verdict = "fail" if failed else "incomplete" if open_ else "pass"
     if report.summary.verdict != verdict:
         raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
 

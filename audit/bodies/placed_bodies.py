@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
@@ -52,6 +52,33 @@ class PlacedBodies(Struct, frozen=True):
     issues: tuple[Issue, ...]
     units: dict[int, str | None]
 
+    @property
+    def undecidable_count(self) -> int:
+        """The number of `undecidable_pairs`, without a visit to each."""
+        alike = self._alike()
+        if not self.unusable and len(alike) < 2:
+            return 0
+        return self._checked_count(None) - sum(map(self._checked_count, alike))
+
+    @property
+    def several_units_count(self) -> int:
+        """The number of `pairs_of_several_units`."""
+        alike = self._alike()
+        if len(alike) < 2:
+            return 0
+        return self._checked_count(self.placed) - sum(map(self._checked_count, alike))
+
+    def _checked_count(self, among: Collection[int] | None) -> int:
+        total, allowed = self.book.count(among)
+        return total - allowed
+
+    def _alike(self) -> list[dict[int, None]]:
+        """The placed bodies, by their units."""
+        alike: dict[str | None, dict[int, None]] = {}
+        for k in self.placed:
+            alike.setdefault(self.units.get(k), {})[k] = None
+        return list(alike.values())
+
     def undecidable_pairs(self) -> Iterator[tuple[int, int, str]]:
         """Pairs that cannot be decided because a body is unusable or in unknown units, with the
         reason."""
@@ -72,10 +99,7 @@ class PlacedBodies(Struct, frozen=True):
 
     def pairs_of_several_units(self) -> Iterator[tuple[int, int, str]]:
         """Undecidable pairs whose only problem is the units."""
-        alike: dict[str | None, list[int]] = {}
-        for k in self.placed:
-            alike.setdefault(self.units.get(k), []).append(k)
-        for some, others in combinations(alike.values(), 2):
+        for some, others in combinations(self._alike(), 2):
             for i, j in map(sorted, product(some, others)):
                 if self.book.is_checked(i, j):
                     yield i, j, f"{self._in_units(i)}, and {self._in_units(j)}"

@@ -44,7 +44,7 @@ class PairRows:
         for kind, members in zip(kinds, of_kinds, strict=True):
             for one in (*kind.ignored_groups, *([None] if kind.fixed else [])):
                 together.setdefault(one, []).extend(members)
-        self._together = {one: _row(members) for one, members in together.items()}
+        self._together = {one: row_of(members) for one, members in together.items()}
 
     def ignored(self, kind: Kind) -> int:
         row = self._together[None] if kind.fixed else 0
@@ -68,13 +68,13 @@ class PairRows:
         """Rows are cached, except those of single members, which would fill the memory."""
         members = self._sides[number][side]
         if len(members) == 1:
-            return _row(members)
+            return row_of(members)
         if (number, side) not in self._known:
-            self._known[number, side] = _row(members)
+            self._known[number, side] = row_of(members)
         return self._known[number, side]
 
 
-def _row(members: Iterable[int]) -> int:
+def row_of(members: Iterable[int]) -> int:
     """The integer with these bits set."""
     members = tuple(members)
     if len(members) == 1:
@@ -88,4 +88,4 @@ def _row(members: Iterable[int]) -> int:
 def ones(row: int, bodies: Sequence[int]) -> int:
     """The number of ones in the row, summed over these bodies; for each body without its own
     bit."""
-    return len(bodies) * row.bit_count() - (row & _row(bodies)).bit_count()
+    return len(bodies) * row.bit_count() - (row & row_of(bodies)).bit_count()

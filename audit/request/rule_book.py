@@ -7,12 +7,12 @@ kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for eac
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.request.pair_rows import A, B, Kind, PairRows, ones
+from satcheck.audit.request.pair_rows import A, B, Kind, PairRows, ones, row_of
 from satcheck.scene.rules import KEYS, Rule, Selector
 
 # At most this many exempt pairs of kinds are listed.
@@ -179,18 +179,20 @@ class RuleBook:
             if not a or not b or alone:
                 yield rule
 
-    def count(self) -> tuple[int, int]:
-        """The number of pairs that are not exempt, and the number of these that are allowed."""
+    def count(self, among: Collection[int] | None = None) -> tuple[int, int]:
+        """The number of pairs that are not exempt, and the number of these that are allowed.
+        among: of these bodies; None: of all."""
         total = allowed = 0
-        everyone = (1 << self._count) - 1
+        everyone = (1 << self._count) - 1 if among is None else row_of(among)
         rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
-        for kind, bodies in zip(self._kinds, self._bodies, strict=True):
+        for kind, of_kind in zip(self._kinds, self._bodies, strict=True):
+            bodies = of_kind if among is None else [k for k in of_kind if k in among]
             asked = everyone & ~rows.ignored(kind)
             total += ones(asked, bodies)
             allowed += ones(asked & rows.allowed(kind), bodies)
         total, allowed = total // 2, allowed // 2
         for i, j in self._named:
-            if not self.is_ignored(i, j):
+            if (among is None or (i in among and j in among)) and not self.is_ignored(i, j):
                 allowed += self.terms(i, j).allows - self._merged(self._about(i, j)).allows
         return total, allowed
 

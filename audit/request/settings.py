@@ -35,6 +35,9 @@ THICKNESS_SHARE = 0.5
 # Up to this many pairs, a report lists all pairs, including those that the broad phase settled, and
 # a table has a row for each.
 LISTED_PAIRS = 60
+# The most findings about pairs whose bodies cannot be used or compared: a mesh that cannot be read
+# may have a thousand bodies, and each of them a pair with every other body of the scene.
+LISTED_UNDECIDABLE = 10_000
 # Limit on the points in the contacts of a pair: about 5 MB of JSON.
 CONTACT_POINTS = 100_000
 

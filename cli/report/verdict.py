@@ -9,6 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from satcheck.audit.severity import is_failure
+from satcheck.audit.summary import unlisted_indeterminate
 from satcheck.cli.report.limits import limits
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.order import severity, worst_first
@@ -161,8 +162,10 @@ def _apart(finding: Finding, unit: str | None) -> str:
 def _left_open(report: Report) -> list[str]:
     """`1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
-    if undecided := [f for f in report.findings if f.undecided == "relation"]:
-        said.append(_of_pairs(len(undecided), "is indeterminate", "are indeterminate"))
+    undecided = sum(f.undecided == "relation" for f in report.findings)
+    undecided += unlisted_indeterminate(summary.pairs, report.findings)
+    if undecided:
+        said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))
     if swept := sum(past_holes(finding) for finding in report.findings):
         holes = "past holes that may be filled"
         said.append(_of_pairs(swept, f"moves {holes}", f"move {holes}"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from importlib import import_module
 
 import jsonschema
 import pytest
@@ -12,6 +13,7 @@ from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Report, Truncated
 from satcheck.report.schema import schema_of
+from satcheck.verify import verify
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
 from tests.scene import graphs
 
@@ -60,6 +62,36 @@ def test_of_many_pairs_those_with_boxes_apart_are_counted_alone(tmp_path):
     assert (pairs.total, pairs.pruned, len(report.findings)) == (66, 55, 11)
     assert report.truncated == Truncated(55, "their boxes are apart")
     assert report.to_dict()["truncated"] == {"pairs": 55, "reason": "their boxes are apart"}
+
+
+def test_of_many_pairs_with_an_unreadable_body_most_are_counted_alone(tmp_path, monkeypatch):
+    """Ten boxes in a row, and three unreadable bodies: 13 * 12 / 2 pairs, 3 * 10 + 3 of them
+    undecidable, of which the rule allows three."""
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "LISTED_UNDECIDABLE", 4)
+    write(tmp_path, box=unit_box())
+    (tmp_path / "bad.obj").write_text("v 0 0")
+    bodies = [(f"b{k}", "box.obj", pose(0.75 * k)) for k in range(10)]
+    bodies += [(f"bad{k}", "bad.obj", pose(k)) for k in range(3)]
+    allowed = [["b0", f"bad{k}", "meant to"] for k in range(3)]
+    report = check(placed_scene(tmp_path, bodies, allowed_pairs=allowed))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.allowed, pairs.indeterminate, pairs.decided) == (78, 3, 30, 9)
+    assert sum(finding.relation == "indeterminate" for finding in report.findings) == 4
+    assert report.summary.by_relation["indeterminate"] == 30
+    assert report.truncated is not None
+    assert report.truncated.pairs == 78 - 3 - 9 - 4
+    assert "cannot be used" in report.truncated.reason
+
+
+def test_an_unreadable_body_that_no_finding_names_is_no_pass(tmp_path, monkeypatch):
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "LISTED_UNDECIDABLE", 0)
+    write(tmp_path, box=unit_box())
+    (tmp_path / "bad.obj").write_text("v 0 0")
+    bodies = [(f"b{k}", "box.obj", pose(2.0 * k)) for k in range(12)]
+    report = check(placed_scene(tmp_path, [*bodies, ("bad", "bad.obj", pose(0))]))
+    assert (adds_up(report).indeterminate, report.findings) == (12, ())
+    assert report.summary.verdict == "incomplete"
+    assert not verify(report.to_dict(), tmp_path).faults
 
 
 @pytest.mark.parametrize(

@@ -85,6 +85,9 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
         kinds = tuple(sorted((book.kind_of[i], book.kind_of[j])))
         assert not (asked and ((i, j) in book.exempt_named() or kinds in book.exempt_kinds()))
     assert book.count() == (total, allowed)
+    some = range(0, len(bodies), 2)
+    among = [(i, j) for i, j in combinations(some, 2) if not book.is_ignored(i, j)]
+    assert book.count(some) == (len(among), sum(book.terms(i, j).allows for i, j in among))
     unused = [
         one for one in rules if not any(is_about(one, p, q) for p, q in combinations(bodies, 2))
     ]
