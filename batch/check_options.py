@@ -12,6 +12,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.config import StatedConfig
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import GeometryKind
+from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.scene_builder import Split
 from satcheck.scene.units import Length
@@ -41,8 +42,8 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
     baseline: str | None = None
     config: StatedConfig | None = None
 
-    def load(self, world: World, *, hashed: bool = True) -> Scene:
-        """Raises what `load_scene` raises."""
+    def load(self, world: World, *, hashed: bool = True, known: KnownMeshes | None = None) -> Scene:
+        """hashed, known: as in `load_scene`. Raises what `load_scene` raises."""
         return load_scene(
             world,
             split=self.split,
@@ -51,6 +52,7 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
             allow_outside=self.allow_outside,
             units=self.units,
             hashed=hashed,
+            known=known,
             rules=self.rules,
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,

@@ -16,16 +16,24 @@ from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import Report
 from satcheck.scene import Scene
+from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.path_kind import exists, is_folder
 
 
-def check_world(world: World, options: CheckOptions, *, hashed: bool = True) -> Asset:
+def check_world(
+    world: World,
+    options: CheckOptions,
+    *,
+    hashed: bool = True,
+    known: KnownMeshes | None = None,
+) -> Asset:
     """Every error of the world becomes part of the report. hashed: state the SHA-256 of the mesh
-    files. Raises SatcheckError if the baseline cannot be read."""
+    files. known: mesh files that stay in memory. Raises SatcheckError if the baseline cannot be
+    read."""
     with step(f"checking {world[0]}"):
         checked = check_asset(
             world[0],
-            partial(_load, world, options, hashed),
+            partial(_load, world, options, hashed, known),
             options.settings_for,
             places=options.places,
         )
@@ -40,9 +48,9 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
     return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
 
 
-def _load(world: World, options: CheckOptions, hashed: bool) -> Scene:
+def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:
     _refuse_folder(world[0])
-    scene = options.load(world, hashed=hashed)
+    scene = options.load(world, hashed=hashed, known=known)
     if not scene.bodies and not scene.unreadable:
         reason = "there is no body: give a file of rules as --rules FILE"
         raise SatcheckError("too-few-bodies", reason, file=world[0])

@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import stat
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -15,8 +16,10 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.report.batch import InputFile
+from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.robot.packages import search_path
 
+_MOST_DIGESTS = 20_000
 # Settings that change no answer.
 _WITHOUT_EFFECT = frozenset({"jobs", "cache", "cache_directory", "timings"})
 
@@ -38,6 +41,24 @@ def digest(name: str) -> str | None:
         return None
     except OSError as error:
         return _sha256(f"error {error.errno}")
+
+
+class Digests:
+    """The digests of files that did not change since they were made."""
+
+    def __init__(self) -> None:
+        self._known: OrderedDict[str, tuple[Signature, str | None]] = OrderedDict()
+
+    def digest(self, files: FilesRead, name: str) -> str | None:
+        """files: the name is one of them."""
+        at = files.signature(name)
+        known = self._known.pop(name, None)
+        made = digest(name) if known is None or known[0] != at else known[1]
+        if files.is_settled(name):
+            self._known[name] = at, made
+            if len(self._known) > _MOST_DIGESTS:
+                self._known.popitem(last=False)
+        return made
 
 
 def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:

@@ -7,6 +7,7 @@ import os
 import re
 import time
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import NoReturn
 
 import msgspec
@@ -16,17 +17,24 @@ from msgspec.structs import replace
 from satcheck.audit.assets import without_unused_rules
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
-from satcheck.batch.key import digest, inputs_of, key_of, terms_of
+from satcheck.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.core import keep_freed_memory
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import line_without_times
 from satcheck.scene.files_read import files_read, note
+from satcheck.scene.known_meshes import KnownMeshes
 
 # A line on standard error names the risky step that begins, in hexadecimal digits, as the name may
 # hold anything, and says when: in seconds of a clock that all processes share.
 STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
+
+
+# What this process keeps for the next world. A triangle takes about 200 bytes.
+_KEPT_TRIANGLES = 1_000_000
+_meshes = KnownMeshes(_KEPT_TRIANGLES)
+_digests = Digests()
 
 
 class Chunk(Struct, frozen=True):
@@ -87,8 +95,8 @@ def _answer(world: World, options: CheckOptions, terms: str, *, certain: bool) -
     with files_read() as files:
         for name in world:
             note(name)
-        checked = without_unused_rules(check_world(world, options), options.rules)
-    inputs = inputs_of(files, digest)
+        checked = without_unused_rules(check_world(world, options, known=_meshes), options.rules)
+    inputs = inputs_of(files, partial(_digests.digest, files))
     result = Result(
         files=world,
         key=key_of(world, terms, inputs) if certain and files.are_certain() else None,

@@ -6,12 +6,18 @@ anybody listens. A child process cannot note for its parent: its answer names wh
 
 from __future__ import annotations
 
+import os
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-# Of a file: what changes when its content does. None: nothing is there, or nobody may look.
+# Of a file: what changes when its content does; the last two are times. None: nothing is there, or
+# nobody may look.
 Signature = tuple[int, ...] | None
+# A file that changed this recently may change again within the grain of its times.
+_GRAIN_NS = 2_000_000_000
+_status = os.stat
 
 
 class FilesRead:
@@ -21,9 +27,14 @@ class FilesRead:
     def __init__(self) -> None:
         self._signatures: dict[str, Signature] = {}
         self._lost = False
+        self._began_ns = time.time_ns()
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._signatures)
+
+    def signature(self, name: str) -> Signature:
+        """When it was noted."""
+        return self._signatures[name]
 
     def add(self, name: str) -> None:
         if name not in self._signatures:
@@ -34,9 +45,20 @@ class FilesRead:
 
     def are_certain(self) -> bool:
         """Whether these are all files, and none has changed since it was noted."""
-        return not self._lost and all(
-            signature(name) == at for name, at in self._signatures.items()
-        )
+        known = self._signatures.items()
+        return not self._lost and all(signature(name) == at for name, at in known)
+
+    def are_settled(self) -> bool:
+        """Whether they are certain, and each later change will show in a signature."""
+        return all(map(self.is_settled, self)) and self.are_certain()
+
+    def is_settled(self, name: str) -> bool:
+        at = self._signatures[name]
+        return at is None or max(at[-2:]) < self._began_ns - _GRAIN_NS
+
+    def note_again(self) -> None:
+        for name in self:
+            note(name)
 
 
 _listening: list[FilesRead] = []
@@ -72,7 +94,7 @@ def files_read() -> Iterator[FilesRead]:
 
 def signature(name: str) -> Signature:
     try:
-        status = Path(name).stat()
+        status = _status(name)
     except (OSError, ValueError):
         return None
     return (

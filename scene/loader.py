@@ -20,6 +20,7 @@ from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
+    from satcheck.scene.known_meshes import KnownMeshes
 
 
 def load_scene(
@@ -34,6 +35,7 @@ def load_scene(
     units: str | None = None,
     rules: Sequence[str | Path] = (),
     geometry: GeometryKind = "collision",
+    known: KnownMeshes | None = None,
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -59,13 +61,18 @@ def load_scene(
     rules: files of rules, about all bodies. They count after those of the scenes.
     geometry: which elements of the links of robots are bodies: "collision" or "visual".
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
+    known: mesh files that stay in memory from scene to scene.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
     is loaded. Raises SceneFileError for an invalid scene file or robot.
     """
     given = _as_texts(paths)
     files = MeshFiles(
-        seconds_per_file, megabytes_per_file, allow_outside=allow_outside, hashed=hashed
+        seconds_per_file,
+        megabytes_per_file,
+        allow_outside=allow_outside,
+        hashed=hashed,
+        known=known,
     )
     builder = SceneBuilder(files, None if units is None else _unit(units))
     scenes = _read_scenes(given, allow_outside)

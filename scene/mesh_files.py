@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
@@ -23,12 +25,17 @@ from satcheck.scene.plain_ids import COMPONENT_MARK
 from satcheck.scene.shape_file import shape_file
 from satcheck.scene.words import meant
 
+if TYPE_CHECKING:
+    from satcheck.scene.known_meshes import KnownMeshes
+
+Read = TypeVar("Read", MeshFile, Nodes)
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
 
 
 class MeshFiles:
-    """Reads each file once, even if several paths lead to it and many bodies use it.
+    """Reads each file once, even if several paths lead to it and many bodies use it. known: files
+    that earlier scenes have read.
 
     Formats that need large parsers are read in a child process, which ends with this object.
     """
@@ -40,7 +47,9 @@ class MeshFiles:
         *,
         allow_outside: bool = False,
         hashed: bool = True,
+        known: KnownMeshes | None = None,
     ) -> None:
+        self._known = known
         self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed)
         self._children = ReadingChildren(megabytes)
         self._places: dict[Path, Path] = {}
@@ -60,8 +69,8 @@ class MeshFiles:
         key = self._absolute(location)
         if key not in self._wholes:
             try:
-                with _reading(path):
-                    self._wholes[key] = self._load_whole(path, location)
+                load = partial(self._load_whole, path, location)
+                self._wholes[key] = self._recalled(("whole", path, key), load)
             except MeshFileError as error:
                 self._wholes[key] = error
         return self._wholes[key]
@@ -101,19 +110,25 @@ class MeshFiles:
         for thread in threads:
             thread.join()
 
+    def _recalled(self, key: tuple[Hashable, ...], load: Callable[[], Read]) -> Read:
+        if self._known is None:
+            return load()
+        return self._known.recall((*key, self._limits), load)
+
     def _load_whole(self, path: str, location: Path) -> MeshFile:
         load = load_mesh_file
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_drawing as load
-        return load(path, location, self._limits, self._children)
+        with _reading(path):
+            return load(path, location, self._limits, self._children)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file split into nodes."""
         key = self._absolute(location), components
         if key not in self._nodes:
             try:
-                with _reading(path):
-                    loaded = self._load_nodes(path, location, components)
+                load = partial(self._load_nodes, path, location, components)
+                loaded = self._recalled(("nodes", path, *key), load)
                 self._nodes[key] = loaded
                 self._by_path[key] = {node.path: node for node in loaded.nodes}
             except MeshFileError as error:
@@ -121,11 +136,12 @@ class MeshFiles:
         return self._nodes[key]
 
     def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
-        if is_drawing(location):
-            from satcheck.scene.drawing.bodies import load_shapes
+        with _reading(path):
+            if is_drawing(location):
+                from satcheck.scene.drawing.bodies import load_shapes
 
-            return load_shapes(path, location, self._limits, self._children)
-        return load_nodes(path, location, self._limits, self._children, components=components)
+                return load_shapes(path, location, self._limits, self._children)
+            return load_nodes(path, location, self._limits, self._children, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""

@@ -261,7 +261,7 @@ def test_a_file_that_changes_during_its_check_is_checked_again(
         return digest(name)
 
     with monkeypatch.context() as context:
-        context.setattr("satcheck.batch.slot_server.digest", late)
+        context.setattr("satcheck.batch.key.digest", late)
         assert checked([world]) == [world]
     assert checked([world]) == [world]
     assert checked([world]) == []
