@@ -124,6 +124,13 @@ def test_without_duckdb_the_error_says_what_to_install(monkeypatch: pytest.Monke
     assert "pip install 'satcheck[query]'" in caught.value.message
 
 
+@pytest.mark.parametrize("table", TABLES)
+def test_the_page_names_every_column(table: str) -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "results.md").read_text("utf-8")
+    section = page.split(f"`{table}`, a row for each", 1)[1].split("a row for each", 1)[0]
+    assert [name for name in columns_of(table) if f"`{name}`" not in section] == []
+
+
 def test_every_column_has_a_type_in_sql() -> None:
     assert columns_of("scenes")["files"] == "VARCHAR[]"
     assert columns_of("findings")["depth"] == "DOUBLE"

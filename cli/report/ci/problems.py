@@ -4,6 +4,8 @@ of the inputs, the worst first."""
 from __future__ import annotations
 
 import os
+from heapq import nsmallest
+from itertools import count
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
@@ -17,6 +19,8 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from satcheck.cli.report.ci import Reports
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
@@ -52,12 +56,26 @@ class Problem(NamedTuple):
 def problems(reports: Reports) -> list[Problem]:
     """Of all reports, the worst first: by level, then findings as a table has them, then issues.
     With several reports each message and each id names its asset."""
-    listed = [
-        _naming(asset, problem) if len(reports) > 1 else problem
-        for asset, report in reports.items()
-        for problem in _of_report(report)
-    ]
-    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), problem.rank))
+    return sorted(_of_all(reports), key=_order)
+
+
+def worst_problems(reports: Reports, most: int) -> tuple[list[Problem], int]:
+    """The first of them, and the number of the others, which need no memory."""
+    numbers = count()
+    numbered = zip(_of_all(reports), numbers, strict=False)
+    worst = nsmallest(most, (problem for problem, _ in numbered), key=_order)
+    return worst, next(numbers) - len(worst)
+
+
+def _of_all(reports: Reports) -> Iterator[Problem]:
+    is_one = len(reports) == 1
+    for asset, report in reports.items():
+        for problem in _of_report(report):
+            yield problem if is_one else _naming(asset, problem)
+
+
+def _order(problem: Problem) -> tuple[int, tuple[float, ...]]:
+    return (LEVELS.index(problem.level), problem.rank)
 
 
 def _naming(asset: str, problem: Problem) -> Problem:

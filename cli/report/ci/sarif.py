@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.summary import tool
-from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
+from satcheck.cli.report.ci.problems import KINDS, Problem, uri, worst_problems
 from satcheck.cli.report.config import config_lines
 from satcheck.report.json import document
 
@@ -27,9 +27,8 @@ _MARKUP = re.compile(r"([\\\[\]])")
 
 
 def render(reports: Reports) -> list[str]:
-    listed = problems(reports)
+    kept, left_out = worst_problems(reports, MOST_RESULTS)
     driver = tool()
-    kept = listed[:MOST_RESULTS]
     kinds = list(dict.fromkeys(problem.kind for problem in kept))
     run = {
         "tool": {
@@ -40,7 +39,7 @@ def render(reports: Reports) -> list[str]:
             }
         },
         "columnKind": "unicodeCodePoints",
-        "invocations": [_invocation(reports, left_out=len(listed) - len(kept))],
+        "invocations": [_invocation(reports, left_out=left_out)],
         "results": [_result(problem, kinds.index(problem.kind)) for problem in kept],
     }
     return [document({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})]
