@@ -9,7 +9,7 @@ from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.model import Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.urdf import robot_of
-from satcheck.scene.robot.xml_tree import read_tree
+from satcheck.scene.robot.xml_tree import SDF_ROOTS, read_tree
 
 
 def read_robot(
@@ -20,8 +20,8 @@ def read_robot(
     path: of the file, for messages; location: where it lies. places: where included files are
     looked for. geometry: which elements of links become bodies. No mesh is opened.
     """
-    root = read_tree(path, location, "robot", "sdf")
-    if root.tag == "sdf":
+    root = read_tree(path, location, "robot", *SDF_ROOTS)
+    if root.tag in SDF_ROOTS:
         from satcheck.scene.robot.sdf.includes import Includes
         from satcheck.scene.robot.sdf.reading import read_sdf
 

@@ -18,6 +18,7 @@ from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
 from satcheck.scene.words import meant
 
+SDF_ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
 _MAX_BYTES = 64 << 20
 # Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
@@ -29,6 +30,8 @@ _XACRO_NAMESPACE = "xacro"  # at the end of its URI; its prefix may differ
 # Harmless xacro: definitions, and macros inside elements that place no geometry.
 _DEFINES = frozenset(("property", "arg", "macro"))
 _PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "material"))
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_NO_LINE_END = re.compile(rb"[^\r\n]")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
@@ -177,10 +180,22 @@ def _with_declaration_first(data: bytes) -> bytes:
 
 
 def _parse(path: str, data: bytes) -> Element:
-    stream = io.BytesIO(_with_declaration_first(data))
     try:
-        return parse_elements(guarded_parser(namespaces=False), stream, partial(Element, file=path))
+        with suppress(MeshFileError):
+            return _parsed(path, data)
+        return _parsed(path, _without_comments(data))
     except MeshFileError as error:
         if _ERB in data:
             raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
         raise SceneFileError(error.code, error.message, file=path) from None
+
+
+def _parsed(path: str, data: bytes) -> Element:
+    stream = io.BytesIO(_with_declaration_first(data))
+    return parse_elements(guarded_parser(namespaces=False), stream, partial(Element, file=path))
+
+
+def _without_comments(data: bytes) -> bytes:
+    """The document with blanks for comments. Programs for robots accept comments that XML does not
+    allow: with -- in them, or before <?xml ...?>. All lines keep their numbers."""
+    return _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)

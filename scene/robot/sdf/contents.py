@@ -102,8 +102,11 @@ class Contents:
             self._all_in(container, around)
 
     def _all_in(self, container: Element, around: Around) -> None:
-        """Joints come last: a joint that shares its name with a link gets another one."""
-        for child in sorted(container.children, key=lambda child: child.tag == "joint"):
+        """Frames and joints come last: one that shares its name with a link or a model gets another
+        name."""
+        last = ("frame", "joint")
+        rank = {tag: number for number, tag in enumerate(last, 1)}
+        for child in sorted(container.children, key=lambda child: rank.get(child.tag, 0)):
             if child.tag in self._readers:
                 self._readers[child.tag](child, around)
 
@@ -120,9 +123,12 @@ class Contents:
         first = element.attributes.get("canonical_link")
         self.models[path] = Name(scope, first, element) if first else None
         static = given.static or element.only("static")
+        if given.merge and not around.scope.prefix:
+            for link in element.all("link"):
+                link.refuse("a link of a model that is merged into the world")
         within = around._replace(
             scope=scope,
-            model=around.model or path,
+            model=around.model or scope.prefix,
             static=around.static or boolean(element, "static", False, static),
             self_collide=boolean(element, "self_collide", around.self_collide),
             depth=around.depth + 1,
@@ -162,8 +168,6 @@ class Contents:
         if root.file in around.files:
             element.refuse(f"{uri!r} includes itself", "reference-cycle")
         merge = flag(element, "merge")
-        if merge and around.scope.model == WORLD:
-            element.refuse("merge: only within a model")
         placement = element.only("placement_frame")
         given = Given(
             name,
@@ -208,16 +212,14 @@ class Contents:
         self._first.setdefault(around.scope.model, path)
 
     def _frame(self, element: Element, around: Around) -> None:
-        path = around.scope.path(element.attribute("name"))
+        path = self._free_path(element, around.scope)
         text = element.attributes.get("attached_to")
         attached = Name(around.scope, text, element) if text else None
         pose = element.only("pose")
         self._declare(path, element, pose, around.scope, default=attached, attached=attached)
 
     def _joint(self, element: Element, around: Around) -> None:
-        path = around.scope.path(element.attribute("name"))
-        if path in self.frames and self.frames.element(path).tag != "joint":
-            path += "_joint"  # as libsdformat does
+        path = self._free_path(element, around.scope)
         parent, child = (
             Name(around.scope, text_of(element, role), element.need(role), of_joint=True)
             for role in ("parent", "child")
@@ -227,6 +229,13 @@ class Contents:
         moves = not around.static
         found = Found(element, path, around.scope, around.version, parent, child, moves)
         self.joints.append(found)
+
+    def _free_path(self, element: Element, scope: Scope) -> str:
+        """The path of a frame or a joint, which ends in the tag if something else has the name, as
+        in libsdformat."""
+        path = scope.path(element.attribute("name"))
+        taken = path in self.frames and self.frames.element(path).tag != element.tag
+        return f"{path}_{element.tag}" if taken else path
 
     def _actor(self, element: Element, around: Around) -> None:
         solid = any(link.all("collision") for link in element.all("link"))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.xml_tree import Element
+from satcheck.scene.robot.xml_tree import Element, RefusedElement
 from satcheck.scene.words import meant
 
 WORLD = ""  # the path of the world
@@ -86,16 +86,28 @@ class Frames:
         scope, text, element, of_joint = name
         if text == _MODEL and scope.model:
             return scope.model
-        path = scope.path(text.removesuffix(_SEPARATOR + _MODEL))
+        path = scope.path(text)
+        if path not in self._frames:
+            path = path.removesuffix(_SEPARATOR + _MODEL)
+        if text == _WORLD and (of_joint or not scope.prefix) and not self._has_body(path):
+            return WORLD
         if path in self._frames:
             return path
-        if text == _WORLD and (of_joint or not scope.prefix):
-            return WORLD
         if of_joint and (model := self._opaque_around(path)):
             return model
         hint = meant(text, self._names_in(scope))
         message = f"names {text!r}, which does not exist{hint}"
         return element.refuse(message, "index-out-of-range")
+
+    def knows(self, name: Name) -> bool:
+        try:
+            self.find(name)
+        except RefusedElement:
+            return False
+        return True
+
+    def _has_body(self, path: str) -> bool:
+        return path in self._frames and self._frames[path].element.tag != "joint"
 
     def _opaque_around(self, path: str) -> str | None:
         parts = path.split(_SEPARATOR)

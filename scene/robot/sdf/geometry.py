@@ -7,7 +7,7 @@ from typing import NoReturn
 
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from satcheck.scene.robot.model import Geometry, MeshReference
-from satcheck.scene.robot.sdf.values import number, text_of, vector
+from satcheck.scene.robot.sdf.values import number, vector
 from satcheck.scene.robot.xml_tree import Element
 
 PLANE = "plane"
@@ -41,7 +41,13 @@ def _mesh(shape: Element) -> MeshReference:
     scale = vector(shape, "scale", (1.0, 1.0, 1.0))
     if 0.0 in scale:
         shape.refuse("scale 0 flattens the mesh", "singular-transform")
-    return MeshReference(text_of(shape, "uri"), scale)
+    # Converters of early versions leave a second <uri> with this text.
+    uris = [uri for uri in shape.all("uri") if uri.text != "__default__"]
+    if not uris:
+        shape.refuse("<uri> is missing")
+    if len(uris) > 1:
+        uris[1].refuse("a second <uri> in one <mesh>")
+    return MeshReference(uris[0].text or uris[0].refuse("is empty"), scale)
 
 
 _SHAPES: dict[str, Callable[[Element], Geometry]] = {

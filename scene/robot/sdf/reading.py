@@ -41,7 +41,7 @@ def read_sdf(
     contents = Contents(includes, slips, geometry)
     contents.read(root)
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
-    edges = [_edge(joint, contents, slips) for joint in contents.joints]
+    edges = [edge for joint in contents.joints if (edge := _edge(joint, contents, slips))]
     parts = {path: _parts(path, contents, slips, geometry) for path in contents.links}
     contacts = {path: found.contacts for path, found in contents.links.items()}
     collisions, exempted = exempt(contacts, parts, _joined(edges))
@@ -71,11 +71,18 @@ def _parts(path: str, contents: Contents, slips: Slips, geometry: GeometryKind) 
     return parts_in(found.element, path, found.scope, contents.frames, slips, geometry)
 
 
-def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge:
+def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge | None:
+    """None: the joint moves nothing, and a warning says so."""
+    frames = contents.frames
+    if frames.opaque and not all(map(frames.knows, (joint.parent, joint.child))):
+        cause = f"joint {joint.path!r} names a link of a model that is not read: it is ignored"
+        slips.note("joint-not-moved", joint.element, cause)
+        return None
     parent, child = contents.body(joint.parent), contents.body(joint.child)
     if parent == child:
-        joint.element.refuse(f"joint {joint.path!r} connects {child or 'the world'!r} to itself")
-    frames = contents.frames
+        cause = f"joint {joint.path!r} connects {child or 'the world'!r} to itself: it is ignored"
+        slips.note("joint-not-moved", joint.element, cause)
+        return None
     moves = moves_of(joint, frames, slips)
     return Edge(joint.path, joint.element, parent, child, frames.world(joint.path), moves)
 

@@ -117,3 +117,10 @@ def test_the_frame_attribute_of_early_versions(tmp_path: Path) -> None:
     text = '<link name="b"><pose frame="a">1 0 0 0 0 0</pose></link>'
     robot, _ = read(tmp_path, sdf(model("m", link("a", "0 1 0 0 0 0"), text), version="1.6"))
     assert origins(robot)["m::b"] == (1, 1, 0)
+
+
+def test_a_frame_with_the_name_of_a_model(tmp_path: Path) -> None:
+    frame = '<frame name="m"><pose>0 0 9 0 0 0</pose></frame>'
+    text = '<pose relative_to="m_frame">1 0 0 0 0 0</pose>'
+    robot, _ = read(tmp_path, world(frame, model("m", link("a")), model("n", text, link("a"))))
+    assert origins(robot) == {"m::a": (0, 0, 0), "n::a": (1, 0, 9)}

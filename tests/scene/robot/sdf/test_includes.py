@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import load_scene
+from satcheck.scene import SceneFileError, load_scene
 from satcheck.scene.files_read import files_read
 from tests.scene.robot.sdf.files import (
     include,
@@ -159,3 +159,22 @@ def test_the_files_that_are_read_and_looked_for_are_noted(tmp_path: Path) -> Non
 def test_models_in_each_other_without_end(tmp_path: Path) -> None:
     deep = "<model name='m'>" * 100 + link("a") + "</model>" * 100
     assert refusal(tmp_path, sdf(deep))[0] == "too-large"
+
+
+def test_a_joint_with_a_link_of_a_model_that_is_not_read(tmp_path: Path) -> None:
+    text = model("m", include("model://gone"), link("a"), joint("j", "other::l", "a"))
+    robot, (warning,) = read(tmp_path, sdf(text))
+    assert robot.joints == ()
+    assert (warning.code, "'m::j'" in warning.message) == ("joint-not-moved", True)
+
+
+def test_merging_into_the_world(tmp_path: Path) -> None:
+    inner = model("x", link("a"))
+    write_model(tmp_path, "two", sdf(model("two", inner, inner.replace('"x"', '"y"'))))
+    write_model(tmp_path, "one", CRATE)
+    merged = '<include merge="true"><uri>two</uri><pose>3 0 0 0 0 0</pose></include>'
+    scene = load_scene([write(tmp_path, world(merged))])
+    assert scene.order == ("x::a", "y::a")
+    assert scene.rules == ()
+    with pytest.raises(SceneFileError, match="merged into the world"):
+        load_scene([write(tmp_path, world(merged.replace("two", "one")))])

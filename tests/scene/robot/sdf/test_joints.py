@@ -144,7 +144,6 @@ def test_a_mimic(tmp_path: Path) -> None:
     [
         (joint("j", "a", "x"), "index-out-of-range", "names 'x'"),
         (joint("j", "a", "b", "hinge"), "bad-robot", "'hinge' is none of"),
-        (joint("j", "a", "a"), "bad-robot", "connects 'm::a' to itself"),
         (joint("j", "a", "b", "revolute", axis("0 0 0")), "bad-robot", "an axis of length 0"),
         ('<joint name="j" type="fixed"><parent>a</parent></joint>', "bad-robot", "<child>"),
         (
@@ -164,3 +163,16 @@ def test_a_wrong_joint_refuses_the_file(tmp_path: Path, text: str, code: str, wo
 def test_a_joint_with_the_name_of_a_link(tmp_path: Path) -> None:
     robot, _ = read(tmp_path, sdf(model("m", joint("b", "a", "b"), A, B), version="1.6"))
     assert [joint.name for joint in robot.joints] == ["m::b_joint"]
+
+
+def test_a_joint_that_connects_a_link_to_itself_is_ignored(tmp_path: Path) -> None:
+    frame = '<frame name="f" attached_to="a"/>'
+    robot, (warning,) = read(tmp_path, sdf(model("m", A, frame, joint("j", "a", "f"))))
+    assert robot.joints == ()
+    assert warning.message == ("line 5: joint 'm::j' connects 'm::a' to itself: it is ignored")
+
+
+def test_a_joint_with_the_name_world_still_has_the_world_as_its_parent(tmp_path: Path) -> None:
+    robot, issues = read(tmp_path, sdf(model("m", A, joint("world", "world", "a"))))
+    assert issues == ()
+    assert [(joint.parent, joint.child) for joint in robot.joints] == [("", "m::a")]

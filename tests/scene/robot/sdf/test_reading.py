@@ -11,7 +11,7 @@ from satcheck.audit import Settings
 from satcheck.audit.check import check
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.robot.model import RefusedShape
+from satcheck.scene.robot.model import MeshReference, RefusedShape
 from tests.scene.robot.sdf.files import (
     BOX,
     axis,
@@ -211,7 +211,8 @@ def test_a_joint_through_a_link_without_geometry_needs_no_note(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("text", "code", "words"),
     [
-        ("<gazebo version='1.0'/>", "not-this-format", "<robot> or <sdf>"),
+        ("<gazebo version='1.0'/>", "unsupported-feature", "gz sdf"),
+        ("<html/>", "not-this-format", "<robot> or <sdf>"),
         ('<sdf version="1.0"/>', "unsupported-feature", "gz sdf"),
         ("<sdf/>", "bad-robot", "version"),
         (sdf(link("a")), "bad-robot", "in a model"),
@@ -259,3 +260,28 @@ def test_a_simplified_mesh_is_named(tmp_path: Path) -> None:
 def test_too_many_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("satcheck.scene.robot.sdf.frames.MOST_FRAMES", 2)
     assert refusal(tmp_path, sdf(model("m", link("a"), link("b"))))[0] == "too-large"
+
+
+def test_comments_that_xml_does_not_allow(tmp_path: Path) -> None:
+    text = "<!-- ours -->\n<?xml version='1.0'?>\n" + sdf(model("m", "<!-- 1 -- 2 -->", link("a")))
+    assert list(read(tmp_path, text)[0].links) == ["m::a"]
+    broken = text.replace("</model>", "")
+    assert "line 7: not well-formed" in refusal_of(tmp_path, broken)
+
+
+def refusal_of(folder: Path, text: str) -> str:
+    with pytest.raises(Exception, match=r"w\.sdf: ") as caught:
+        load_scene([write(folder, text)])
+    return str(caught.value)
+
+
+def test_the_outermost_element_of_early_versions(tmp_path: Path) -> None:
+    text = f'<gazebo version="1.2">{model("m", link("a"))}</gazebo>'
+    assert list(read(tmp_path, text)[0].links) == ["m::a"]
+
+
+def test_a_placeholder_beside_a_uri(tmp_path: Path) -> None:
+    mesh = "<mesh><uri>m.stl</uri><uri>__default__</uri></mesh>"
+    assert geometry(tmp_path, mesh) == MeshReference("m.stl", (1.0, 1.0, 1.0))
+    found = geometry(tmp_path, "<mesh><uri>m.stl</uri><uri>n.stl</uri></mesh>")
+    assert isinstance(found, RefusedShape)
