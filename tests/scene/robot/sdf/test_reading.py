@@ -266,7 +266,7 @@ def test_comments_that_xml_does_not_allow(tmp_path: Path) -> None:
     text = "<!-- ours -->\n<?xml version='1.0'?>\n" + sdf(model("m", "<!-- 1 -- 2 -->", link("a")))
     assert list(read(tmp_path, text)[0].links) == ["m::a"]
     broken = text.replace("</model>", "")
-    assert "line 7: not well-formed" in refusal_of(tmp_path, broken)
+    assert "line 8: not well-formed" in refusal_of(tmp_path, broken)
 
 
 def refusal_of(folder: Path, text: str) -> str:
