@@ -10,13 +10,13 @@ from satcheck.scene.robot.assembly import (
     SceneRobot,
     bare_links,
     parts_of,
-    permissions,
     pose_of_states,
     posed,
     with_srdfs,
 )
 from satcheck.scene.robot.model import Joint, Link, Robot
 from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
+from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.sampling import joint_samples

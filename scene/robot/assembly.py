@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import combinations, product
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from msgspec import Struct
@@ -21,10 +20,7 @@ from satcheck.scene.robot.model import Collision, Link, MeshReference, RefusedSh
 from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf, State
-from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.words import listed
-
-SAME_LINK = "one rigid link"
 
 
 class Part(Struct, frozen=True):
@@ -67,6 +63,13 @@ class SceneRobot(Struct, frozen=True):
 
     def bodies_of(self, link: str) -> list[str]:
         return [body.id for body in self.bodies if body.link == link]
+
+    def by_link(self) -> dict[str, list[str]]:
+        """The bodies of each link that has any."""
+        links: dict[str, list[str]] = {}
+        for body in self.bodies:
+            links.setdefault(body.link, []).append(body.id)
+        return links
 
     @property
     def pairs_within_links(self) -> int:
@@ -165,50 +168,6 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     return matched
 
 
-def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
-    """(rules for the pairs of its bodies that may touch, issues about them)."""
-    allowed: list[Rule] = []
-    for link in robot.robot.links:
-        for pair in combinations(robot.bodies_of(link), 2):
-            allowed.append(_allowed(pair, SAME_LINK, robot.robot.file))
-    allowed += exempted(robot)
-    solid = list(dict.fromkeys(body.link for body in robot.bodies))
-    if robot.srdf is not None:
-        for a, b in combinations(solid, 2):
-            reason = robot.srdf.permission(a, b)
-            if reason is not None:
-                for pair in product(robot.bodies_of(a), robot.bodies_of(b)):
-                    allowed.append(_allowed(pair, reason, robot.srdf.file))
-    return allowed, [*_other_name(robot), *_unknown_links(robot), *_checked_neighbours(robot)]
-
-
-def exempted(robot: SceneRobot) -> list[Rule]:
-    """Rules for the pairs that the format does not check: of groups, then of links."""
-    exempt, file = robot.robot.exempt, robot.robot.file
-    if exempt is None:
-        return []
-    members = Counter(group for body in robot.bodies for group in body.groups)
-    rules = [
-        _allowed((robot.groups[e.a], robot.groups[e.b]), e.reason, file, Selector.exactly_group)
-        for e in exempt.groups
-        if (members[e.a] > 1 if e.a == e.b else members[e.a] and members[e.b])
-    ]
-    for e in exempt.links:
-        for pair in product(robot.bodies_of(e.a), robot.bodies_of(e.b)):
-            rules.append(_allowed(pair, e.reason, file))
-    return rules
-
-
-def _allowed(
-    pair: tuple[str, str],
-    reason: str,
-    file: str,
-    select: Callable[[str], Selector] = Selector.exactly,
-) -> Rule:
-    a, b = map(select, pair)
-    return Rule(a=a, b=b, allowed=True, reason=reason, where=file, file=file)
-
-
 def posed(scene: Scene, pose: Pose) -> Scene:
     """The scene with its robots in this pose: new transforms, the same meshes. Bodies that do not
     move are the same objects.
@@ -274,39 +233,3 @@ def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | Mesh
         case RefusedShape(code, reason):
             return MeshFileError(code, reason)
     return collision.geometry
-
-
-def _other_name(robot: SceneRobot) -> list[Issue]:
-    srdf, name = robot.srdf, robot.robot.name
-    if srdf is None or srdf.robot == name:
-        return []
-    message = f"it names robot {srdf.robot!r} and is applied to {name!r}"
-    return [issue("other-robot", message, file=srdf.file)]
-
-
-def _unknown_links(robot: SceneRobot) -> list[Issue]:
-    if robot.srdf is None:
-        return []
-    return [
-        issue(
-            "unknown-body",
-            f"{robot.srdf.file}: link {link!r} is not in the URDF: its entries are ignored",
-            file=robot.srdf.file,
-        )
-        for link in sorted(robot.srdf.links() - robot.robot.links.keys())
-    ]
-
-
-def _checked_neighbours(robot: SceneRobot) -> list[Issue]:
-    if robot.robot.exempt is not None:
-        return []
-    permitted = robot.srdf.permission if robot.srdf else lambda *_: None
-    checked = [f"{a} and {b}" for a, b in robot.neighbours() if permitted(a, b) is None]
-    if not checked:
-        return []
-    pairs = "pair" if len(checked) == 1 else "pairs"
-    message = (
-        f"{len(checked)} {pairs} of links with a joint between them are checked like any other, "
-        f"as no SRDF allows them to touch: {listed(checked)}"
-    )
-    return [issue("neighbours-checked", message, file=robot.robot.file)]

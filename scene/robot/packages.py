@@ -47,11 +47,11 @@ MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old 
 class MeshPlaces:
     """Resolves the URIs of one URDF or SDFormat file.
 
-    packages: the name of a package, or of a folder in it ("name/meshes") -> its location; the
-    longest matching name counts. Other packages are searched in the folders above the file, their
-    siblings and the folders `models` among these, then in the folders of environment variables.
-    They match by the name of the folder, or else by the <name> in package.xml. included_by: the
-    file that leads to this one; what it may open, this one may open too.
+    packages: the name of a package or a server, or of a folder in it ("name/meshes") -> its
+    location; the longest matching name counts. Other packages are searched in the folders above the
+    file, their siblings and the folders `models` among these, then in the folders of environment
+    variables. They match by the name of the folder, or else by the <name> in package.xml.
+    included_by: the file that leads to this one; what it may open, this one may open too.
     """
 
     def __init__(
@@ -87,7 +87,10 @@ class MeshPlaces:
             # Some write package:///
             return self._in_package(rest.replace("\\", "/").lstrip("/"), models)
         if scheme not in ("", "file"):
-            raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched")
+            if named := self._named(rest, models):
+                return named
+            hint = f"--package {rest.partition('/')[0]}=DIR says where the files of this server lie"
+            raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
         place = self._plain(rest, models, quoted=scheme == "file")
         if _is_from_environment(place):
             return place

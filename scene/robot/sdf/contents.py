@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import NamedTuple
-from urllib.parse import urlsplit
 
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
@@ -13,7 +12,7 @@ from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.exemptions import Contacts
 from satcheck.scene.robot.sdf.frames import WORLD, Frame, Frames, Name, Scope
-from satcheck.scene.robot.sdf.includes import Includes, version_of
+from satcheck.scene.robot.sdf.includes import Includes, name_in, version_of
 from satcheck.scene.robot.sdf.joints import Found
 from satcheck.scene.robot.sdf.parts import frame_named
 from satcheck.scene.robot.sdf.values import boolean, flag, pose_of, text_of
@@ -163,7 +162,7 @@ class Contents:
                 raise MeshFileError("unsupported-feature", message)
             root = self._includes.document(uri, element.file)
         except MeshFileError as error:
-            self._lose(element, around, name or _name_in(uri), error.code, uri, error.message)
+            self._lose(element, around, name or name_in(uri), error.code, uri, error.message)
             return
         if root.file in around.files:
             element.refuse(f"{uri!r} includes itself", "reference-cycle")
@@ -183,7 +182,7 @@ class Contents:
             self._actor(actor, within)
         if not any(root.all(tag) for tag in ("model", "actor", "light")):
             what = "it has no <model>"
-            self._lose(element, around, name or _name_in(uri), "not-this-format", uri, what)
+            self._lose(element, around, name or name_in(uri), "not-this-format", uri, what)
 
     def _lose(
         self, element: Element, around: Around, name: str, code: str, what: str, why: str
@@ -292,11 +291,3 @@ def _version(root: Element) -> tuple[int, ...]:
         message = f"SDFormat {text} is not read: convert the file first (gz sdf --convert FILE)"
         root.refuse(message, "unsupported-feature")
     return version
-
-
-def _name_in(uri: str) -> str:
-    """A name for a model that cannot be read: the last part of its URI that is no file."""
-    parts = [part for part in urlsplit(uri).path.split("/") if part]
-    host = urlsplit(uri).netloc
-    folders = [part for part in parts if "." not in part]
-    return host if uri.startswith("model:") and host else (folders or parts or [uri])[-1]

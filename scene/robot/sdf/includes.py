@@ -7,6 +7,7 @@ variables are read. Nothing is fetched.
 from __future__ import annotations
 
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.path_kind import is_file, is_folder
@@ -54,3 +55,11 @@ def version_of(element: Element, default: _Version | None = None) -> _Version:
     if not all(word.isdecimal() for word in words):
         element.refuse(f"version {text!r} is no version")
     return tuple(map(int, words))
+
+
+def name_in(uri: str) -> str:
+    """A name for a model that cannot be read: the last part of its URI that is no file."""
+    parts = [part for part in urlsplit(uri).path.split("/") if part]
+    host = urlsplit(uri).netloc
+    folders = [part for part in parts if "." not in part]
+    return host if uri.startswith("model:") and host else (folders or parts or [uri])[-1]

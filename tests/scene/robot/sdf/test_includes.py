@@ -178,3 +178,12 @@ def test_merging_into_the_world(tmp_path: Path) -> None:
     assert scene.rules == ()
     with pytest.raises(SceneFileError, match="merged into the world"):
         load_scene([write(tmp_path, world(merged.replace("two", "one")))])
+
+
+def test_a_model_of_a_server_lies_where_the_user_says(tmp_path: Path) -> None:
+    write_model(tmp_path / "downloads", "crate", CRATE)
+    path = write(tmp_path, world(include("https://example.org/1.0/models/crate")))
+    packages = {"example.org/1.0/models": tmp_path / "downloads"}
+    assert load_scene([path], packages=packages).order == ("crate::l", "crate::tip")
+    ((_, _, message),) = unreadable(tmp_path, path.read_text())
+    assert "--package example.org=DIR" in message
