@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import pickle
 import time
 from collections import deque
@@ -21,6 +20,7 @@ from satcheck.batch.dask_worker import Chunk, Slots, Terms, check_chunk
 from satcheck.batch.pace import Pace
 from satcheck.batch.slot import Limits, lost
 from satcheck.batch.slot_server import Answer
+from satcheck.batch.urls import is_url
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss
 
@@ -119,8 +119,10 @@ class _Tasks:
 
 def _folder(worlds: Sequence[World], options: CheckOptions) -> str | None:
     """The working directory, if a name is relative to it: workers need to have it, too."""
-    names = chain(chain.from_iterable(worlds), options.rules, (options.packages or {}).values())
-    return None if all(map(os.path.isabs, names)) else str(Path.cwd())
+    shared = (*options.rules, *(options.packages or {}).values(), *filter(None, [options.baseline]))
+    names = chain(chain.from_iterable(worlds), shared)
+    everywhere = all(is_url(name) or Path(name).is_absolute() for name in names)
+    return None if everywhere else str(Path.cwd())
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck._version import __version__
+from satcheck.batch import urls
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
@@ -26,7 +27,10 @@ _WITHOUT_EFFECT = frozenset({"jobs", "cache", "cache_directory", "timings"})
 
 def digest(name: str) -> str | None:
     """The SHA-256 of a file; of `folder/`: of the names of the folders in it. None: nothing is
-    there. What is there and cannot be read has a digest that says why."""
+    there. What is there and cannot be read has a digest that says why. Raises SatcheckError for a
+    URL that cannot be reached."""
+    if urls.is_url(name):
+        return urls.digest(name)
     try:
         if name.endswith("/"):
             return _sha256(

@@ -8,26 +8,31 @@ from pathlib import Path
 
 import msgspec
 
+from satcheck.batch import urls
 from satcheck.batch.check_options import World
 from satcheck.core.errors import SatcheckError
 
 _JSON_LIST = "["
 
 
-def read_manifest(path: Path) -> Iterator[World]:
+def read_manifest(name: str) -> Iterator[World]:
     """A scene for each line: the name of a file, relative to the working directory, or a JSON list
-    of files that are one scene together. Empty lines are skipped.
+    of files that are one scene together. Empty lines are skipped. name: a path or a URL.
 
-    Raises SatcheckError: `unreadable-file`, `bad-manifest`.
+    Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.urls`.
     """
+    for number, line in enumerate(urls.lines(name) if urls.is_url(name) else _lines(name), 1):
+        if text := os.fsdecode(line).strip():
+            yield _world(text, f"{name}:{number}")
+
+
+def _lines(name: str) -> Iterator[bytes]:
     try:
-        with path.open("rb") as lines:
-            for number, line in enumerate(lines, 1):
-                if text := os.fsdecode(line).strip():
-                    yield _world(text, f"{path}:{number}")
+        with Path(name).open("rb") as lines:
+            yield from lines
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
-        raise SatcheckError("unreadable-file", reason, file=str(path)) from None
+        raise SatcheckError("unreadable-file", reason, file=name) from None
 
 
 def _world(line: str, place: str) -> World:

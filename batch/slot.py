@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from tempfile import TemporaryDirectory
 
 from msgspec import Struct
 
 from satcheck.audit.assets import lost_asset
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.remote_world import is_remote
 from satcheck.batch.slot_server import (
     STEP_LINE,
     Answer,
@@ -55,12 +57,15 @@ class Slot:
         self._options = options
         self._limits = limits
         self._stopped = False
+        self._copies: TemporaryDirectory[str] | None = None
         self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True, folder=folder)
 
     def stop(self) -> None:
         """Ends its process, even during a check; no check may follow."""
         self._stopped = True
         self._worker.stop()
+        if self._copies is not None:
+            self._copies.cleanup()
 
     def check(self, worlds: Sequence[World]) -> Iterator[Answer]:
         """An answer for each world, in this order, unless the slot is stopped. Raises
@@ -106,8 +111,15 @@ class Slot:
     def _ask(
         self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
     ) -> list[Answer]:
-        request = request_of(Chunk(tuple(worlds), self._options, left_out))
+        copies = self._folder_of_copies() if any(map(is_remote, worlds)) else None
+        request = request_of(Chunk(tuple(worlds), self._options, left_out, copies))
         return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
+
+    def _folder_of_copies(self) -> str:
+        """This process removes it, as the other one may be killed."""
+        if self._copies is None:
+            self._copies = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
+        return self._copies.name
 
     def _last_step(self, error: WorkerError) -> str:
         """The risky step that was under way; "": none, or it is not to blame."""

@@ -7,28 +7,34 @@ import os
 import re
 import time
 from collections.abc import Mapping, Sequence
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 from typing import NoReturn
 
 import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.assets import without_unused_rules
+from satcheck.audit.assets import unreadable_asset, without_unused_rules
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.batch.key import Digests, inputs_of, key_of, terms_of
+from satcheck.batch.remote_world import Copies, Copy, is_remote
 from satcheck.core import keep_freed_memory
+from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
-from satcheck.report.assets import AssetVerdict
-from satcheck.report.batch import Result
+from satcheck.report.assets import Asset, AssetVerdict
+from satcheck.report.batch import InputFile, Result
 from satcheck.report.json import line_without_times
-from satcheck.scene.files_read import files_read, note
+from satcheck.scene.files_read import FilesRead, files_read, note
 from satcheck.scene.known_meshes import KnownMeshes
 
 # A line on standard error names the risky step that begins, in hexadecimal digits, as the name may
 # hold anything, and says when: in seconds of a clock that all processes share.
 STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
+
+# A scene names meshes, these name buffers: more rounds of fetching are a circle.
+_MOST_ROUNDS = 8
 
 
 # What this process keeps for the next world. A triangle takes about 200 bytes.
@@ -38,11 +44,13 @@ _digests = Digests()
 
 
 class Chunk(Struct, frozen=True):
-    """left_out: None: a plain check. Else a careful one, without these steps."""
+    """left_out: None: a plain check. Else a careful one, without these steps. copies: a folder for
+    copies of remote files, the same for each chunk of a slot."""
 
     worlds: tuple[World, ...]
     options: CheckOptions
     left_out: Mapping[str, Loss] | None = None
+    copies: str | None = None
 
 
 class Answer(Struct, frozen=True):
@@ -72,11 +80,18 @@ def serve(request: bytes) -> bytes:
     options = replace(chunk.options, settings={**chunk.options.settings, "jobs": 1})
     terms = terms_of(options)
     care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
+    copies = None if chunk.copies is None else _copies(chunk.copies)
     with careful(care):
         answers = [
-            _answer(world, options, terms, certain=not chunk.left_out) for world in chunk.worlds
+            _answer(world, options, terms, certain=not chunk.left_out, copies=copies)
+            for world in chunk.worlds
         ]
     return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
+
+
+@cache
+def _copies(folder: str) -> Copies:
+    return Copies(Path(folder))
 
 
 def _tell(step: str) -> None:
@@ -90,21 +105,56 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _answer(world: World, options: CheckOptions, terms: str, *, certain: bool) -> Answer:
+def _answer(
+    world: World, options: CheckOptions, terms: str, *, certain: bool, copies: Copies | None
+) -> Answer:
     """certain: another check would have the same answer, as it does not depend on limits."""
+    if copies is not None and is_remote(world):
+        copy = copies.of(world, anywhere=options.allow_outside)
+        return _remote_answer(world, options, terms, certain=certain, copy=copy)
+    checked, files = _checked(world, options)
+    inputs = inputs_of(files, partial(_digests.digest, files))
+    key = key_of(world, terms, inputs) if certain and files.are_certain() else None
+    return answer(_result(world, checked, inputs, key))
+
+
+def _remote_answer(
+    world: World, options: CheckOptions, terms: str, *, certain: bool, copy: Copy
+) -> Answer:
+    try:
+        checked, files = _checked_copy(world, options, copy)
+    except SatcheckError as error:  # of the fetch: the next run tries again
+        return answer(_result(world, unreadable_asset(world[0], error), (), None))
+    inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
+    key = key_of(world, terms, inputs) if certain and files.are_certain() else None
+    made = answer(_result(world, checked, inputs, key))
+    return replace(made, line=copy.with_urls(made.line))
+
+
+def _checked_copy(world: World, options: CheckOptions, copy: Copy) -> tuple[Asset, FilesRead]:
+    """Repeats the check as long as it looks for files that can be fetched. Raises SatcheckError."""
+    paths = tuple(map(copy.path, world))
+    copy.fetch(paths)
+    for _ in range(_MOST_ROUNDS):
+        checked, files = _checked(paths, options)
+        if not copy.fetch(files):
+            return checked, files
+    reason = f"names files that name files, and so on, {_MOST_ROUNDS} times: copy it and check that"
+    raise SatcheckError("too-many-files", reason, file=world[0])
+
+
+def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
     with files_read() as files:
         for name in world:
             note(name)
-        checked = without_unused_rules(check_world(world, options, known=_meshes), options.rules)
-    inputs = inputs_of(files, partial(_digests.digest, files))
-    result = Result(
-        files=world,
-        key=key_of(world, terms, inputs) if certain and files.are_certain() else None,
-        verdict=checked.verdict,
-        inputs=inputs,
-        report=checked.report,
+        checked = check_world(world, options, known=_meshes)
+    return without_unused_rules(checked, options.rules), files
+
+
+def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:
+    return Result(
+        files=world, key=key, verdict=checked.verdict, inputs=inputs, report=checked.report
     )
-    return answer(result)
 
 
 def answer(result: Result) -> Answer:

@@ -43,7 +43,7 @@ class Cache:
 
     def __init__(self, directory: Path | None = None) -> None:
         """directory: None: $SATCHECK_CACHE_DIR, or else the user's cache directory."""
-        self.path = (_default_directory() if directory is None else directory) / _SUBDIRECTORY
+        self.path = (default_directory() if directory is None else directory) / _SUBDIRECTORY
 
     def info(self) -> CacheInfo:
         sizes = []
@@ -126,7 +126,7 @@ class Cache:
             return []
 
 
-def _default_directory() -> Path:
+def default_directory() -> Path:
     chosen = os.environ.get(DIRECTORY_VARIABLE)
     if chosen:
         return Path(chosen)

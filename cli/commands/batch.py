@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
 from satcheck.batch.check_options import World
 from satcheck.batch.local import check_locally
 from satcheck.batch.manifest import read_manifest
+from satcheck.batch.remote_world import is_remote
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import Tally, run
 from satcheck.batch.shard import Shard, parse_shard
 from satcheck.batch.slot import Limits
 from satcheck.batch.slot_server import Answer
+from satcheck.batch.spool import Spool
+from satcheck.batch.urls import is_url, matches
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.commands.check import command as check_command
@@ -49,13 +54,14 @@ _NOT_HERE = (
     "version",
 )
 _LIMITS = Limits()
+_PATTERN = frozenset("*?[")
 
 
 @click.command("batch", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE|DIR|- ...")
 @click.option(
     "--manifest",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=click.Path(dir_okay=False),
     metavar="FILE",
     help="Also the scenes that FILE names, one in a line; a line may be a JSON list of files that "
     "are one scene together.",
@@ -63,7 +69,7 @@ _LIMITS = Limits()
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=click.Path(dir_okay=False),
     metavar="FILE",
     required=True,
     help="Write the results to FILE, as JSON Lines: a line for each scene.",
@@ -110,8 +116,8 @@ _LIMITS = Limits()
 )
 @options_of(check_command, but=_NOT_HERE)
 def command(
-    manifest: Path | None,
-    output: Path,
+    manifest: str | None,
+    output: str,
     resume: bool,
     shard: Shard,
     engine: str,
@@ -125,29 +131,33 @@ def command(
     """Check thousands of scenes: none stops the others.
 
     A scene is a scene file, a robot or a mesh file; a folder stands for all of them in it, and -
-    reads their names from standard input. A process that crashes, hangs or needs too much memory is
-    replaced; its scene is checked again without the file or the pair that did it, which is
-    reported. Each result is on the disk as soon as it is known, in FILE.part; FILE itself appears
-    when all results are there.
+    reads their names from standard input. Any of the files may be a URL, as s3://bucket/a.toml. A
+    process that crashes, hangs or needs too much memory is replaced; its scene is checked again
+    without the file or the pair that did it, which is reported. Each result is on the disk as soon
+    as it is known, in FILE.part; FILE itself appears when all results are there.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.
     """
     inputs = Inputs.taken_from(options)
     worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
-    if worlds:
-        files = tuple(name for world in worlds for name in world)
-        refuse_early(Inputs(paths=files, rules=inputs.rules), output, baseline)
+    files = tuple(name for world in worlds for name in world if not is_url(name))
+    if baseline is not None and any(map(is_remote, worlds)):
+        raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
+    if files and not is_url(output):
+        refuse_early(Inputs(paths=files, rules=inputs.rules), Path(output), baseline)
     config = stated_config(click.get_current_context())
     terms = check_options(inputs, options, baseline, config)
     limits = Limits(scene_seconds, scene_megabytes)
     check = _engine(engine, scheduler, options["jobs"])
-    with ResultsFile(output) as results, Bar("scenes") as bar:
+    with _local(output) as (path, added), ResultsFile(path) as results, Bar("scenes") as bar:
         if not resume and (existing := results.existing()) is not None:
             reason = "has results: --resume keeps those that still hold; or remove the file"
-            raise SatcheckError("results-exist", reason, file=str(existing))
+            named = output if is_url(output) else str(existing)
+            raise SatcheckError("results-exist", reason, file=named)
 
         def progress(tally: Tally) -> None:
+            added()
             if bar is not None:
                 bar(tally.done, tally.total)
 
@@ -156,18 +166,38 @@ def command(
     return _exit_code(tally, exit_zero)
 
 
-def _worlds(
-    inputs: Inputs, manifest: Path | None, shard: Shard, *, planar: bool
-) -> Sequence[World]:
+@contextmanager
+def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
+    """The file that the run writes, and what is called when results have been added."""
+    if not is_url(output):
+        yield Path(output), lambda: None
+        return
+    with Spool(output) as spool:
+        yield spool.path, spool.upload_part
+
+
+def _worlds(inputs: Inputs, manifest: str | None, shard: Shard, *, planar: bool) -> Sequence[World]:
     """Those of the shard, each once. click.UsageError if there is none in any shard."""
+    remote = [name for name in inputs.paths if is_url(name)]
+    near = replace(inputs, paths=tuple(name for name in inputs.paths if not is_url(name)))
     named: Iterator[World] = chain(
-        ((name,) for name in (asset_names(inputs, planar=planar) if inputs.paths else ())),
+        ((name,) for name in (asset_names(near, planar=planar) if near.paths else ())),
+        ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )
     first = next(named, None)
     if first is None:
         raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
     return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
+
+
+def _meant_by(url: str) -> list[str]:
+    if not _PATTERN.intersection(url):
+        return [url]
+    found = matches(url)
+    if not found:
+        raise SatcheckError("no-assets", "no file matches the pattern", file=url)
+    return found
 
 
 def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Iterator[list[Answer]]]:
@@ -182,7 +212,7 @@ def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Iterat
     return partial(check_with_dask, scheduler=scheduler)
 
 
-def _summary(tally: Tally, output: Path) -> str:
+def _summary(tally: Tally, output: str) -> str:
     parts = [
         f"{number:,} {word}"
         for number, word in (
