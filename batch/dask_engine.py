@@ -43,9 +43,10 @@ def check_with_dask(
     """The answers, as they come. scheduler: its address, or the JSON file that it has written. If
     the iteration is left early, all checks end.
 
-    A task whose worker dies is run again by another one. Of a chunk that ends several workers each
-    world is checked alone; one that still does so has an answer that says so. Raises SatcheckError:
-    `no-scheduler`, `scheduler-lost`, `other-version`; WorkerNotStarted.
+    A task whose worker dies is run again by another one. If several workers die with a task, its
+    worlds are suspects, as those of other tasks on these workers are: one suspect at a time is
+    checked again. A world that still ends workers has an answer that says so. Raises SatcheckError:
+    `no-scheduler`, `scheduler-lost`, `other-version`, `dask-failed`; WorkerNotStarted.
     """
     if not worlds:
         return
@@ -59,7 +60,8 @@ class _Tasks:
         self._client = client
         self._batch = batch
         self._waiting = deque(worlds)
-        self._alone: deque[World] = deque()
+        self._suspects: deque[World] = deque()
+        self._suspect: Future[Chunk] | None = None  # that is being checked again
         self._sent: dict[Future[Chunk], tuple[World, ...]] = {}
         self._pace = Pace(_LARGEST_CHUNK)
         self._threads = 0
@@ -72,44 +74,57 @@ class _Tasks:
             for completed in done.batches():
                 yield [each for future, result in completed for each in self._taken(future, result)]
                 self._send(done)
+        except OSError as error:
+            raise _cause(error) from error
         finally:
             with suppress(OSError):
                 self._client.cancel(list(self._sent), force=True)
 
     def _send(self, done: as_completed) -> None:
         self._count_threads()
-        while len(self._sent) < _TASKS_PER_THREAD * self._threads + _TASKS_AT_LEAST:
-            chunk = self._next()
-            if not chunk:
-                return
-            future = self._client.submit(
-                check_chunk, self._batch, pickle.dumps(chunk), key=f"satcheck-{uuid4()}"
-            )
-            self._sent[future] = chunk
-            done.add(future)
+        if self._suspects and self._suspect is None:
+            self._suspect = self._submit((self._suspects.popleft(),), done)
+        most = _TASKS_PER_THREAD * self._threads + _TASKS_AT_LEAST
+        while len(self._sent) < most and (chunk := self._next()):
+            self._submit(chunk, done)
+
+    def _submit(self, chunk: tuple[World, ...], done: as_completed) -> Future[Chunk]:
+        worlds = pickle.dumps(chunk)
+        future = self._client.submit(check_chunk, self._batch, worlds, key=f"satcheck-{uuid4()}")
+        self._sent[future] = chunk
+        done.add(future)
+        return future
 
     def _next(self) -> tuple[World, ...]:
         """At the end chunks become smaller, so that all threads end together."""
-        if self._alone:
-            return (self._alone.popleft(),)
         fair = -(-len(self._waiting) // max(1, 2 * self._threads))
         size = min(self._pace.size, fair)
         return tuple(self._waiting.popleft() for _ in range(size))
 
     def _taken(self, future: Future[Chunk], result: object) -> list[Answer]:
         chunk = self._sent.pop(future)
+        was_suspect = future is self._suspect
+        if was_suspect:
+            self._suspect = None
         if isinstance(result, Chunk):
-            wanted = max(_TASK_SECONDS, _TASK_SECONDS_PER_THREAD * self._threads)
-            self._pace.measure(len(chunk), result.seconds, wanted)
-            return result.unpacked()
+            return self._answers(chunk, result)
         # Of a failed task Dask gives the exception in a tuple, of a cancelled one alone.
         error = result[1] if isinstance(result, tuple) else result
         if not isinstance(error, KilledWorker):
             raise _cause(error)
-        if len(chunk) > 1:
-            self._alone.extend(chunk)
-            return []
-        return [_lost(chunk[0], error)]
+        if was_suspect:
+            return [_lost(chunk[0], error)]
+        self._suspects.extend(chunk)
+        return []
+
+    def _answers(self, chunk: tuple[World, ...], result: Chunk) -> list[Answer]:
+        """A worker that is closed has no answers for the last worlds of its chunk."""
+        answers = result.unpacked()
+        self._waiting.extendleft(chunk[len(answers) :])
+        if answers:
+            wanted = max(_TASK_SECONDS, _TASK_SECONDS_PER_THREAD * self._threads)
+            self._pace.measure(len(answers), result.seconds, wanted)
+        return answers
 
     def _count_threads(self) -> None:
         if time.monotonic() - self._counted > _SECONDS_BETWEEN_COUNTS:

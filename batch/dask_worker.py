@@ -75,25 +75,38 @@ class Slots(WorkerPlugin):
             slot.stop()
 
     def check(self, worlds: tuple[World, ...]) -> Chunk:
-        """Raises SatcheckError (`other-version`); WorkerNotStarted."""
+        """If the worker or the batch is ended meanwhile, the answers for the first of these worlds.
+        Raises SatcheckError (`other-version`); WorkerNotStarted."""
         self._refuse_other_version()
         slot = self._take()
+        if slot is None:
+            return _chunk([], 0.0)
         try:
-            return _checked(slot, worlds)
+            return self._checked(slot, worlds)
         finally:
             self._give_back(slot)
+
+    def _checked(self, slot: Slot, worlds: tuple[World, ...]) -> Chunk:
+        began = time.monotonic()
+        pace = Pace(_LARGEST_CHUNK)
+        answers: list[Answer] = []
+        while not self._ended and (some := worlds[len(answers) : len(answers) + pace.size]):
+            start = time.monotonic()
+            answers += (new := list(slot.check(some)))
+            pace.measure(len(new), time.monotonic() - start, _CHUNK_SECONDS)
+        return _chunk(answers, time.monotonic() - began)
 
     def _refuse_other_version(self) -> None:
         if self._version != __version__:
             reason = f"has satcheck {__version__}, and this batch is run by {self._version}"
             raise SatcheckError("other-version", f"the Dask worker {self._where} {reason}")
 
-    def _take(self) -> Slot:
+    def _take(self) -> Slot | None:
         with self._lock:
             if self._timer is not None:
                 self._timer.cancel()
             if self._ended:
-                raise SatcheckError("batch-ended", "the batch of this task has ended")
+                return None
             slot = self._idle.pop() if self._idle else self._new()
             self._busy.append(slot)
             return slot
@@ -105,6 +118,9 @@ class Slots(WorkerPlugin):
     def _give_back(self, slot: Slot) -> None:
         with self._lock:
             self._busy.remove(slot)
+            if self._ended:
+                slot.stop()
+                return
             self._idle.append(slot)
             self._timer = Timer(_IDLE_SECONDS, self._stop_idle)
             self._timer.daemon = True
@@ -125,16 +141,5 @@ def check_chunk(batch: str, worlds: bytes) -> Chunk:
     return answers
 
 
-def _checked(slot: Slot, worlds: tuple[World, ...]) -> Chunk:
-    began = time.monotonic()
-    pace = Pace(_LARGEST_CHUNK)
-    answers: list[Answer] = []
-    while some := worlds[len(answers) : len(answers) + pace.size]:
-        start = time.monotonic()
-        new = list(slot.check(some))
-        if not new:
-            break  # the slot was stopped
-        answers += new
-        pace.measure(len(new), time.monotonic() - start, _CHUNK_SECONDS)
-    seconds = time.monotonic() - began
+def _chunk(answers: list[Answer], seconds: float) -> Chunk:
     return Chunk(zlib.compress(pickle.dumps(answers), _COMPRESSION), seconds)

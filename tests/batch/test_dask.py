@@ -102,6 +102,16 @@ def test_a_killed_worker_loses_nothing(
     assert by_world(iter([first, *answers])) == expected
 
 
+def test_a_worker_that_is_closed_loses_nothing(
+    cluster: LocalCluster, client: Client, worlds: list[World], expected: dict[World, bytes]
+) -> None:
+    """As by a cluster that becomes smaller: the end of its slots gives no wrong answers."""
+    answers = through(cluster, worlds)
+    first = next(answers)
+    client.retire_workers([next(iter(client.nthreads()))])
+    assert by_world(iter([first, *answers])) == expected
+
+
 class Poisoned(Slot):
     """Some worlds end the process of the Dask worker itself."""
 
