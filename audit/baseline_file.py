@@ -13,6 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import SCHEMA, Baseline
 from satcheck.scene.files_read import Signature, note, signature
 from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.path_kind import followed
 
 MOST_BYTES = 1 << 28
 
@@ -48,8 +49,8 @@ def _read_once(path: Path, _: Signature) -> Baseline:
 def asset_key(asset: str, baseline: Path) -> str:
     """The name of an asset in a baseline: relative to the folder of the baseline, with `/`, so that
     it does not depend on where the command runs, nor on links that lead to a folder."""
-    file = Path(asset).parent.resolve() / Path(asset).name
-    return Path(os.path.relpath(file, baseline.parent.resolve())).as_posix()
+    file = followed(Path(asset).parent) / Path(asset).name
+    return Path(os.path.relpath(file, followed(baseline.parent))).as_posix()
 
 
 def names_in_baseline(paths: Sequence[str], baseline: Path) -> tuple[str, ...]:

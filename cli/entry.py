@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import io
 import os
 import sys
 
@@ -10,7 +11,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.command import satcheck
-from satcheck.cli.output import abandon, cannot_write, talk
+from satcheck.cli.output import abandon, cannot_write, harmless, talk
 from satcheck.core.errors import SatcheckError
 
 COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
@@ -43,14 +44,16 @@ def _run() -> int:
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
-        error.show()
+        shown = io.StringIO()
+        error.show(shown)
+        talk(shown.getvalue().removesuffix("\n"))
         if isinstance(error, click.NoSuchOption):
             _advise(error)
         return exit_codes.ERROR
     except click.ClickException as error:
         return _failed(f"error: {error.format_message()}", debug)
     except SatcheckError as error:
-        lines = (f"error: {each} [{each.code}]" for each in (error, *error.others))
+        lines = (harmless(f"error: {each} [{each.code}]") for each in (error, *error.others))
         return _failed("\nsatcheck: ".join(lines), debug)
     except Exception as error:  # noqa: BLE001  the last resort: no traceback, never exit 1
         return _failed(_internal(error), debug)

@@ -22,6 +22,8 @@ _READER_LEFT = (errno.EPIPE, errno.EINVAL)
 _STANDARD_OUTPUT = ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 # What becomes of the bytes of a file name that are no text.
 _UNDECODABLE = "backslashreplace"
+# ::error of GitHub Actions begins a line; ##[error], and ##vso[task] of Azure, may stand anywhere.
+_COMMAND = re.compile(r"^\s*::|##+(?=\w*\[)")
 _COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
 
 
@@ -109,8 +111,11 @@ class Document:
 
 
 def harmless(line: str, *, colour: bool = False) -> str:
-    """A line without what a terminal obeys instead of showing it, colours aside where they are
-    wanted: names of bodies and files can hold any character, and must not rewrite a verdict."""
+    """A line without what a terminal or a CI system obeys instead of showing it, colours aside
+    where they are wanted: names of bodies and files can hold any character, and must not rewrite a
+    verdict."""
+    if "##" in line or "::" in line:
+        line = _COMMAND.sub(lambda match: " ".join(match[0]), line)
     if line.isprintable():
         return line
     pieces = _COLOUR.split(line) if colour else [line]

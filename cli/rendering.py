@@ -12,6 +12,7 @@ from satcheck.cli.options import PICTURES
 from satcheck.cli.output import Page, talk
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import pieces as pieces_for_ci
+from satcheck.cli.report.plain_names import in_one_line_each
 from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.summary import counts_line
 from satcheck.cli.report.verdict import next_step, verdict_line
@@ -42,6 +43,8 @@ def rendered(
     """Formats are imported here, as they are needed: a table brings rich."""
     if isinstance(result, Samples):
         return _samples(result, form, page, shown)
+    if form == "table":
+        result = in_one_line_each(result)
     if form == "json":
         return render_json(result, timings=shown.timings)
     if form in CI_FORMATS:
@@ -79,6 +82,7 @@ def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -
         talk(samples_counts(result))
         summary = samples_verdict(result)
     else:
+        result = in_one_line_each(result)
         summary = " ".join([verdict_line(result), *next_step(result, written=True)])
         warnings = [issue for issue in result.issues if issue.severity == "warning"]
         for issue in warnings[:WARNINGS]:

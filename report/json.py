@@ -27,6 +27,8 @@ _NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
 # In compact JSON. A quote in a string has a backslash before it, so this is a member, and the
 # first one of no object.
 _TIMES = re.compile(rb',"microseconds":[^,}]*')
+# Controls, marks that reorder text or end a line, and the second # of a command such as ##[error].
+_OBEYED = re.compile("[\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]|(?<=#)#(?=\\w*\\[)")
 # In a string it may be text.
 _PERHAPS_NEGATIVE_ZERO = re.compile(rb"-0\.0[,}\]]")
 # How MessagePack marks a float64, and the bits of a NaN or an infinity. Other bytes may look so.
@@ -153,7 +155,15 @@ def _text(value: Any) -> str:
         text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
         text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
-    return _NEGATIVE_ZERO.sub(b"0.0", text).decode()
+    return escaped(_NEGATIVE_ZERO.sub(b"0.0", text).decode())
+
+
+def escaped(text: str) -> str:
+    """The same JSON or TOML, without what a terminal or a CI system would obey. Only strings hold
+    such characters, and a string may write any character as an escape."""
+    if text.isascii() and "\x7f" not in text and "##" not in text:
+        return text
+    return _OBEYED.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def _require_finite(value: Any) -> None:

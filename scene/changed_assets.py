@@ -18,6 +18,7 @@ from satcheck.scene.asset_files import content_of
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES
 from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.path_kind import followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off", *DRAWINGS))
@@ -40,7 +41,7 @@ def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
     A file refers to another one if it contains the other's name without the folder. The list may
     therefore include assets that have not changed. Raises SatcheckError (`git`).
     """
-    places = {path: Path(path).resolve() for path in assets}
+    places = {path: followed(Path(path)) for path in assets}
     tracked: set[Path] = set()
     changed: set[Path] = set()
     for top in {_top_of(folder) for folder in {place.parent for place in places.values()}}:
@@ -110,7 +111,7 @@ def _repository(top: Path, revision: str) -> _Repository:
     ignored = _names(top, "ls-files", "--others", "--ignored", "--exclude-standard", "-z")
     read = {path for path in ignored if path.suffix.lower() in _READ}
     changed = differing | new | read
-    resolved = {path.resolve() for path in changed}  # a link that changed leads elsewhere now
+    resolved = {followed(path) for path in changed}  # a link that changed leads elsewhere now
     return _Repository(_names(top, "ls-files", "-z"), changed | resolved)
 
 

@@ -13,6 +13,7 @@ from satcheck.scene.format.entries import SCENE_1, SIMPLE
 from satcheck.scene.format.reading import read_scene_file
 from satcheck.scene.format.text import is_toml, parsed, read_text
 from satcheck.scene.format.writing import moved
+from satcheck.scene.path_kind import followed
 from satcheck.scene.units import unit_in
 
 Translation = tuple[float, float, float]
@@ -78,9 +79,9 @@ def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
     `--allow-outside`; None: there is none. source: the scene file that was read, if any."""
     if source is not None and _is_simple(source):
         return None
-    folder = output.absolute().parent.resolve()
+    folder = followed(output.absolute().parent)
     meshes = (body.file.path for body in scene.bodies if body.shape is None)
-    return next((mesh for mesh in meshes if not Path(mesh).resolve().is_relative_to(folder)), None)
+    return next((mesh for mesh in meshes if not followed(Path(mesh)).is_relative_to(folder)), None)
 
 
 def _is_simple(source: str) -> bool:

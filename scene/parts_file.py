@@ -16,6 +16,7 @@ from satcheck.scene.glb_file import Node, glb
 _STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 
 Part = tuple[str, Mesh]
+_CONTINUES = "\\"  # at the end of a line of OBJ: the next line belongs to it
 
 
 def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
@@ -41,7 +42,7 @@ def _obj(parts: Sequence[Part], units: str | None) -> bytes:
     lines = ["# convex parts, made by satcheck", *([f"# units: {units}"] if units else [])]
     first = 1
     for name, mesh in parts:
-        lines.append(f"o {name}")
+        lines.append(f"o {name.rstrip(_CONTINUES)}")
         lines += ["v {!r} {!r} {!r}".format(*point) for point in mesh.vertices.tolist()]
         corners = mesh.triangles.astype(np.int64) + first
         lines += ["f {} {} {}".format(*triangle) for triangle in corners.tolist()]

@@ -30,7 +30,7 @@ from satcheck.cli.options import (
     split_option,
     units_option,
 )
-from satcheck.cli.output import Document, Page, talk, write_file
+from satcheck.cli.output import Document, Page, harmless, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import at_most, duration
@@ -156,7 +156,8 @@ def command(
         write_file(parts_out, parts_file.written(parts, parts_out.suffix.lower(), scene.units))
     for each in bodies:
         if isinstance(each.result, SatcheckError):
-            talk(f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]")
+            said = f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]"
+            talk(harmless(said))
     settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds)
     document.deliver(
         lambda page: (

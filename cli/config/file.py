@@ -73,9 +73,9 @@ def bad_config(message: str) -> SatcheckError:
 
 
 def _parsed(path: Path, data: bytes) -> dict[str, Any]:
-    import tomllib
+    from satcheck.scene.format.text import parse_toml
 
     try:
-        return tomllib.loads(data.decode())
+        return parse_toml(data.decode())
     except (ValueError, RecursionError) as error:
         raise bad_config(f"{path}: not readable TOML: {error}") from None

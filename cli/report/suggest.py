@@ -10,6 +10,7 @@ from xml.sax.saxutils import quoteattr
 
 from satcheck.cli.report.numbers import number
 from satcheck.cli.report.words import counted, with_unit
+from satcheck.report.json import escaped
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
@@ -154,4 +155,4 @@ def _contact(pair: Suggestion, unit: str | None) -> str:
 
 def _quoted(text: str) -> str:
     """A basic string of TOML: that of JSON, but for DEL."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return escaped(json.dumps(text, ensure_ascii=False))

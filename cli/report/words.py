@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.cli.output import harmless
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
@@ -23,11 +24,12 @@ def counted(count: int, singular: str, plural: str | None = None) -> str:
 
 
 def issue_line(issue: Issue | InputIssue) -> str:
-    """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr."""
+    """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr; one line, whatever
+    the names are."""
     where = issue.body or issue.file
     known = tuple(filter(None, (where, issue.file)))
     named = f"{where}: " if known and not issue.message.startswith(known) else ""
-    return f"{issue.severity}: {named}{issue.message} [{issue.code}]"
+    return harmless(f"{issue.severity}: {named}{issue.message} [{issue.code}]")
 
 
 def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.batch.key import digest
 from satcheck.batch.stored import Stored
-from satcheck.cli.output import cannot_write, talk, write_file
+from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.order import is_listed, rank, worst_of
 from satcheck.cli.stated_scene import stated_scene
@@ -83,7 +83,7 @@ def _write(path: Path, worst: Worst, picture: Picture) -> None:
         write_file(path, picture)
         return
     pair = f"{worst.finding.a} and {worst.finding.b}"
-    talk(f"satcheck: {worst.stored.asset.file}: no picture of {pair}: {picture}")
+    talk(harmless(f"satcheck: {worst.stored.asset.file}: no picture of {pair}: {picture}"))
 
 
 def file_name(number: int, worst: Worst) -> str:

@@ -10,6 +10,7 @@ from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.values import shown, text
 from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.path_kind import followed, is_file
 
 
 class MeshPlaces:
@@ -23,7 +24,7 @@ class MeshPlaces:
     def __init__(self, path: str, location: Path, *, anywhere: bool) -> None:
         self._above = Path(path).parent
         self._folder = location.parent
-        self._root = None if anywhere else self._folder.resolve()
+        self._root = None if anywhere else followed(self._folder)
         self._known: dict[str, MeshPath | Wrong] = {}
 
     def find(self, value: object) -> MeshPath:
@@ -48,13 +49,13 @@ class MeshPlaces:
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, code="unsupported-format")
         note(location)
-        if self._root is not None and not location.resolve().is_relative_to(self._root):
+        if self._root is not None and not followed(location).is_relative_to(self._root):
             message = (
                 f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "
                 "(allow it with --allow-outside)"
             )
             raise Wrong(message, code="outside-path")
-        if not location.is_file():
+        if not is_file(location):
             raise Wrong(f"mesh file {shown(mesh)} is missing", code="missing-resource")
         path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
         return MeshPath(path, location)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.problems import Problems, Wrong
+from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.loading.regular_file import read_whole
 
 if TYPE_CHECKING:
@@ -21,6 +22,10 @@ TOML_SUFFIX = ".toml"
 
 _MAX_BYTES = 512 << 20  # a million bodies, each with a matrix
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
+
+
+_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MAX_DEPTH}}}")
 
 
 class Parsed:
@@ -74,11 +79,21 @@ def parsed(path: str, location: Path, text: str) -> Parsed:
     return Parsed(path, location, text, *_json(path, text))
 
 
+def parse_toml(text: str) -> dict[str, Any]:
+    """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
+    time and memory by the square of their number."""
+    import tomllib
+
+    if text.count(".") > MAX_DEPTH and _LONG_KEY.search(text):
+        raise ValueError(f"a key has more than {MAX_DEPTH} parts")
+    return tomllib.loads(text)
+
+
 def _toml(path: str, text: str) -> Any:
     import tomllib
 
     try:
-        return tomllib.loads(text)
+        return parse_toml(text)
     except tomllib.TOMLDecodeError as error:
         match = re.fullmatch(_TOML_PLACE, str(error))
         reason, line = match.groups() if match else (str(error), None)

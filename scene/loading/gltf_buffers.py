@@ -9,6 +9,7 @@ from satcheck._native.readers import ReadError, unpack_meshopt
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
+from satcheck.scene.path_kind import followed, is_file
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
 _CHUNK_HEADER = 8  # length, type
@@ -237,16 +238,16 @@ class BufferViews:
         from urllib.parse import unquote
 
         name = unquote(uri)
-        root = Path(self._directory).resolve()
+        root = followed(Path(self._directory))
         if ":" in uri or "\\" in name or "\0" in name:
             raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
         note(Path(self._directory) / name)
-        path = (root / name).resolve()
+        path = followed(root / name)
         if not self._allow_outside and not path.is_relative_to(root):
             raise MeshFileError(
                 "outside-path", f"buffer {name!r} lies outside the file's directory: refused"
             )
-        if not path.is_file():
+        if not is_file(path):
             raise MeshFileError("missing-resource", f"missing buffer file {name!r}")
         try:
             size = min(size, path.stat().st_size)

@@ -22,7 +22,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
-from satcheck.scene.path_kind import is_file, is_folder
+from satcheck.scene.path_kind import followed, is_file, is_folder
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")
@@ -67,7 +67,7 @@ class MeshPlaces:
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._allow_outside = allow_outside
         self._root = self._upwards(self._steps_to_root())
-        self._own = self._root.resolve()
+        self._own = followed(self._root)
 
     def locate(self, uri: str, *, models: bool = False) -> Path:
         """The path of an existing file, relative if the path of the URDF is relative. models: or of
@@ -148,7 +148,7 @@ class MeshPlaces:
             folder = self._packages.get("/".join(parts[:length]))
             if folder is not None:
                 inside = "/".join(parts[length:])
-                if not self._allow_outside and not _within(folder / inside, folder.resolve()):
+                if not self._allow_outside and not _within(folder / inside, followed(folder)):
                     raise MeshFileError("outside-path", f"the path leaves {folder}: refused")
                 return _existing(folder, inside, models, quoted=True)
         return None
@@ -292,11 +292,11 @@ def _is_folder(place: Path) -> bool:
 
 
 def _is_from_environment(place: Path) -> bool:
-    return any(_within(place, root.resolve()) for root in _environment())
+    return any(_within(place, followed(root)) for root in _environment())
 
 
 def _within(place: Path, folder: Path) -> bool:
-    return place.resolve().is_relative_to(folder)
+    return followed(place).is_relative_to(folder)
 
 
 def _tidy(path: Path) -> Path:

@@ -195,7 +195,9 @@ def test_csv_tells_what_a_baseline_accepts() -> None:
     assert rows[0]["mtv_verified"] == "true"
 
 
-@pytest.mark.parametrize("name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
+@pytest.mark.parametrize(
+    "name", ["=1+1", "+1", "-1", "@SUM(A1)", " =1", "\N{FULLWIDTH EQUALS SIGN}1"]
+)
 def test_a_name_in_csv_is_no_formula(name: str) -> None:
     body = replace(BLOCK, id=name, file=f"{name}.obj")
     (row,) = csv.DictReader(io.StringIO(of_block(body, "csv"), newline=""))

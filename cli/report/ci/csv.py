@@ -2,7 +2,8 @@
 an input.
 
 A spreadsheet takes a cell that begins with one of `=+-@` for a formula, whatever its quotes. A text
-that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are.
+that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are. Texts
+have no control characters: a table in a terminal is text, too.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.severity import is_failure
+from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -40,8 +42,8 @@ _FIELDS = (
 _ENDS = ("thickness_lower", "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
 # Beside a baseline; and whether the check fails by the finding.
 _VERDICT = ("baseline", "fails")
-# The begin of a formula.
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+# The begin of a formula; in some countries also in full width.
+_FORMULA = ("=", "+", "-", "@", *"\uff1d\uff0b\uff0d\uff20")
 _COLUMNS = ("asset", *_FIELDS, *_ENDS, *_VERDICT)
 
 
@@ -71,7 +73,10 @@ def _rows(asset: str, report: Report) -> Iterator[list[Any]]:
 def _cell(value: Any) -> Any:
     if isinstance(value, bool):
         return str(value).lower()
-    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
+    if not isinstance(value, str):
+        return value
+    text = harmless(value)
+    return f"'{text}" if text.lstrip().startswith(_FORMULA) else text
 
 
 def _of_issue(asset: str, issue: Issue, files: Mapping[str, str]) -> list[str | None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from satcheck.cli.output import harmless
 from satcheck.cli.report.ci.problems import near, problems
 from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.verdict import summary_line
@@ -34,7 +35,8 @@ def _own(line: str) -> str:
 
 
 def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    lines = map(harmless, text.replace("\r\n", "\n").split("\n"))
+    return "%0A".join(line.replace("%", "%25") for line in lines)
 
 
 def _property(text: str) -> str:

@@ -7,11 +7,11 @@ is an asset without pairs. An incomplete report has an error case at least.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from satcheck.audit.severity import fails
+from satcheck.cli.output import harmless
 from satcheck.cli.report.ci.problems import kind_of, sentence
 from satcheck.cli.report.config import config_line
 from satcheck.cli.report.verdict import summary_line
@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 
     from satcheck.cli.report.ci import Reports
     from satcheck.report.report import Finding, Report
-
-# Characters that XML 1.0 cannot hold.
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def render(reports: Reports) -> Iterator[str]:
@@ -85,4 +82,5 @@ def _say(case: ElementTree.Element, name: str, kind: str, text: str) -> None:
 
 
 def _clean(text: str) -> str:
-    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
+    """Without characters that XML 1.0 cannot hold, and without others that are not for people."""
+    return "\n".join(map(harmless, text.split("\n")))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from satcheck.cli.output import harmless
 from satcheck.cli.report.ci.problems import worst_problems
 from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.verdict import summary_line
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
 
 # GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
 MOST_ROWS = 200
-_MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:])")
+# `www.` begins a link by itself.
+_MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:]|(?<=www)\.)", re.IGNORECASE)
 
 
 def render(reports: Reports) -> Iterator[str]:
@@ -43,4 +45,4 @@ def _lines(reports: Reports) -> Iterator[str]:
 
 def as_text(text: str) -> str:
     """Names from files are text, never markup."""
-    return _MARKUP.sub(r"\\\1", " ".join(text.split()))
+    return _MARKUP.sub(r"\\\1", harmless(" ".join(text.split())))
