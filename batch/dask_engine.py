@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import time
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from itertools import chain
@@ -39,7 +39,7 @@ _SECONDS_BETWEEN_COUNTS = 2.0
 
 def check_with_dask(
     worlds: Sequence[World], options: CheckOptions, limits: Limits, scheduler: str
-) -> Iterator[list[Answer]]:
+) -> Generator[list[Answer]]:
     """The answers, as they come. scheduler: its address, or the JSON file that it has written. If
     the iteration is left early, all checks end.
 

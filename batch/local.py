@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from queue import Queue
 from threading import Thread
 
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.pace import Pace
 from satcheck.batch.slot import Limits, Slot
 from satcheck.batch.slot_server import Answer
 
@@ -19,10 +20,9 @@ _LARGEST_CHUNK = 64
 
 def check_locally(
     worlds: Sequence[World], options: CheckOptions, limits: Limits, slots: int
-) -> Iterator[list[Answer]]:
+) -> Generator[list[Answer]]:
     """The answers, as they come: all that are there at a time. Raises WorkerNotStarted. If the
-    iteration is left early, the
-    slots end."""
+    iteration is left early, the slots end."""
     waiting = deque(worlds)
     answers: Queue[Answer | BaseException] = Queue(maxsize=1000)
     made = [Slot(options, limits) for _ in range(min(slots, len(worlds)))]
@@ -44,14 +44,13 @@ def check_locally(
 
 
 def _serve(slot: Slot, waiting: deque[World], answers: Queue[Answer | BaseException]) -> None:
-    size = 1
+    pace = Pace(_LARGEST_CHUNK)
     try:
-        while chunk := _next(waiting, size):
+        while chunk := _next(waiting, pace.size):
             began = time.monotonic()
             for answer in slot.check(chunk):
                 answers.put(answer)
-            took = max(time.monotonic() - began, 1e-3)
-            size = max(1, min(2 * size, round(len(chunk) * _CHUNK_SECONDS / took), _LARGEST_CHUNK))
+            pace.measure(len(chunk), time.monotonic() - began, _CHUNK_SECONDS)
     except BaseException as error:  # noqa: BLE001  raised where the answers are awaited
         answers.put(error)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from functools import lru_cache
 
 from msgspec import Struct
@@ -14,7 +15,7 @@ from satcheck.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
 
 # Gives the answers for worlds, in any order.
-Engine = Callable[[Sequence[World]], Iterator[list[Answer]]]
+Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
 # Digests that a resumed run keeps, as worlds share files.
 _DIGESTS = 100_000
 
@@ -55,11 +56,12 @@ def run(
             tally.kept += 1
             tally.count(head.verdict)
     progress(tally)
-    for answers in engine(tuple(waiting)):
-        results.append((each.world, each.line) for each in answers)
-        for each in answers:
-            tally.count(each.verdict)
-        progress(tally)
+    with closing(engine(tuple(waiting))) as coming:
+        for answers in coming:
+            results.append((each.world, each.line) for each in answers)
+            for each in answers:
+                tally.count(each.verdict)
+            progress(tally)
     results.finish(worlds)
     return tally
 

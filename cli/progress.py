@@ -36,6 +36,7 @@ class Bar:
         self._lock = allocate_lock()
         self._ended = False
         self._done, self._total = 0, 0
+        self._beside = ""
         self._shown: tuple[Progress, TaskID] | None = None
         self._timer: Timer | None = None
 
@@ -54,9 +55,10 @@ class Bar:
         self._timer = timer
         return self
 
-    def __call__(self, done: int, total: int) -> None:
+    def __call__(self, done: int, total: int, beside: str = "") -> None:
+        """beside: what is said after the count."""
         with self._lock:
-            self._done, self._total = done, total
+            self._done, self._total, self._beside = done, total, beside
             if self._shown is not None:
                 bar, task = self._shown
                 bar.update(task, completed=done, total=total)
@@ -100,6 +102,7 @@ class Bar:
     def _pace(self, task: Task) -> str:
         """`120/300 pairs, 35/s, 5 s left`; where little is counted, the time so far."""
         counted = f"{self._done:,}/{self._total:,} {self._unit}, " if self._total else ""
+        counted += f"{self._beside}, " if self._beside else ""
         if self._total >= RATED and task.speed and task.time_remaining is not None:
             return f"{counted}{task.speed:.3g}/s, {in_words(task.time_remaining)} left"
         return f"{counted}{in_words(task.elapsed or 0.0)}"

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
 from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.mesh_files import (
@@ -17,6 +19,9 @@ from satcheck.scene.mesh_files import (
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.scene_builder import SceneBuilder, Split
 from satcheck.scene.units import MICROMETRES, unit_of
+
+# The header of a body in TOML, or the first body of a list in JSON.
+_BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTILINE)
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
@@ -138,8 +143,16 @@ def is_rules(path: str) -> bool:
 
 def has_only_rules(path: str) -> bool:
     """Whether the input is a scene file with rules and without bodies. Raises SceneFileError."""
+    if _begins_a_body(path):
+        return False
     scene = _read_scenes([path], allow_outside=True).get(path)
     return scene is not None and bool(scene.rules) and not scene.bodies
+
+
+def _begins_a_body(path: str) -> bool:
+    """Whether the text of a scene file has a body, without parsing it. False: perhaps."""
+    content = content_of(Path(path)) if kind_of(path) == "scene" else None
+    return content is not None and _BODY.search(content) is not None
 
 
 def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:

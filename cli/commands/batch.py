@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import chain
@@ -156,12 +156,22 @@ def command(
             named = output if is_url(output) else str(existing)
             raise SatcheckError("results-exist", reason, file=named)
 
+        known = Tally(len(worlds))
+
         def progress(tally: Tally) -> None:
+            nonlocal known
+            known = tally
             added()
             if bar is not None:
-                bar(tally.done, tally.total)
+                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
 
-        tally = run(worlds, terms, partial(check, options=terms, limits=limits), results, progress)
+        try:
+            made = partial(check, options=terms, limits=limits)
+            tally = run(worlds, terms, made, results, progress)
+        except (KeyboardInterrupt, SatcheckError):
+            if known.done:
+                talk(f"satcheck: {_recorded(known, results.part)}")
+            raise
     talk(_summary(tally, output))
     return _exit_code(tally, exit_zero)
 
@@ -200,7 +210,7 @@ def _meant_by(url: str) -> list[str]:
     return found
 
 
-def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Iterator[list[Answer]]]:
+def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Generator[list[Answer]]]:
     if (name == "dask") != (scheduler is not None):
         raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
     if scheduler is None:
@@ -212,7 +222,13 @@ def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Iterat
     return partial(check_with_dask, scheduler=scheduler)
 
 
-def _summary(tally: Tally, output: str) -> str:
+def _recorded(tally: Tally, part: Path) -> str:
+    done = f"{tally.done:,} of {counted(tally.total, 'scene')} are recorded in {part}"
+    return f"{done}: the same command with --resume checks the others"
+
+
+def _verdicts(tally: Tally, but: str = "") -> str:
+    """`1 error, 5 pass`"""
     parts = [
         f"{number:,} {word}"
         for number, word in (
@@ -221,10 +237,14 @@ def _summary(tally: Tally, output: str) -> str:
             (tally.incomplete, "incomplete"),
             (tally.passed, "pass"),
         )
-        if number
+        if number and word != but
     ]
+    return ", ".join(parts)
+
+
+def _summary(tally: Tally, output: str) -> str:
     kept = f" ({tally.kept:,} kept)" if tally.kept else ""
-    verdicts = f": {', '.join(parts)}{kept}" if parts else ""
+    verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
     return f"{counted(tally.total, 'scene')}{verdicts}. Results: {output}"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 
 import pytest
@@ -30,7 +30,7 @@ def checked(worlds: Sequence[World], options: CheckOptions | None = None) -> lis
     options = options or CheckOptions()
     done: list[World] = []
 
-    def engine(waiting: Sequence[World]) -> Iterator[list[Answer]]:
+    def engine(waiting: Sequence[World]) -> Generator[list[Answer]]:
         done.extend(waiting)
         if waiting:
             yield answers_in(serve(request_of(Chunk(tuple(waiting), options))), waiting)
