@@ -7,14 +7,19 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES
+from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.path_kind import exists, is_folder
 
 _ALWAYS = ROBOT_SUFFIXES.union(FORMATS)
-# Other JSON and TOML files lie in most folders.
+# Most files with these endings are something else, unless they hold one of these texts.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
+_SDF_MARKS = (b"<sdf", b"<gazebo")
+_MARKS = {
+    **dict.fromkeys(SCENE_SUFFIXES, _SCENE_MARKS),
+    **dict.fromkeys(SDF_SUFFIXES, _SDF_MARKS),
+}
 _PATTERN = frozenset("*?[")
 
 
@@ -95,9 +100,9 @@ def _below(folder: str, endings: frozenset[str]) -> Iterator[str]:
 
 def _is_asset(path: Path, endings: frozenset[str]) -> bool:
     ending = path.suffix.lower()
-    if ending not in SCENE_SUFFIXES:
+    if ending not in _MARKS:
         return ending in endings
     content = content_of(path)
     # JSON may write a slash with a backslash.
     plain = None if content is None else content.replace(b"\\/", b"/")
-    return plain is None or any(mark in plain for mark in _SCENE_MARKS)
+    return plain is None or any(mark in plain for mark in _MARKS[ending])

@@ -14,7 +14,8 @@ InputKind = Literal["mesh", "scene", "robot", "srdf"]
 GeometryKind = Literal["collision", "visual"]  # the elements of the links of a robot
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
-ROBOT_SUFFIXES = frozenset((".urdf", ".sdf", ".world"))
+SDF_SUFFIXES = frozenset((".sdf", ".world"))
+ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
     **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),

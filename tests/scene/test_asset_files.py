@@ -54,6 +54,17 @@ def test_json_is_an_asset_if_it_is_a_scene(content: bytes, assets: int, tmp_path
     assert len(asset_files([str(tmp_path)])) == 1 + assets
 
 
+@pytest.mark.parametrize("name", ["model.sdf", "yard.world"])
+def test_files_of_other_programs_with_the_endings_of_sdformat_are_no_assets(
+    name: str, tmp_path: Path
+) -> None:
+    (tmp_path / "a.obj").touch()
+    (tmp_path / name).write_text("define floorplan model")
+    assert len(asset_files([str(tmp_path)])) == 1
+    (tmp_path / name).write_text('<?xml version="1.0"?><sdf version="1.9"/>')
+    assert len(asset_files([str(tmp_path)])) == 2
+
+
 def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scene.toml").touch()
     unreadable: Callable[[Path], None] = lambda _: None  # noqa: E731

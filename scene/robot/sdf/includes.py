@@ -7,7 +7,6 @@ variables are read. Nothing is fetched.
 from __future__ import annotations
 
 from pathlib import Path
-from urllib.parse import urlsplit
 
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.path_kind import is_file, is_folder
@@ -15,6 +14,7 @@ from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces
 from satcheck.scene.robot.xml_tree import SDF_ROOTS, Element, read_tree
 
 _Version = tuple[int, ...]
+_MOST_DIGITS = 9
 
 
 class Includes:
@@ -52,14 +52,16 @@ def version_of(element: Element, default: _Version | None = None) -> _Version:
         return default
     text = element.attribute("version")
     words = text.split(".")
-    if not all(word.isdecimal() for word in words):
+    if not all(word.isdecimal() and len(word) < _MOST_DIGITS for word in words):
         element.refuse(f"version {text!r} is no version")
     return tuple(map(int, words))
 
 
 def name_in(uri: str) -> str:
     """A name for a model that cannot be read: the last part of its URI that is no file."""
-    parts = [part for part in urlsplit(uri).path.split("/") if part]
-    host = urlsplit(uri).netloc
+    scheme, _, path = uri.rpartition("://")
+    parts = [part for part in path.split("/") if part]
+    if not parts:
+        return uri
     folders = [part for part in parts if "." not in part]
-    return host if uri.startswith("model:") and host else (folders or parts or [uri])[-1]
+    return parts[0] if scheme in ("model", "package") else (folders or parts)[-1]

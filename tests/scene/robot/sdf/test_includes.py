@@ -187,3 +187,9 @@ def test_a_model_of_a_server_lies_where_the_user_says(tmp_path: Path) -> None:
     assert load_scene([path], packages=packages).order == ("crate::l", "crate::tip")
     ((_, _, message),) = unreadable(tmp_path, path.read_text())
     assert "--package example.org=DIR" in message
+
+
+@pytest.mark.parametrize("uri", ["http://[::", "://", "model://", "x" * 5000, "file://"])
+def test_a_uri_that_leads_nowhere(tmp_path: Path, uri: str) -> None:
+    (lost,) = unreadable(tmp_path, world(include(uri)))
+    assert lost[1] in ("missing-resource", "unsupported-feature")

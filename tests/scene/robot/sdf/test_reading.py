@@ -215,6 +215,7 @@ def test_a_joint_through_a_link_without_geometry_needs_no_note(tmp_path: Path) -
         ("<html/>", "not-this-format", "<robot> or <sdf>"),
         ('<sdf version="1.0"/>', "unsupported-feature", "gz sdf"),
         ("<sdf/>", "bad-robot", "version"),
+        (f'<sdf version="{"1" * 5000}"/>', "bad-robot", "is no version"),
         (sdf(link("a")), "bad-robot", "in a model"),
         (sdf('<world name="a"/>', '<world name="b"/>'), "bad-robot", "a second <world>"),
         (sdf("<model/>"), "bad-robot", "name"),
