@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from heapq import merge
 from itertools import groupby
@@ -25,12 +25,14 @@ from satcheck.report.report import Issue
 BAD_RESULT = "bad-result"
 UNFINISHED = "unfinished-results"
 NO_RESULTS = "no-results"
+MISSING = "missing-results"
 DIFFERENT = "different-results"
 # What an issue allows at best.
 _VERDICTS: dict[str, AssetVerdict] = {
     BAD_RESULT: "error",
     UNFINISHED: "incomplete",
     NO_RESULTS: "incomplete",
+    MISSING: "incomplete",
     DIFFERENT: "pass",
 }
 # Lines of a file that are named one by one.
@@ -68,12 +70,13 @@ class StoredResults:
     file the last result of a world counts. In several
     files the same key means the same answer; of different ones that of the last file counts.
 
-    issues: what is wrong with the files; least: the verdict that this allows at best. Use it in a
-    `with` statement. Raises SatcheckError: `unreadable-file`.
+    expected: worlds that need a result. issues: what is wrong with the files; least: the verdict
+    that this allows at best. Use it in a `with` statement. Raises SatcheckError: `unreadable-file`.
     """
 
-    def __init__(self, paths: Sequence[Path]) -> None:
+    def __init__(self, paths: Sequence[Path], expected: Iterable[World] = ()) -> None:
         self._paths = paths
+        self._expected = expected
         self._stack = ExitStack()
         self._count = 0
         self.issues: tuple[Issue, ...] = ()
@@ -105,16 +108,21 @@ class StoredResults:
             yield list(same)
 
     def _scan(self) -> Iterator[Issue]:
-        different: Counter[str] = Counter()
+        different, first_different = 0, ""
+        missing = dict.fromkeys(self._expected)
         for lines in self._worlds():
             self._count += 1
+            missing.pop(lines[0].name.files, None)
             if len({line.name.key for line in lines} - {None}) > 1:
-                different[", ".join(lines[0].name.files)] += 1
+                different += 1
+                first_different = first_different or _named(lines[0].name.files)
         if different:
-            first, more = next(iter(different)), different.total() - 1
-            others = f" and {more:,} more scenes" if more else ""
-            reason = f"{first}{others}: different results in several files; the last file counts"
+            which = f"{first_different}{_more(different - 1)}"
+            reason = f"{which}: different results in several files; the last file counts"
             yield Issue(DIFFERENT, "warning", None, None, reason)
+        if missing:
+            which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
+            yield Issue(MISSING, "warning", None, None, f"{which}: no result in these files")
         if not self._count:
             yield Issue(NO_RESULTS, "warning", None, None, "there is no result in these files")
 
@@ -126,6 +134,14 @@ def _files_of(path: Path) -> Iterator[Path]:
         yield path
     if part.exists():
         yield part
+
+
+def _named(world: World) -> str:
+    return ", ".join(world)
+
+
+def _more(scenes: int) -> str:
+    return f" and {scenes:,} more" if scenes else ""
 
 
 class _Lines:
@@ -226,7 +242,7 @@ def _bad(path: Path, number: int) -> Issue:
 
 
 def _read(line: _Line) -> Stored:
-    name = ", ".join(line.name.files)
+    name = _named(line.name.files)
     try:
         result = read_line(line.text, Result)
         _require_bodies(result)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from satcheck.batch.manifest import read_manifest
 from satcheck.batch.stored import StoredResults
 from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs, refuse_early
@@ -39,6 +40,11 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
     nargs=-1,
     required=True,
     type=click.Path(dir_okay=False, path_type=Path),
+)
+@click.option(
+    "--manifest",
+    metavar="FILE",
+    help="Expect a result of each scene that FILE names, one in a line, as for satcheck batch.",
 )
 @click.option(
     "--format",
@@ -85,6 +91,7 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
 @debug_option
 def command(
     results: tuple[Path, ...],
+    manifest: str | None,
     form: str | None,
     output: Path | None,
     top: int | None,
@@ -109,9 +116,12 @@ def command(
     """
     forms = _forms(sql, against, folder)
     form = form_of(form, output, forms)
-    refuse_early(Inputs(paths=tuple(map(str, (*results, *against)))), output)
+    refuse_early(
+        Inputs(paths=tuple(map(str, (*results, *against, *filter(None, [manifest]))))), output
+    )
     document = Document()
-    with StoredResults(results) as stored:
+    expected = () if manifest is None else read_manifest(manifest)
+    with StoredResults(results, expected) as stored:
         if sql is not None:
             verdict = answer(stored, sql, form, output, top, document)
         elif against:

@@ -111,7 +111,7 @@ def _rows(scene: SceneChange) -> Iterator[tuple[tuple[float, ...], Row]]:
         row = Row(each.state, scene.file, each.a, each.b, before, now)
         yield (FINDING_STATES.index(each.state), -thick), row
     if scene.before != scene.now:
-        change = "scene" if scene.state == "both" else scene.state
+        change = "verdict" if scene.state == "both" else scene.state
         row = Row(change, scene.file, "", "", scene.before or "", scene.now or "")
         is_open = scene.now in ("error", "incomplete")
         verdict = ASSET_VERDICTS.index(scene.now) if scene.now else len(ASSET_VERDICTS)

@@ -48,6 +48,7 @@ small, .none { color: var(--soft); }
 table { border-collapse: collapse; width: 100%; }
 td, th { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px solid var(--line);
  vertical-align: top; overflow-wrap: anywhere; }
+th { white-space: nowrap; }
 td:first-child { min-width: 12rem; }
 </style>
 </head>

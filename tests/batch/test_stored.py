@@ -144,6 +144,24 @@ def test_no_result_is_no_pass(tmp_path: Path) -> None:
     assert read(write(tmp_path / "1")) == ([], ["no-results"], "incomplete")
 
 
+@pytest.mark.parametrize(
+    ("expected", "told"),
+    [
+        ([("a",), ("c", "b")], None),
+        ([("a",), ("b",)], "b: no result"),
+        ([("b",), ("a",), ("c",)], "b and 1 more: no result"),
+    ],
+)
+def test_a_world_that_is_expected_and_has_no_result(
+    expected: list[tuple[str, ...]], told: str | None, tmp_path: Path
+) -> None:
+    path = write(tmp_path / "1", line("a"), line("c", "b"))
+    with StoredResults([path], iter(expected)) as results:
+        messages = [issue.message for issue in results.issues]
+        assert messages == ([] if told is None else [f"{told} in these files"])
+        assert results.least == ("pass" if told is None else "incomplete")
+
+
 def test_names_that_are_not_utf8(tmp_path: Path) -> None:
     (stored,), issues, _ = read(write(tmp_path / "1", line("a\udcff")))
     assert (stored.files, issues) == (("a\udcff",), [])

@@ -135,6 +135,16 @@ def test_a_batch_that_did_not_finish_is_no_pass(folder: Path) -> None:
     assert (rows.code, "did not finish" in rows.err) == (3, True)
 
 
+def test_a_scene_of_the_manifest_without_a_result_is_no_pass(folder: Path) -> None:
+    batch(folder, "a", "all.jsonl")
+    (folder / "list").write_text("a.toml\n")
+    assert report(folder, "all.jsonl", "--manifest", "list").code == 0
+    (folder / "list").write_text("a.toml\nb.toml\n")
+    ran = report(folder, "all.jsonl", "--manifest", "list")
+    assert ran.code == 3
+    assert "b.toml: no result in these files [missing-results]" in ran.out
+
+
 def test_a_file_of_another_kind_is_an_error(folder: Path) -> None:
     ran = report(folder, "box.obj")
     assert ran.code == 2
