@@ -20,7 +20,7 @@ from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.robot.packages import search_path
 
-_MOST_DIGESTS = 20_000
+_MOST_DIGESTS = 5_000
 # Settings that change no answer.
 _WITHOUT_EFFECT = frozenset({"jobs", "cache", "cache_directory", "timings"})
 

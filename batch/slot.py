@@ -102,9 +102,7 @@ class Slot:
         if self._worker.answered:
             try:
                 return self._ask([world], left_out)[0]
-            except WorkerNotStarted:
-                raise
-            except WorkerError:
+            except (WorkerCrashed, WorkerOutOfMemory):
                 pass
         return self._ask([world], left_out)[0]
 

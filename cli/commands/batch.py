@@ -170,7 +170,8 @@ def command(
             tally = run(worlds, terms, made, results, progress)
         except (KeyboardInterrupt, SatcheckError):
             if known.done:
-                talk(f"satcheck: {_recorded(known, results.part)}")
+                place = output if is_url(output) else str(results.part)
+                talk(f"satcheck: {_recorded(known, place)}")
             raise
     talk(_summary(tally, output))
     return _exit_code(tally, exit_zero)
@@ -222,8 +223,8 @@ def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Genera
     return partial(check_with_dask, scheduler=scheduler)
 
 
-def _recorded(tally: Tally, part: Path) -> str:
-    done = f"{tally.done:,} of {counted(tally.total, 'scene')} are recorded in {part}"
+def _recorded(tally: Tally, place: str) -> str:
+    done = f"{tally.done:,} of {counted(tally.total, 'scene')} are recorded in {place}"
     return f"{done}: the same command with --resume checks the others"
 
 

@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.local import check_locally
 from satcheck.batch.slot import Limits, Slot
 from satcheck.core.worker_errors import WorkerNotStarted
 from tests.cli.process import SAMPLES, command, environment, on_posix
@@ -229,3 +230,28 @@ def test_no_child_of_a_worker_outlives_it(
         os.kill(worker, signal.SIGKILL)
     assert _until(lambda: reader not in _marked(mark))
     assert _until(lambda: not _marked(mark))
+
+
+def test_a_mesh_of_many_scenes_is_split_once(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Slots that need its parts at the same time wait for the first one."""
+    splits = tmp_path / "splits"
+    splits.mkdir()
+    monkeypatch.setenv("PLANTED_SPLITS", str(splits))
+    monkeypatch.setenv("SATCHECK_CACHE_DIR", str(tmp_path / "cache"))
+    shutil.copy(SAMPLES / "l_bracket.obj", "l_bracket.obj")
+    shutil.copy(SAMPLES / "box.obj", "box.obj")
+    for number in range(6):
+        Path(f"s{number}.toml").write_text(
+            'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\nmesh = "l_bracket.obj"\n'
+            f'[[bodies]]\nid = "b"\nmesh = "box.obj"\nposition = [{number / 10}, 0, 0]\n'
+        )
+    worlds = [(f"s{number}.toml",) for number in range(6)]
+    options = CheckOptions(settings={"accuracy": "parts"})
+    answers = [
+        answer for some in check_locally(worlds, options, PATIENT, slots=3) for answer in some
+    ]
+    assert len(answers) == len(worlds)
+    assert all(json.loads(answer.line)["report"]["bodies"][0]["parts"] for answer in answers)
+    assert len(list(splits.iterdir())) == 1

@@ -47,6 +47,13 @@ def _planted(function: Callable[..., Any], name_of: Callable[[Any], str]) -> Cal
     return instead
 
 
+def _split(_: bytes) -> str:
+    """Counts the meshes that CoACD splits."""
+    if folder := os.environ.get("PLANTED_SPLITS"):
+        (Path(folder) / str(os.getpid())).touch()
+    return ""
+
+
 # The module, what in it, and how its first argument is named.
 _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "satcheck.scene.loading": ("read_source", os.path.basename),
@@ -54,6 +61,7 @@ _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
         "_read",
         lambda request: Path(request.directory).name,
     ),
+    "satcheck.decompose.coacd_server": ("serve", _split),
     "satcheck.audit.check": ("examine", lambda pair: pair.a.id),
 }
 
