@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
@@ -9,7 +10,7 @@ from heapq import merge
 from itertools import groupby
 from os import fstat
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import NamedTuple, Self, TypeVar
 
 import msgspec
 
@@ -38,6 +39,8 @@ _VERDICTS: dict[str, AssetVerdict] = {
 # Lines of a file that are named one by one.
 _NAMED = 10
 _BLOCK_BYTES = 1 << 16
+_SURROGATE = b"\\ud"
+_T = TypeVar("_T")
 
 
 class Stored(NamedTuple):
@@ -231,9 +234,20 @@ def _has_key(line: _Line) -> bool:
 
 def _name(line: bytes) -> _Name | None:
     try:
-        return read_line(line, _Name)
+        name = _decoded(line, _Name)
     except msgspec.MsgspecError:
         return None
+    return name if name.files else None
+
+
+def _decoded(line: bytes, kind: type[_T]) -> _T:
+    """Raises msgspec.MsgspecError."""
+    try:
+        if _SURROGATE in line:  # it may stand for no byte of a file name
+            json.dumps(json.loads(line), ensure_ascii=False).encode(errors="surrogateescape")
+        return read_line(line, kind)
+    except (ValueError, RecursionError) as error:
+        raise msgspec.DecodeError(str(error)) from None
 
 
 def _bad(path: Path, number: int) -> Issue:
@@ -244,7 +258,7 @@ def _bad(path: Path, number: int) -> Issue:
 def _read(line: _Line) -> Stored:
     name = _named(line.name.files)
     try:
-        result = read_line(line.text, Result)
+        result = _decoded(line.text, Result)
         _require_bodies(result)
     except msgspec.MsgspecError as error:
         reason = f"{line.path}: no result of this version of satcheck: {error}"

@@ -133,6 +133,11 @@ def test_a_finding_about_no_body_is_an_error(tmp_path: Path) -> None:
     assert "no body is block" in reason(stored)
 
 
+def test_a_result_about_no_file_is_none(tmp_path: Path) -> None:
+    bad = line("a").replace(b'"files":["a"]', b'"files":[]')
+    assert read(write(tmp_path / "1", bad, line("b")))[1] == ["bad-result"]
+
+
 def test_only_some_bad_lines_are_named(tmp_path: Path) -> None:
     with StoredResults([write(tmp_path / "1", b"no\n" * 25)]) as results:
         assert [issue.line for issue in results.issues] == [*range(1, 11), None, None]
@@ -165,6 +170,17 @@ def test_a_world_that_is_expected_and_has_no_result(
 def test_names_that_are_not_utf8(tmp_path: Path) -> None:
     (stored,), issues, _ = read(write(tmp_path / "1", line("a\udcff")))
     assert (stored.files, issues) == (("a\udcff",), [])
+
+
+@pytest.mark.parametrize(
+    "value",
+    ['"\\ud800"', '"\\udcff\\ud800"', "[" * 100_000 + "]" * 100_000],
+    ids=["half", "mixed", "deep"],
+)
+def test_values_that_nothing_can_write_are_no_result(value: str, tmp_path: Path) -> None:
+    bad = line("a").replace(b'"key":', f'"more":{value},"key":'.encode())
+    listed, issues, _ = read(write(tmp_path / "1", bad, line("b")))
+    assert (names(listed), issues) == (["b"], ["bad-result"])
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
