@@ -194,7 +194,8 @@ class Contents:
             path = around.scope.path(f"{name}-{number}")
         self._declare(path, element, element.only("pose"), around.scope)
         self.frames.opaque.add(path)
-        contacts = Contacts(around.model or path, around.static, around.self_collide)
+        # What is not read may be checked against the links around it, so its pairs stay open.
+        contacts = Contacts(around.model or path, around.static, self_collide=True)
         reason = RefusedShape(code, f"<{element.tag}>: {what!r} is not read: {why}")
         body = Collision(None, IDENTITY, reason, element.line, element.file)
         self.links[path] = FoundLink(element, around.scope, contacts, body)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from satcheck.scene.robot.model import Collision, Exempt, Exemption
-from satcheck.scene.robot.sdf.parts import Mask, Part
+from satcheck.scene.robot.sdf.parts import ANY, Mask, Part
 
 _STATIC = "static"
 
@@ -76,6 +76,8 @@ def _model_group(model: str) -> str:
 
 
 def _mask_name(mask: Mask) -> str:
+    if mask == ANY:
+        return "any collide_bitmask"
     name = f"collide_bitmask {mask.collide:#06x}"
     if mask.category == mask.collide:
         return name

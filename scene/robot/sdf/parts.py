@@ -29,6 +29,9 @@ class Mask(NamedTuple):
         return bool(self.category & other.collide or other.category & self.collide)
 
 
+ANY = Mask(-1, -1)  # all bits: of a collision whose masks are not known
+
+
 class Part(NamedTuple):
     collision: Collision
     mask: Mask
@@ -47,17 +50,18 @@ def parts_in(
     for element in link.all(tag):
         slips.note_unknown(element, IN_COLLISION)
         name = element.attributes.get("name") or None
+        mask = ANY
         try:
+            mask = _mask(element)
             shape = _shape(element, slips)
             if shape is None:
                 continue
             origin = _origin(element.only("pose"), path, scope, frames)
             geometry = geometry_of(shape)
-            mask = _mask(element)
         except RefusedElement as error:
             refused = RefusedShape(error.code, error.reason)
             part = Collision(name, IDENTITY, refused, error.at, element.file)
-            parts.append(Part(part, Mask()))
+            parts.append(Part(part, mask))
         else:
             part = Collision(name, origin, geometry, element.line, element.file)
             parts.append(Part(part, mask))

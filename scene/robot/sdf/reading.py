@@ -22,7 +22,7 @@ from satcheck.scene.robot.sdf.frames import WORLD
 from satcheck.scene.robot.sdf.includes import Includes
 from satcheck.scene.robot.sdf.joint_trees import Edge, trees_of
 from satcheck.scene.robot.sdf.joints import Found, moves_of
-from satcheck.scene.robot.sdf.parts import Mask, Part, parts_in
+from satcheck.scene.robot.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
 
@@ -44,7 +44,7 @@ def read_sdf(
     edges = [edge for joint in contents.joints if (edge := _edge(joint, contents, slips))]
     parts = {path: _parts(path, contents, slips, geometry) for path in contents.links}
     contacts = {path: found.contacts for path, found in contents.links.items()}
-    collisions, exempted = exempt(contacts, parts, _joined(edges))
+    collisions, exempted = exempt(contacts, parts, _joined(edges, contents))
     links = {
         path: Link(
             name=path,
@@ -67,7 +67,7 @@ def read_sdf(
 def _parts(path: str, contents: Contents, slips: Slips, geometry: GeometryKind) -> list[Part]:
     found: FoundLink = contents.links[path]
     if found.refusal is not None:
-        return [Part(found.refusal, Mask())]
+        return [Part(found.refusal, ANY)]
     return parts_in(found.element, path, found.scope, contents.frames, slips, geometry)
 
 
@@ -87,9 +87,13 @@ def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge | None:
     return Edge(joint.path, joint.element, parent, child, frames.world(joint.path), moves)
 
 
-def _joined(edges: list[Edge]) -> Iterator[Exemption]:
+def _joined(edges: list[Edge], contents: Contents) -> Iterator[Exemption]:
+    """Not with a model that is not read: its other links are checked."""
     for edge in edges:
-        if WORLD not in (edge.parent, edge.child):
+        if contents.frames.opaque.isdisjoint((edge.parent, edge.child)) and WORLD not in (
+            edge.parent,
+            edge.child,
+        ):
             yield Exemption(edge.parent, edge.child, f"SDF: joint {edge.path}")
 
 

@@ -286,3 +286,23 @@ def test_a_placeholder_beside_a_uri(tmp_path: Path) -> None:
     assert geometry(tmp_path, mesh) == MeshReference("m.stl", (1.0, 1.0, 1.0))
     found = geometry(tmp_path, "<mesh><uri>m.stl</uri><uri>n.stl</uri></mesh>")
     assert isinstance(found, RefusedShape)
+
+
+def test_nothing_excuses_a_body_that_is_not_read(tmp_path: Path) -> None:
+    """Its model may have self_collide, other links than the joined one, and any mask."""
+    far = model("far", link("l", inside=masked("0x10000")))
+    gone = "<include><uri>model://gone</uri></include>"
+    text = model("m", link("a"), gone, joint("j", "a", "gone::l"))
+    report = check(load(tmp_path, world(text, far)), Settings(depth=False))
+    relations = {(f.a, f.b): f.relation for f in report.findings}
+    assert relations[("m::a", "m::gone")] == "indeterminate"
+    assert relations[("m::gone", "far::l")] == "indeterminate"
+
+
+def test_a_mask_that_is_not_read_excuses_nothing_but_0(tmp_path: Path) -> None:
+    models = [
+        model(name, link("l", inside=masked(b)))
+        for name, b in (("a", "nonsense"), ("b", "0x10000"), ("c", "0"))
+    ]
+    report = check(load(tmp_path, world(*models)), Settings(depth=False))
+    assert [(f.a, f.b, f.relation) for f in report.findings] == [("a::l", "b::l", "indeterminate")]
