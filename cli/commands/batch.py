@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -139,6 +140,7 @@ def command(
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.
     """
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
     files = tuple(name for world in worlds for name in world if not is_url(name))

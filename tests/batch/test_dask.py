@@ -20,7 +20,7 @@ from satcheck.batch.slot import Limits, Slot
 from satcheck.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError
 from tests.batch.worlds import make_worlds
-from tests.cli.process import satcheck
+from tests.cli.process import SECONDS, satcheck
 
 OPTIONS, LIMITS = CheckOptions(), Limits()
 DEATHS_OF_WORKERS = 1  # that one task may survive
@@ -33,17 +33,18 @@ def cluster() -> Iterator[LocalCluster]:
         "distributed.scheduler.allowed-failures": DEATHS_OF_WORKERS,
         "distributed.comm.timeouts.connect": "60s",
     }
-    with (
-        dask.config.set(settings),
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as made,
-    ):
+    with dask.config.set(settings), two_workers() as made:
         yield made
+
+
+def two_workers() -> LocalCluster:
+    return LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0")
 
 
 @pytest.fixture
 def client(cluster: LocalCluster) -> Iterator[Client]:
     with Client(cluster, set_as_default=False) as made:
-        made.wait_for_workers(2)
+        made.wait_for_workers(2, timeout=SECONDS)
         yield made
 
 
@@ -78,7 +79,7 @@ def test_answers_are_those_of_the_local_engine(
     expected: dict[World, bytes],
 ) -> None:
     cluster.scale(workers)
-    client.wait_for_workers(workers)
+    client.wait_for_workers(workers, timeout=SECONDS)
     assert by_world(through(cluster, worlds)) == expected
 
 
@@ -103,13 +104,14 @@ def test_a_killed_worker_loses_nothing(
 
 
 def test_a_worker_that_is_closed_loses_nothing(
-    cluster: LocalCluster, client: Client, worlds: list[World], expected: dict[World, bytes]
+    worlds: list[World], expected: dict[World, bytes]
 ) -> None:
     """As by a cluster that becomes smaller: the end of its slots gives no wrong answers."""
-    answers = through(cluster, worlds)
-    first = next(answers)
-    client.retire_workers([next(iter(client.nthreads()))])
-    assert by_world(iter([first, *answers])) == expected
+    with two_workers() as cluster, Client(cluster, set_as_default=False) as client:
+        answers = through(cluster, worlds)
+        first = next(answers)
+        client.retire_workers([next(iter(client.nthreads()))])
+        assert by_world(iter([first, *answers])) == expected
 
 
 class Poisoned(Slot):
