@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.batch import urls
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.limits import Limits
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.robot.packages import search_path
@@ -75,11 +76,14 @@ def key_of(world: World, terms: str, inputs: tuple[InputFile, ...]) -> str:
     return _sha256(json.dumps([terms, world, files]))
 
 
-def terms_of(options: CheckOptions) -> str:
-    """A digest of what else the answers depend on, the same for all worlds of a batch."""
+def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:
+    """A digest of what else the answers depend on, the same for all worlds of a batch. limits: of
+    answers without the steps that ended a process, as such a step may need more than these."""
     settings = {k: v for k, v in options.settings.items() if k not in _WITHOUT_EFFECT}
     stated = to_builtins(replace(options, settings=settings))
-    return _sha256(json.dumps([__version__, stated, search_path()], sort_keys=True))
+    return _sha256(
+        json.dumps([__version__, stated, search_path(), to_builtins(limits)], sort_keys=True)
+    )
 
 
 def _sha256(text: str) -> str:

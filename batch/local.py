@@ -9,8 +9,9 @@ from queue import Queue
 from threading import Thread
 
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.limits import Limits
 from satcheck.batch.pace import Pace
-from satcheck.batch.slot import Limits, Slot
+from satcheck.batch.slot import Slot
 from satcheck.batch.slot_server import Answer
 
 # Work of a slot between two questions to this process. Short, so that little is lost with it.

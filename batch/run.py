@@ -10,6 +10,7 @@ from msgspec import Struct
 
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.key import digest, inputs_of, key_of, terms_of
+from satcheck.batch.limits import Limits
 from satcheck.batch.results import Head, ResultsFile
 from satcheck.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
@@ -42,6 +43,7 @@ class Tally(Struct):
 def run(
     worlds: Sequence[World],
     options: CheckOptions,
+    limits: Limits,
     engine: Engine,
     results: ResultsFile,
     progress: Callable[[Tally], None],
@@ -50,7 +52,7 @@ def run(
     progress: called when results are on the disk. Raises what the engine and the file raise."""
     tally = Tally(len(worlds))
     waiting = dict.fromkeys(worlds)
-    for head in results.keep(_validity(options)):
+    for head in results.keep(_validity(options, limits)):
         if head.files in waiting:
             del waiting[head.files]
             tally.kept += 1
@@ -66,12 +68,14 @@ def run(
     return tally
 
 
-def _validity(options: CheckOptions) -> Callable[[Head], bool]:
-    """Says of a result whether its files, the options and the version are the same now."""
-    now, terms = lru_cache(_DIGESTS)(digest), terms_of(options)
+def _validity(options: CheckOptions, limits: Limits) -> Callable[[Head], bool]:
+    """Says of a result whether its files, the options and the version are the same now, and if it
+    depends on them also the limits."""
+    now = lru_cache(_DIGESTS)(digest)
+    terms = terms_of(options), terms_of(options, limits)
 
     def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        return head.key is not None and head.key == key_of(head.files, terms, inputs)
+        return head.key in [key_of(head.files, each, inputs) for each in terms]
 
     return valid

@@ -11,10 +11,9 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from tempfile import TemporaryDirectory
 
-from msgspec import Struct
-
 from satcheck.audit.assets import lost_asset
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.limits import Limits
 from satcheck.batch.remote_world import is_remote
 from satcheck.batch.slot_server import (
     STEP_LINE,
@@ -40,13 +39,6 @@ _SERVER = "satcheck.batch.slot_server"
 _MOST_LEFT_OUT = 3
 # A step is to blame for the end at the time limit only if it took more than this share of it.
 _SHARE_OF_TIME = 0.5
-
-
-class Limits(Struct, frozen=True):
-    """For one world. seconds: wall-clock time. megabytes: address space of its process, in MiB."""
-
-    seconds: float = 600.0
-    megabytes: int = 4096
 
 
 class Slot:
@@ -110,7 +102,7 @@ class Slot:
         self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
     ) -> list[Answer]:
         copies = self._folder_of_copies() if any(map(is_remote, worlds)) else None
-        request = request_of(Chunk(tuple(worlds), self._options, left_out, copies))
+        request = request_of(Chunk(tuple(worlds), self._options, self._limits, left_out, copies))
         return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
 
     def _folder_of_copies(self) -> str:

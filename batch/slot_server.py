@@ -19,6 +19,7 @@ from satcheck.audit.assets import unreadable_asset, without_unused_rules
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.batch.key import Digests, inputs_of, key_of, terms_of
+from satcheck.batch.limits import Limits
 from satcheck.batch.remote_world import Copies, Copy, is_remote
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
@@ -49,6 +50,7 @@ class Chunk(Struct, frozen=True):
 
     worlds: tuple[World, ...]
     options: CheckOptions
+    limits: Limits
     left_out: Mapping[str, Loss] | None = None
     copies: str | None = None
 
@@ -78,14 +80,11 @@ def serve(request: bytes) -> bytes:
     chunk = msgspec.convert(json.loads(request), Chunk)
     # A slot is one thread: the others have the other cores.
     options = replace(chunk.options, settings={**chunk.options.settings, "jobs": 1})
-    terms = terms_of(options)
+    terms = terms_of(options, chunk.limits if chunk.left_out else None)
     care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
     copies = None if chunk.copies is None else _copies(chunk.copies)
     with careful(care):
-        answers = [
-            _answer(world, options, terms, certain=not chunk.left_out, copies=copies)
-            for world in chunk.worlds
-        ]
+        answers = [_answer(world, options, terms, copies=copies) for world in chunk.worlds]
     return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
 
 
@@ -105,28 +104,23 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _answer(
-    world: World, options: CheckOptions, terms: str, *, certain: bool, copies: Copies | None
-) -> Answer:
-    """certain: another check would have the same answer, as it does not depend on limits."""
+def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | None) -> Answer:
     if copies is not None and is_remote(world):
         copy = copies.of(world, anywhere=options.allow_outside)
-        return _remote_answer(world, options, terms, certain=certain, copy=copy)
+        return _remote_answer(world, options, terms, copy=copy)
     checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
-    key = key_of(world, terms, inputs) if certain and files.are_certain() else None
+    key = key_of(world, terms, inputs) if files.are_certain() else None
     return answer(_result(world, checked, inputs, key))
 
 
-def _remote_answer(
-    world: World, options: CheckOptions, terms: str, *, certain: bool, copy: Copy
-) -> Answer:
+def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) -> Answer:
     try:
         checked, files = _checked_copy(world, options, copy)
     except SatcheckError as error:  # of the fetch: the next run tries again
         return answer(_result(world, unreadable_asset(world[0], error), (), None))
     inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
-    key = key_of(world, terms, inputs) if certain and files.are_certain() else None
+    key = key_of(world, terms, inputs) if files.are_certain() else None
     made = answer(_result(world, checked, inputs, key))
     return replace(made, line=copy.with_urls(made.line))
 

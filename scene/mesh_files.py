@@ -15,6 +15,7 @@ from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.loading.native import NATIVE_FORMATS
 from satcheck.scene.loading.nodes import Node, Nodes, load_nodes
@@ -119,7 +120,7 @@ class MeshFiles:
         load = load_mesh_file
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_drawing as load
-        with _reading(path):
+        with _reading(path, location):
             return load(path, location, self._limits, self._children)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
@@ -136,7 +137,7 @@ class MeshFiles:
         return self._nodes[key]
 
     def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
-        with _reading(path):
+        with _reading(path, location):
             if is_drawing(location):
                 from satcheck.scene.drawing.bodies import load_shapes
 
@@ -169,12 +170,15 @@ class MeshFiles:
 
 
 @contextmanager
-def _reading(path: str) -> Iterator[None]:
+def _reading(path: str, location: Path) -> Iterator[None]:
     """Raises MeshFileError if reading this file has ended the process before."""
     try:
         with risky_step(f"reading {path}"):
             yield
     except LeftOut as error:
+        note(location)
+        if FORMATS.get(location.suffix.lower()) == "gltf":  # it may name further files
+            note_lost_reader()
         reason = f"the process that read it {error.message}"
         raise MeshFileError(error.code, reason, file=path) from None
 

@@ -15,13 +15,13 @@ import click
 from msgspec.structs import replace
 
 from satcheck.batch.check_options import World
+from satcheck.batch.limits import Limits
 from satcheck.batch.local import check_locally
 from satcheck.batch.manifest import read_manifest
 from satcheck.batch.remote_world import is_remote
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import Tally, run
 from satcheck.batch.shard import Shard, parse_shard
-from satcheck.batch.slot import Limits
 from satcheck.batch.slot_server import Answer
 from satcheck.batch.spool import Spool
 from satcheck.batch.urls import is_url, matches
@@ -169,7 +169,7 @@ def command(
 
         try:
             made = partial(check, options=terms, limits=limits)
-            tally = run(worlds, terms, made, results, progress)
+            tally = run(worlds, terms, limits, made, results, progress)
         except (KeyboardInterrupt, SatcheckError):
             if known.done:
                 place = output if is_url(output) else str(results.part)

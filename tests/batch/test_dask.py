@@ -15,8 +15,9 @@ from satcheck._version import __version__
 from satcheck.batch import dask_worker
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.dask_engine import check_with_dask
+from satcheck.batch.limits import Limits
 from satcheck.batch.local import check_locally
-from satcheck.batch.slot import Limits, Slot
+from satcheck.batch.slot import Slot
 from satcheck.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError
 from tests.batch.worlds import make_worlds

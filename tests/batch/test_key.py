@@ -12,6 +12,7 @@ import pytest
 
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.key import digest
+from satcheck.batch.limits import Limits
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import run
 from satcheck.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
@@ -33,10 +34,10 @@ def checked(worlds: Sequence[World], options: CheckOptions | None = None) -> lis
     def engine(waiting: Sequence[World]) -> Generator[list[Answer]]:
         done.extend(waiting)
         if waiting:
-            yield answers_in(serve(request_of(Chunk(tuple(waiting), options))), waiting)
+            yield answers_in(serve(request_of(Chunk(tuple(waiting), options, Limits()))), waiting)
 
     with ResultsFile(Path("results.jsonl")) as results:
-        run(worlds, options, engine, results, lambda _: None)
+        run(worlds, options, Limits(), engine, results, lambda _: None)
     return done
 
 

@@ -8,7 +8,7 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -16,15 +16,19 @@ from typing import Any
 import pytest
 
 from satcheck.batch.check_options import CheckOptions, World
+from satcheck.batch.limits import Limits
 from satcheck.batch.local import check_locally
-from satcheck.batch.slot import Limits, Slot
+from satcheck.batch.results import ResultsFile
+from satcheck.batch.run import run
+from satcheck.batch.slot import Slot
+from satcheck.batch.slot_server import Answer
 from satcheck.core.worker_errors import WorkerNotStarted
 from tests.cli.process import SAMPLES, command, environment, on_posix
 
 pytestmark = on_posix
 PLANTED = Path(__file__).parent / "planted"
-PATIENT = Limits(seconds=100, megabytes=2048)
-QUICK = Limits(seconds=3, megabytes=2048)
+PATIENT = Limits(seconds=100.0, megabytes=2048)
+QUICK = Limits(seconds=3.0, megabytes=2048)
 
 
 @pytest.fixture(autouse=True)
@@ -104,8 +108,29 @@ def test_the_culprit_is_named_and_the_others_are_checked(
     }[what]
     assert {text for kind, severity, text in issues(result) if kind == code} == said
     assert all(severity != "error" for _, severity, _ in issues(result))
-    assert result["key"] is None
     assert before["key"]
+
+
+@pytest.mark.parametrize("what", ["file", "pair"])
+def test_an_answer_without_a_culprit_holds_as_long_as_the_limits(
+    slot: Callable[[Limits], Slot], what: str
+) -> None:
+    mesh, id_ = ("abort.obj", "z") if what == "file" else ("z.obj", "abort")
+    bad = scene("bad.toml", (id_, mesh), ("b", "b.obj"))
+
+    def kept(limits: Limits) -> int:
+        made = slot(limits)
+
+        def engine(worlds: Sequence[World]) -> Generator[list[Answer]]:
+            yield list(made.check(worlds))
+
+        with ResultsFile(Path("results.jsonl")) as results:
+            return run([bad], CheckOptions(), limits, engine, results, lambda _: None).kept
+
+    more = Limits(PATIENT.seconds, 2 * PATIENT.megabytes)
+    assert [kept(PATIENT), kept(PATIENT), kept(more), kept(more)] == [0, 1, 0, 1]
+    shutil.copy(SAMPLES / "box_pushed.stl", mesh)
+    assert kept(more) == 0
 
 
 def test_a_scene_with_nothing_but_a_culprit_is_incomplete(slot: Callable[[Limits], Slot]) -> None:
