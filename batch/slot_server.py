@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import re
@@ -40,6 +41,8 @@ _MOST_ROUNDS = 8
 
 # What this process keeps for the next world. A triangle takes about 200 bytes.
 _KEPT_TRIANGLES = 1_000_000
+# New objects before Python looks for cycles among them, of which reports have none.
+_GARBAGE = 50_000
 _meshes = KnownMeshes(_KEPT_TRIANGLES)
 _digests = Digests()
 
@@ -76,6 +79,7 @@ def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
 
 def serve(request: bytes) -> bytes:
     keep_freed_memory()
+    gc.set_threshold(_GARBAGE)
     end_at_memory_error(_end)
     chunk = msgspec.convert(json.loads(request), Chunk)
     # A slot is one thread: the others have the other cores.
