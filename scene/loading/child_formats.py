@@ -66,12 +66,17 @@ def read_in_child(
         message = "the reader's answer is damaged"
         raise MeshFileError("reader-failed", message, file=source.path) from None
     for file in answer.files:
-        note(source.location.parent / Path(file).relative_to(directory))
+        note(_as_given(Path(file), directory, source.location.parent))
     content = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
         raise MeshFileError(code, content.message, file=source.path)
     return content
+
+
+def _as_given(file: Path, directory: str, folder: Path) -> Path:
+    """The file by the path of its folder as given; with allow_outside it may lie elsewhere."""
+    return folder / file.relative_to(directory) if file.is_relative_to(directory) else file
 
 
 def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:

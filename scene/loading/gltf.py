@@ -194,7 +194,8 @@ class _Scene:
         (count,) = counts
         self._copied += count
         if self._copied > limits.MAX_PLACEMENTS:
-            raise MeshFileError("too-large", f"{self._copied} instances and more")
+            message = f"more than {limits.MAX_PLACEMENTS} instances: split the file"
+            raise MeshFileError("too-large", message)
         copies = []
         for i in range(count):
             parts = (

@@ -97,7 +97,11 @@ class Accessors:
         if "bufferView" in accessor:
             values = self._rows(accessor, f"accessor {index}", count, columns, code)
         elif count > limits.MAX_ZEROS:
-            raise MeshFileError("too-large", f"accessor {index}: {count} elements without data")
+            raise MeshFileError(
+                "too-large",
+                f"accessor {index}: {count} elements without data, more "
+                f"than {limits.MAX_ZEROS}: write them out",
+            )
         else:
             values = array(code, [0]) * (count * columns)
         if "sparse" in accessor:

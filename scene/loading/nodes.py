@@ -85,7 +85,7 @@ def load_nodes(
 
 def _refuse_too_many(bodies: int, path: str) -> None:
     if bodies > limits.MAX_PLACEMENTS:
-        message = f"{bodies} bodies exceed {limits.MAX_PLACEMENTS}"
+        message = f"{bodies} bodies exceed {limits.MAX_PLACEMENTS}: split the file"
         raise MeshFileError("too-large", message, file=path)
 
 

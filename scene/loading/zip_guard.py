@@ -36,6 +36,8 @@ def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
         entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
     ):
         raise MeshFileError(
-            "too-large", f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes"
+            "too-large",
+            f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes, like an attack: "
+            "unpack it, and check what is in it",
         )
     return archive.open(entry)

@@ -77,7 +77,7 @@ class BinaryReader {
 
   static std::size_t vertices_of(std::size_t count) {
     if (count > static_cast<std::size_t>(max_vertices) / 3) {
-      fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
+      fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold: split the file");
     }
     return count / 2;  // for a closed surface with few handles
   }
@@ -189,7 +189,7 @@ class AsciiStlReader {
     expect("outer");
     expect("loop");
     if (static_cast<std::int64_t>(mesh_.vertices.size() / 3) > max_vertices - 3) {
-      fail(code::too_large, "more facets than 32-bit vertex numbers can hold");
+      fail(code::too_large, "more facets than 32-bit vertex numbers can hold: split the file");
     }
     for (int corner = 0; corner < 3; ++corner) {
       expect("vertex");

@@ -94,7 +94,7 @@ READERS: Mapping[str, Reader] = {
     **dict.fromkeys(("obj", "stl", "ply", "off", "glb", "gltf"), read_bodies),
     **dict.fromkeys(("3mf", "dae", "zae", "3dxml", "xaml"), read_in_this_process),
     **dict.fromkeys(("svg", "dxf"), read_drawing),
-    **dict.fromkeys(("toml", "json", "urdf"), read_scene),
+    **dict.fromkeys(("toml", "json", "urdf", "sdf"), read_scene),
     "srdf": read_states,
     "config": read_settings,
     "baseline": read_baseline,

@@ -369,6 +369,19 @@ def test_a_file_that_states_no_size_is_read_up_to_the_limit(tmp_path, monkeypatc
     assert "--megabytes-per-file" in found[1]
 
 
+def test_a_buffer_elsewhere_that_the_user_allows(tmp_path, monkeypatch):
+    """Also of a file that a child process reads."""
+    monkeypatch.setattr(limits, "IN_PROCESS_BYTES", 0)
+    document, buffer = files.gltf_document()
+    (tmp_path / "b.bin").write_bytes(buffer)
+    document["buffers"][0]["uri"] = (tmp_path / "b.bin").as_posix()
+    folder = tmp_path / "in"
+    folder.mkdir()
+    path = write(folder, "a.gltf", json.dumps(document).encode())
+    assert issues(path, allow_outside=True) == []
+    assert [code for code, _ in issues(path)] == ["outside-path"]
+
+
 # ---- lying counts
 
 
