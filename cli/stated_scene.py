@@ -36,7 +36,11 @@ def stated_scene(
         if isinstance(file, MeshFileError):
             issues.append(_issue(GONE, entry, f"not drawn: {file}"))
             continue
-        bodies.append(_placed(entry, file))
+        try:
+            bodies.append(_placed(entry, file))
+        except ValueError as error:
+            issues.append(_issue(GONE, entry, f"not drawn: {error}"))
+            continue
         if file.sha256 != entry.sha256:
             changed = f"{entry.file} has changed since the report was made"
             issues.append(_issue(CHANGED, entry, f"{changed}: the body is drawn as it is now"))

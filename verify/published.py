@@ -62,7 +62,10 @@ def _finding(values: dict[str, Any]) -> Finding | IllFormed:
 
 
 def _strictly(values: dict[str, Any], form: type[Form]) -> Form:
-    struct = convert(values, form)
+    try:
+        struct = convert(values, form)
+    except UnicodeEncodeError:  # where a word of the schema is expected
+        raise ValidationError("half a character instead of a word") from None
     for departure in _beyond_types(values, to_builtins(struct), "$"):
         raise ValidationError(departure)
     return struct

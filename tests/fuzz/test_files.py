@@ -31,3 +31,19 @@ def test_some_file_of_the_kind_is_good(kind: str, tmp_path: Path) -> None:
         path.write_bytes(seed)
         codes.add(attempt(kind, path))
     assert "" in codes, codes
+
+
+# (kind, seed, number) of files that once raised what no reader should raise.
+FAULTS = [
+    *(("glb", 0, 432), ("gltf", 1, 2479), ("xaml", 0, 216), ("baseline", 0, 102)),
+    *(("verify", 2, 17), ("view", 0, 8), ("view", 2, 324)),
+]
+
+
+@pytest.mark.parametrize(("kind", "seed", "number"), FAULTS)
+def test_files_that_were_faults(kind: str, seed: int, number: int, tmp_path: Path) -> None:
+    path = workplace(tmp_path) / name_of(kind)
+    path.write_bytes(file_of(kind, seed, number))
+    code, fault = fault_of(kind, path)
+    assert not fault, fault
+    assert code or kind == "view"
