@@ -11,6 +11,8 @@ from msgspec import to_builtins
 from satcheck.core.shapes import primitive_of
 from satcheck.report.report import Issue
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.nodes import CORNER
 from satcheck.scene.mesh_units import placing_mesh
 from satcheck.scene.shape_file import shape_file
 
@@ -36,11 +38,13 @@ def stated_scene(
         if isinstance(file, MeshFileError):
             issues.append(_issue(GONE, entry, f"not drawn: {file}"))
             continue
+        body = _placed(entry, file)
         try:
-            bodies.append(_placed(entry, file))
-        except ValueError as error:
+            CORNER.transformed(body.transform or IDENTITY)
+        except (ValueError, OverflowError) as error:
             issues.append(_issue(GONE, entry, f"not drawn: {error}"))
             continue
+        bodies.append(body)
         if file.sha256 != entry.sha256:
             changed = f"{entry.file} has changed since the report was made"
             issues.append(_issue(CHANGED, entry, f"{changed}: the body is drawn as it is now"))

@@ -152,7 +152,7 @@ def _pairs(node: Node) -> Iterator[tuple[list[str], Node, Node]]:
     """(names of the key, the pair, its value)."""
     for pair in node.named_children:
         if pair.type == "pair":
-            key, value = _values(pair)
+            key, *_, value = _values(pair)  # the grammar takes -Infinity for an error and a name
             yield _names(key), pair, value
 
 

@@ -29,7 +29,7 @@ from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 _ONLY_DEGENERATE = "only-degenerate"
-_CORNER = Mesh.from_bytes(
+CORNER = Mesh.from_bytes(
     array("d", (0, 0, 0, 1, 0, 0, 0, 1, 0)).tobytes(), array("I", (0, 1, 2)).tobytes()
 )
 
@@ -92,7 +92,7 @@ def _refuse_too_many(bodies: int, path: str) -> None:
 def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Transform | None) -> Node:
     if matrix is not None and isinstance(file, MeshFile):
         try:
-            _CORNER.transformed(matrix)
+            CORNER.transformed(matrix)
         except ValueError as error:
             file = MeshFileError("singular-transform", f"{path}: {error}", file=file.path)
         except OverflowError:  # of this corner; placing the mesh reports its overflow

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
+from satcheck.cli.report_file import read_report
+from satcheck.cli.stated_scene import stated_scene
+from satcheck.report.report import Report
 from tests.fuzz.files import fault_of, file_of, workplace
 from tests.fuzz.readers import READERS, attempt, name_of, seeds
+from tests.fuzz.written import GOLDEN
+from tests.scene import files, test_xaml
 
 COUNT = 25
 
@@ -33,17 +41,44 @@ def test_some_file_of_the_kind_is_good(kind: str, tmp_path: Path) -> None:
     assert "" in codes, codes
 
 
-# (kind, seed, number) of files that once raised what no reader should raise.
+def golden(change: Callable[[dict[str, Any]], object]) -> bytes:
+    report = json.loads((GOLDEN / "pushed.json").read_text("utf-8"))
+    change(report)
+    return json.dumps(report).encode()
+
+
+def gltf(**members: Any) -> bytes:
+    document, buffer = files.gltf_document()
+    return files.glb({**document, **members}, buffer)
+
+
+# What once raised what no reader should raise.
 FAULTS = [
-    *(("glb", 0, 432), ("gltf", 1, 2479), ("xaml", 0, 216), ("baseline", 0, 102)),
-    *(("verify", 2, 17), ("view", 0, 8), ("view", 2, 324)),
+    ("glb", gltf(extensionsRequired=[[]])),
+    ("glb", gltf(extensionsUsed=[{}])),
+    ("glb", gltf(bufferViews=[{"extensions": {"EXT_meshopt_compression": {"mode": []}}}])),
+    ("gltf", gltf(buffers=[{"uri": "A" * 5000, "byteLength": 3}])[20:-500]),
+    ("xaml", test_xaml.xaml(test_xaml.model()).replace(b'="0', b'="' + b"9" * 5000)),
+    ("baseline", b"\xff"),
+    ("baseline", b"[" * 100_000),
+    ("view", b"\xff"),
+    ("view", b"[" * 100_000),
+    ("json", b'{"schema": "satcheck.scene/1", "bodies": [{"id": -Infinity, "mesh": NaN}]}'),
+    ("verify", golden(lambda report: report["settings"].update(accuracy="\ud800"))),
+    ("verify", b'{"a": 1, ' + b", ".join(b'"%d": 0' % k for k in range(100_000)) + b', "7": 1}'),
 ]
 
 
-@pytest.mark.parametrize(("kind", "seed", "number"), FAULTS)
-def test_files_that_were_faults(kind: str, seed: int, number: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("kind", "content"), FAULTS, ids=range(len(FAULTS)))
+def test_what_was_a_fault_is_an_error(kind: str, content: bytes, tmp_path: Path) -> None:
     path = workplace(tmp_path) / name_of(kind)
-    path.write_bytes(file_of(kind, seed, number))
-    code, fault = fault_of(kind, path)
-    assert not fault, fault
-    assert code or kind == "view"
+    path.write_bytes(content)
+    assert attempt(kind, path)
+
+
+def test_a_report_that_places_a_body_nowhere(tmp_path: Path) -> None:
+    path = workplace(tmp_path) / name_of("view")
+    path.write_bytes(golden(lambda report: report["bodies"][0].update(transform=[1.0] * 16)))
+    scene, issues = stated_scene(cast("Report", read_report(path)), path.parent)
+    assert [issue.code for issue in issues] == ["not-drawn"]
+    assert len(scene.bodies) == 1
