@@ -14,6 +14,10 @@ AssetVerdict = Literal["error", "fail", "incomplete", "pass"]
 ASSET_VERDICTS: tuple[AssetVerdict, ...] = get_args(AssetVerdict)
 
 
+# The codes of issues about a file or a pair that ended the process of its check.
+LEFT_OUT = frozenset({"worker-crashed", "worker-timeout", "worker-out-of-memory"})
+
+
 class Asset(Value, frozen=True):
     """file: as given. report: of its bodies; a single body has no findings."""
 
@@ -23,8 +27,16 @@ class Asset(Value, frozen=True):
 
 
 def asset(file: str, report: Report) -> Asset:
-    failed = any(issue.severity == "error" for issue in report.issues)
-    return Asset(file, "error" if failed else report.summary.verdict, report)
+    return Asset(file, _verdict(report), report)
+
+
+def _verdict(report: Report) -> AssetVerdict:
+    """Nothing is left out of a pass, not even a body whose pairs are all allowed."""
+    if any(issue.severity == "error" for issue in report.issues):
+        return "error"
+    verdict = report.summary.verdict
+    left_out = any(issue.code in LEFT_OUT for issue in report.issues)
+    return "incomplete" if verdict == "pass" and left_out else verdict
 
 
 class AssetCounts(Value, frozen=True, kw_only=True):

@@ -139,6 +139,14 @@ def test_a_scene_with_nothing_but_a_culprit_is_incomplete(slot: Callable[[Limits
     assert result["verdict"] == "incomplete"
 
 
+def test_a_culprit_whose_pairs_are_allowed_is_no_pass(slot: Callable[[Limits], Slot]) -> None:
+    bad = scene("bad.toml", ("a", "abort.obj"), ("b", "b.obj"))
+    with Path("bad.toml").open("a") as file:
+        file.write('[[rules]]\na = "*"\nb = "*"\nallowed = true\nreason = "known"\n')
+    (result,) = checked(slot(PATIENT), bad)
+    assert result["verdict"] == "incomplete"
+
+
 def test_too_many_culprits_are_one_answer(slot: Callable[[Limits], Slot]) -> None:
     bad = scene("bad.toml", *((f"b{n}", f"abort{n}.obj") for n in range(5)))
     (result,) = checked(slot(PATIENT), bad)
