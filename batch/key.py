@@ -35,7 +35,7 @@ def digest(name: str) -> str | None:
     try:
         if name.endswith("/"):
             return _sha256(
-                "\n".join(sorted(each.name for each in os.scandir(name) if each.is_dir()))
+                "\0".join(sorted(each.name for each in os.scandir(name) if each.is_dir()))
             )
         mode = Path(name).stat().st_mode
         if not stat.S_ISREG(mode):
@@ -71,9 +71,17 @@ def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tupl
 
 
 def key_of(world: World, terms: str, inputs: tuple[InputFile, ...]) -> str:
-    """terms: of the options, see `terms_of`."""
-    files = [(each.path, each.sha256) for each in inputs]
+    """terms: of the options, see `terms_of`. Where a file really lies counts: the names of packages
+    and bodies, and what a scene may read, depend on it."""
+    files = [(each.path, _real_path(each.path), each.sha256) for each in inputs]
     return _sha256(json.dumps([terms, world, files]))
+
+
+def _real_path(name: str) -> str:
+    try:
+        return name if urls.is_url(name) else os.path.realpath(name)
+    except ValueError:  # a NUL: no file has this name
+        return name
 
 
 def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:

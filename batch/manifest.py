@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -22,8 +24,9 @@ def read_manifest(name: str) -> Iterator[World]:
     Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.urls`.
     """
     for number, line in enumerate(urls.lines(name) if urls.is_url(name) else _lines(name), 1):
-        if text := os.fsdecode(line).strip():
-            yield _world(text, f"{name}:{number}")
+        text = os.fsdecode(line.removeprefix(codecs.BOM_UTF8) if number == 1 else line)
+        if text.strip():
+            yield _world(text.rstrip("\r\n"), f"{name}:{number}")
 
 
 def _lines(name: str) -> Iterator[bytes]:
@@ -39,9 +42,10 @@ def _world(line: str, place: str) -> World:
     if not line.startswith(_JSON_LIST):
         return (line,)
     try:
-        world = msgspec.json.decode(line, type=World)
-    except msgspec.DecodeError as error:
-        raise SatcheckError("bad-manifest", f"no list of files: {error}", file=place) from None
+        world = msgspec.convert(json.loads(line), World)  # names may not be UTF-8
+    except (ValueError, RecursionError, msgspec.ValidationError) as error:
+        reason = f'no list of files: {error}; a name that begins with [ is written ["[..."]'
+        raise SatcheckError("bad-manifest", reason, file=place) from None
     if not world:
         raise SatcheckError("bad-manifest", "the list of files is empty", file=place)
     return world

@@ -12,8 +12,10 @@ from typing import BinaryIO
 import msgspec
 
 from satcheck.batch.check_options import World
+from satcheck.batch.results import PART, part_of, resolved
 from satcheck.core.errors import SatcheckError
 from satcheck.report.atomic_file import replace_file
+from satcheck.report.json import read_line
 
 # Files at a time: a process may have 256 of them open on macOS, and 1024 on Linux.
 _MOST_OPEN = 128
@@ -41,8 +43,8 @@ def merged(paths: Sequence[Path]) -> Iterator[bytes]:
     """The lines of finished files of results, in the order of the files of worlds: those of the
     whole batch, if these are its shards. Holds one line of each file in memory.
 
-    Raises SatcheckError: `unreadable-file`, `bad-results`; `unfinished-results`, if a file is not
-    in order; `results-differ`, if two files have different results of a world.
+    Raises SatcheckError: `unreadable-file`, `bad-results`; `unfinished-results`, if a run has
+    not finished a file; `results-differ`, if two files have different results of a world.
     """
     with ExitStack() as opened:
         while len(paths) > _MOST_OPEN:
@@ -70,6 +72,9 @@ def _merged(paths: Sequence[Path], opened: ExitStack) -> Iterator[bytes]:
 
 
 def _opened(path: Path, opened: ExitStack) -> BinaryIO:
+    if path.suffix == PART or part_of(resolved(path)).exists():
+        reason = "its run has not finished: satcheck batch --resume does so"
+        raise SatcheckError("unfinished-results", reason, file=str(path))
     try:
         return opened.enter_context(path.open("rb"))
     except OSError as error:
@@ -81,7 +86,7 @@ def _lines(path: Path, file: BinaryIO) -> Iterator[_Line]:
     last: World = ()
     for number, text in enumerate(file, 1):
         try:
-            files = msgspec.json.decode(text, type=_Head).files
+            files = read_line(text, _Head).files
         except msgspec.DecodeError as error:
             reason = f"line {number}: no result of a batch: {error}"
             raise SatcheckError("bad-results", reason, file=str(path)) from None

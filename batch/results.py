@@ -3,6 +3,7 @@ done."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from io import FileIO
@@ -52,14 +53,16 @@ class ResultsFile:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        self.part = part_of(path)
-        self._lock = FileLock(f"{path}.lock")
+        self.path = resolved(path)
+        self.part = part_of(self.path)
+        self._lock = FileLock(f"{self.path}.lock")
         self._lines: dict[World, _Line] = {}
         self._end = 0
         self._open: list[FileIO] = []
 
     def __enter__(self) -> Self:
+        if self.path.exists() and not self.path.is_file():  # a device may be read without end
+            raise self._error("cannot-write", "is not a regular file: name one for the results")
         try:
             self._lock.acquire(timeout=0)
         except Timeout:
@@ -152,15 +155,21 @@ class ResultsFile:
             self._added.truncate(self._end)
 
     def _unlock(self) -> None:
-        self._lock.release()
+        """The file of the lock goes before the lock: else it may be that of another run by then."""
         with suppress(OSError):
             Path(self._lock.lock_file).unlink()
+        self._lock.release()
 
     def _error(self, code: str, reason: str) -> SatcheckError:
         return SatcheckError(code, reason, file=str(self.path))
 
     def _cannot_write(self, error: OSError) -> SatcheckError:
         return self._error("cannot-write", f"cannot be written: {error.strerror}")
+
+
+def resolved(path: Path) -> Path:
+    """The file that links lead to: it has one part and one lock, by whatever name it goes."""
+    return Path(os.path.realpath(path)) if path.is_symlink() else path
 
 
 def part_of(path: Path) -> Path:

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from satcheck.batch.check_options import World
 
-_FORM = re.compile(r"(\d{1,9})/(\d{1,9})")
+_FORM = re.compile(r"([0-9]{1,9})/([0-9]{1,9})")
 
 
 class Shard(Struct, frozen=True):

@@ -16,7 +16,7 @@ import msgspec
 
 from satcheck.audit.assets import unreadable_asset
 from satcheck.batch.check_options import World
-from satcheck.batch.results import PART, part_of
+from satcheck.batch.results import PART, part_of, resolved
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict, worst_verdict
 from satcheck.report.batch import InputFile, Result
@@ -102,7 +102,7 @@ class StoredResults:
 
     def __iter__(self) -> Iterator[Stored]:
         for lines in self._worlds():
-            yield _read(max(enumerate(lines), key=lambda each: (_has_key(each[1]), each[0]))[1])
+            yield _read(lines[-1])
 
     def _worlds(self) -> Iterator[list[_Line]]:
         """The lines of each world, in the order of the files."""
@@ -116,7 +116,7 @@ class StoredResults:
         for lines in self._worlds():
             self._count += 1
             missing.pop(lines[0].name.files, None)
-            if len({line.name.key for line in lines} - {None}) > 1:
+            if _differ(lines):
                 different += 1
                 first_different = first_different or _named(lines[0].name.files)
         if different:
@@ -132,6 +132,7 @@ class StoredResults:
 
 def _files_of(path: Path) -> Iterator[Path]:
     """An unfinished run leaves a part beside the file of an earlier run, or in its place."""
+    path = resolved(path)
     part = part_of(path)
     if path.exists() or not part.exists():
         yield path
@@ -227,9 +228,10 @@ class _Lines:
             yield Issue(UNFINISHED, "warning", None, str(self._path), reason)
 
 
-def _has_key(line: _Line) -> bool:
-    """A check that was lost has none."""
-    return line.name.key is not None
+def _differ(lines: list[_Line]) -> bool:
+    """Without a key nothing says that two results are the same."""
+    keys = {line.name.key for line in lines}
+    return len(keys) > 1 or (None in keys and len({line.text for line in lines}) > 1)
 
 
 def _name(line: bytes) -> _Name | None:

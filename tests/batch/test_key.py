@@ -278,3 +278,28 @@ def test_a_digest_tells_what_is_there(tmp_path: Path) -> None:
     assert digest(f"{tmp_path}/") == before
     (tmp_path / "folder").mkdir()
     assert digest(f"{tmp_path}/") != before
+
+
+def test_where_links_lead_counts_even_if_the_bytes_are_the_same() -> None:
+    """A baseline and the names of packages depend on it."""
+    for folder in ("one", "two"):
+        copied("box.obj", f"{folder}/box.obj")
+    Path("link").symlink_to("one")
+    world = ("link/box.obj",)
+    assert checked([world]) == [world]
+    assert checked([world]) == []
+    Path("link").unlink()
+    Path("link").symlink_to("two")
+    assert checked([world]) == [world]
+
+
+def test_another_folder_counts(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The names of the folders above a robot may be those of its packages."""
+    Path("before").mkdir()
+    monkeypatch.chdir(tmp_path / "before")
+    world = (copied("box.obj"),)
+    assert checked([world]) == [world]
+    (tmp_path / "before").rename(tmp_path / "after")
+    monkeypatch.chdir(tmp_path / "after")
+    assert checked([world]) == [world]
+    assert checked([world]) == []

@@ -70,3 +70,19 @@ def test_more_shards_than_a_process_may_open(tmp_path: Path) -> None:
     names = [f"{number:04}" for number in range(3000)]
     merge(shards(tmp_path, *map(lines, names)), tmp_path / "all.jsonl")
     assert (tmp_path / "all.jsonl").read_text() == lines(*names)
+
+
+def test_a_part_and_a_file_beside_its_part_are_refused(tmp_path: Path) -> None:
+    (path,) = shards(tmp_path, lines("a"))
+    part = path.with_name("0.jsonl.part")
+    part.write_text(lines("b"))
+    for each in (path, part):
+        with pytest.raises(SatcheckError) as caught:
+            merge([each], tmp_path / "all.jsonl")
+        assert caught.value.code == "unfinished-results"
+
+
+def test_names_that_are_no_text(tmp_path: Path) -> None:
+    text = json.dumps({"files": ["\udcff.obj"]}) + "\n"
+    merge(shards(tmp_path, text), tmp_path / "all.jsonl")
+    assert (tmp_path / "all.jsonl").read_text() == text

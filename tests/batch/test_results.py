@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from satcheck.batch.results import Head, ResultsFile
 from satcheck.core.errors import SatcheckError
+from tests.cli.process import on_posix
 
 
 def result(name: str) -> tuple[tuple[str, ...], bytes]:
@@ -87,3 +89,23 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
         list(results.keep(everything))
     assert caught.value.code == "bad-results"
     assert path.read_text() == '{"bodies": []}\n'
+
+
+def test_two_runs_do_not_write_one_file_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to("results.jsonl")
+    with (
+        ResultsFile(tmp_path / "results.jsonl"),
+        pytest.raises(SatcheckError) as caught,
+        ResultsFile(tmp_path / "link"),
+    ):
+        pass
+    assert caught.value.code == "results-in-use"
+
+
+@on_posix
+def test_a_pipe_is_no_place_for_results(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(SatcheckError) as caught, ResultsFile(tmp_path / "pipe"):
+        pass
+    assert caught.value.code == "cannot-write"
+    assert [each.name for each in tmp_path.iterdir()] == ["pipe"]

@@ -98,8 +98,8 @@ def test_in_one_file_the_last_result_counts(tmp_path: Path) -> None:
     [
         ("00", "file 1", []),
         ("01", "file 1", ["different-results"]),
-        ("0-", "file 0", []),
-        ("-0", "file 1", []),
+        ("0-", "file 1", ["different-results"]),
+        ("-0", "file 1", ["different-results"]),
     ],
 )
 def test_a_world_in_two_files(keys: str, counts: str, issues: list[str], tmp_path: Path) -> None:
@@ -194,3 +194,12 @@ def test_lines_that_are_longer_than_a_block(tmp_path: Path) -> None:
     for order in (lines, lines[::-1]):
         listed, _, _ = read(write(tmp_path / "1", *order))
         assert names(listed) == [f"{n:03}" for n in range(40)]
+
+
+def test_a_part_beside_the_file_behind_a_link_is_seen(tmp_path: Path) -> None:
+    write(tmp_path / "results", line("a"))
+    write(tmp_path / "results.part", line("b"))
+    (tmp_path / "link").symlink_to("results")
+    listed, issues, least = read(tmp_path / "link")
+    assert [each.files for each in listed] == [("a",), ("b",)]
+    assert (issues, least) == (["unfinished-results"], "incomplete")
