@@ -56,6 +56,7 @@ class Slot:
         """Ends its process, even during a check; no check may follow."""
         self._stopped = True
         self._worker.stop()
+        self._worker.close()
         if self._copies is not None:
             self._copies.cleanup()
 
