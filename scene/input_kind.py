@@ -8,9 +8,9 @@ from typing import Literal
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.source import DOCUMENTS, FORMATS
 
-InputKind = Literal["mesh", "scene", "robot", "srdf"]
+InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 GeometryKind = Literal["collision", "visual"]  # the elements of the links of a robot
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
@@ -19,6 +19,7 @@ ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
     **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),
+    **dict.fromkeys((ending for ending in FORMATS if FORMATS[ending] in DOCUMENTS), "document"),
     **dict.fromkeys(ROBOT_SUFFIXES, "robot"),
     ".srdf": "srdf",
 }

@@ -49,6 +49,7 @@ def load_scene(
       all bodies.
     - A `.urdf` file, or other XML with <robot> as its root, is a robot at rest with a body for each
       <collision>. A `.srdf` file says which of its links may touch.
+    - A USD or IFC file has a body for each prim or element, and rules of its own.
     - A `.sdf` or `.world` file, or other XML with <sdf> as its root, is read as a robot too.
     - Files of rules and SRDFs have no bodies. They change no body and no id.
     Ids come from the scene file, the links, `plain_ids`, or the paths of nodes (after the id of
@@ -82,6 +83,7 @@ def load_scene(
     builder = SceneBuilder(files, None if units is None else _unit(units))
     scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
+    document_ids = iter(plain_ids([path for path in given if kind_of(path) == "document"]))
     alone = sum(_has_bodies(path, scenes) for path in given) == 1
     split = split or ("nodes" if alone else "none")
     if split == "none":
@@ -94,6 +96,8 @@ def load_scene(
             builder.add_robot(path, Path(path), packages, allow_outside, geometry)
         elif kind == "srdf":
             builder.add_srdf(path, Path(path))
+        elif kind == "document":
+            builder.add_document(next(document_ids), path, Path(path), alone)
         elif split == "none":
             builder.add_mesh(next(ids), path, Path(path))
         else:

@@ -14,15 +14,16 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
+from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.nodes import Nodes
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.rules import Rule
+from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ class SceneBuilder:
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
+        self._document_rules: list[Rule] = []
+        self._shared_groups: dict[str, str] = {}  # of documents -> their names in the check
 
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
@@ -84,6 +87,45 @@ class SceneBuilder:
             title = wanted if node.path else name
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
+    def add_document(self, id_: str, path: str, location: Path, alone: bool) -> None:
+        """alone: as in `add_nodes`."""
+        name = location.stem or path
+        self._names.append(name)
+        self._only_meshes = False
+        nodes = self._files.nodes(path, location, components=False)
+        if isinstance(nodes, MeshFileError):
+            self._begin("scene", path, None)
+            self._add(id_, name, path, nodes, None)
+            return
+        self._issues.extend(nodes.issues)
+        units = (node.file.units for node in nodes.nodes if isinstance(node.file, MeshFile))
+        self._begin("scene", path, next(units, None))
+        groups = self._groups_of_document(nodes)
+        ids = {}
+        for node in nodes.nodes:
+            wanted = _node_id(node.path, id_, alone)
+            own = tuple(groups[group] for group in node.groups)
+            # A report states an exact shape by its sizes, and no node of a file.
+            place = node.path if node.shape is None else None
+            ids[node.path] = self._add(
+                wanted, node.title or wanted, path, node.file, node.transform, own, node.static,
+                node.shape, place,
+            )  # fmt: skip
+        self._document_rules += _rules_of(nodes, ids, groups, path)
+
+    def _groups_of_document(self, nodes: Nodes) -> dict[str, str]:
+        """Its groups -> their names in the check. Groups of several documents that have one name
+        are one group, unless rules of the document name it."""
+        ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
+        names = dict.fromkeys(group for node in nodes.nodes for group in node.groups)
+        for group in names:
+            if group not in ruled and group not in self._shared_groups:
+                self._shared_groups[group] = self._group_names.unique(group)
+        return {
+            group: self._group_names.unique(group) if group in ruled else self._shared_groups[group]
+            for group in names
+        }
+
     def add_scene(self, scene: SceneFile) -> None:
         """Adds a scene file. One without bodies is a file of rules, which is added only once."""
         path = scene.path
@@ -108,7 +150,7 @@ class SceneBuilder:
     def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
         """names: group in the file -> group in the check. path: of the scene file."""
         file: MeshFile | MeshFileError
-        transform = entry.transform
+        transform, shape, part = entry.transform, entry.shape, entry.part
         if entry.shape is not None:
             file = self._files.shape(entry.shape, path)
         else:
@@ -117,7 +159,14 @@ class SceneBuilder:
                 file = self._files.whole(path, entry.mesh.location)
                 transform = scaled_mesh(transform, self._scale(file, entry.units))
             else:
-                file, transform = self._part(entry.mesh, entry.part, transform, entry.units)
+                node = self._files.part(path, entry.mesh.location, entry.part)
+                if isinstance(node, MeshFileError):
+                    file, transform = node, None
+                else:
+                    file, shape = node.file, node.shape
+                    scale = self._scale(file, entry.units)
+                    transform = multiply(transform, scaled_world(node.transform, scale))
+                    part = entry.part if shape is None else None
         return self._add(
             entry.id,
             entry.id,
@@ -126,22 +175,12 @@ class SceneBuilder:
             transform,
             tuple(names[group] for group in entry.groups),
             entry.static,
-            entry.shape,
-            entry.part,
+            shape,
+            part,
             entry.pinned,
             entry.units,
             entry.surface_tolerance,
         )
-
-    def _part(
-        self, mesh: MeshPath, part: str, transform: Transform | None, units: str | None
-    ) -> tuple[MeshFile | MeshFileError, Transform | None]:
-        """The part, and its transform if the file is placed by `transform`."""
-        node = self._files.part(mesh.path, mesh.location, part)
-        if isinstance(node, MeshFileError):
-            return node, None
-        scale = self._scale(node.file, units)
-        return node.file, multiply(transform, scaled_world(node.transform, scale))
 
     def add_robot(
         self,
@@ -287,8 +326,29 @@ class SceneBuilder:
         )
 
     def _rules(self, scales: Mapping[str, float]) -> tuple[Rule, ...]:
+        """Those of documents first, so that a rule of a scene can override them."""
         everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
-        return self._scenes.rules(everybody, scales) if self._scenes else ()
+        stated = self._scenes.rules(everybody, scales) if self._scenes else ()
+        return (*self._document_rules, *stated)
+
+
+def _rules_of(
+    nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
+) -> Iterator[Rule]:
+    """The rules of a document. ids: of its nodes in the check."""
+    for rule in nodes.rules:
+        select = Selector.exactly_group if rule.of_groups else Selector.exactly
+        names = groups if rule.of_groups else ids
+        if rule.a in names and rule.b in names:
+            yield Rule(
+                a=select(names[rule.a]),
+                b=select(names[rule.b]),
+                allowed=True if rule.severity is None else None,
+                severity=rule.severity,
+                reason=rule.reason,
+                where=path,
+                file=path,
+            )
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:

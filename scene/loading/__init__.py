@@ -110,6 +110,7 @@ def _only_mesh(scene: RawScene) -> RawMesh:
     (part,) = scene.parts
     if isinstance(part.mesh, Refusal):
         raise MeshFileError(part.mesh.code, part.mesh.message)
+    assert isinstance(part.mesh, RawMesh)  # flattened files have no exact shapes
     return part.mesh
 
 

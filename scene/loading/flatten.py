@@ -9,8 +9,9 @@ from satcheck.core import Mesh
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene, Refusal
 
+_SHAPES = "it has exact shapes, which no mesh holds: name one part of the file"
 _SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
 
 
@@ -26,6 +27,8 @@ def flattened(scene: RawScene) -> RawMesh:
         mesh = scene.parts[node.part].mesh
         if isinstance(mesh, RawMesh):
             placed.append((mesh, node.matrix))
+        elif not isinstance(mesh, Refusal):
+            raise MeshFileError("unsupported-feature", _SHAPES)
         elif mesh.code == NO_SURFACE:
             warnings["ignored-geometry"] = mesh.message
         else:

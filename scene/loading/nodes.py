@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
+from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
@@ -23,10 +24,11 @@ from satcheck.scene.loading import (
     read_scene,
     resolution_of,
 )
-from satcheck.scene.loading.raw_mesh import RawMesh, RawPart, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawRule, Refusal
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.shape_file import shape_file
 
 _ONLY_DEGENERATE = "only-degenerate"
 CORNER = Mesh.from_bytes(
@@ -38,19 +40,26 @@ class Node(Struct, frozen=True):
     """A mesh of a file with its placement, or the error if it cannot be used.
 
     path: unique in the file; it ends in "#3" for the third component. None: the file has no parts.
-    Nodes with one mesh share the MeshFile. transform: as in Body.
+    Nodes with one mesh share the MeshFile. transform: as in Body. shape: the exact shape whose mesh
+    is `file`. title, groups, static: as in RawNode.
     """
 
     path: str | None
     file: MeshFile | MeshFileError
     transform: Transform | None = None
+    shape: Primitive | None = None
+    title: str | None = None
+    groups: tuple[str, ...] = ()
+    static: bool = False
 
 
 class Nodes(Struct, frozen=True):
-    """All nodes of a file, in file order, and the warnings that concern no single node."""
+    """All nodes of a file, in file order, the warnings that concern no single node, and the rules
+    of a document."""
 
     nodes: tuple[Node, ...]
     issues: tuple[Issue, ...] = ()
+    rules: tuple[RawRule, ...] = ()
 
 
 def load_nodes(
@@ -69,18 +78,18 @@ def load_nodes(
     """
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, children, flat=False)
-    splitter = _Splitter(source, components)
+    splitter = _Splitter(source, components, scene.units)
     meshes = [splitter.split(part) for part in scene.parts]
     _refuse_too_many(sum(len(meshes[node.part]) for node in scene.nodes), path)
     nodes = tuple(
-        _placed(f"{node.path or ''}{mark}" or None, file, node.matrix)
+        _placed(f"{node.path or ''}{mark}" or None, file, node, scene.parts[node.part].mesh)
         for node in scene.nodes
         for mark, file in meshes[node.part]
     )
     if all(isinstance(node.file, MeshFileError) for node in nodes):
         raise next(node.file for node in nodes if isinstance(node.file, MeshFileError))
     issues = (issue(code, message, file=path) for code, message in scene.warnings)
-    return Nodes(nodes, (*issues, *splitter.issues))
+    return Nodes(nodes, (*issues, *splitter.issues), scene.rules)
 
 
 def _refuse_too_many(bodies: int, path: str) -> None:
@@ -89,7 +98,13 @@ def _refuse_too_many(bodies: int, path: str) -> None:
         raise MeshFileError("too-large", message, file=path)
 
 
-def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Transform | None) -> Node:
+def _placed(
+    path: str | None,
+    file: MeshFile | MeshFileError,
+    raw: RawNode,
+    mesh: RawMesh | Primitive | Refusal,
+) -> Node:
+    matrix = raw.matrix
     if matrix is not None and isinstance(file, MeshFile):
         try:
             CORNER.transformed(matrix)
@@ -97,13 +112,17 @@ def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Transform 
             file = MeshFileError("singular-transform", f"{path}: {error}", file=file.path)
         except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
-    return Node(path, file, matrix)
+    shape = None if isinstance(mesh, RawMesh | Refusal) else mesh
+    return Node(path, file, matrix, shape, raw.title, raw.groups, raw.static)
 
 
 class _Splitter:
-    def __init__(self, source: Source, components: bool) -> None:
+    """units: of exact shapes."""
+
+    def __init__(self, source: Source, components: bool, units: str | None) -> None:
         self._source = source
         self._components = components
+        self._units = units
         self.issues: list[Issue] = []
 
     def split(self, part: RawPart) -> list[tuple[str, MeshFile | MeshFileError]]:
@@ -112,6 +131,8 @@ class _Splitter:
         if isinstance(raw, Refusal):
             return [("", self._named(part, raw))]
         try:
+            if not isinstance(raw, RawMesh):
+                return [("", replace(shape_file(raw, self._source.path), units=self._units))]
             raw, mesh = mesh_of(self._source, raw)
             pieces = self._connected(raw, mesh) if self._components else []
             bodies = self._pieces(part, raw, pieces) if len(pieces) > 1 else []

@@ -9,9 +9,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.power_of_two import exponent_into_range, exponent_of, times_power
+from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 
 NumberFormat = Literal["written-digits", "float16", "float32", "float64"]
+RuleSeverity = Literal["error", "warning", "note"]
 if TYPE_CHECKING:
     Block = bytes | memoryview
 else:
@@ -48,29 +50,54 @@ class Refusal(Struct, frozen=True, tag=True):
 
 
 class RawPart(Struct, frozen=True):
-    """One mesh of a file in its own coordinates, or its Refusal. name: unique in the file."""
+    """One mesh of a file in its own coordinates, an exact shape, or its Refusal. name: unique in
+    the file."""
 
     name: str
-    mesh: RawMesh | Refusal
+    mesh: RawMesh | Primitive | Refusal
 
 
 class RawNode(Struct, frozen=True):
-    """Part number `part` and its placement. path: unique in the file; None: the whole file."""
+    """Part number `part` and its placement. path: unique in the file; None: the whole file.
+
+    Of a document only: title, a name for people, the path if None; groups, the names of its groups;
+    static: it belongs to the surroundings.
+    """
 
     path: str | None
     part: int
     matrix: Transform | None = None
+    title: str | None = None
+    groups: tuple[str, ...] = ()
+    static: bool = False
+
+
+class RawRule(Struct, frozen=True):
+    """A rule of a document for the pairs of two nodes, or of two groups. reason: a text.
+
+    a, b: paths of nodes, or names of groups. severity: of findings about the pair; None: it may
+    overlap, and nothing is computed.
+    """
+
+    a: str
+    b: str
+    reason: str
+    of_groups: bool = False
+    severity: RuleSeverity | None = None
 
 
 class RawScene(Struct, frozen=True, tag=True):
     """The meshes of a file and where they are placed; every part is placed at least once.
 
-    warnings: (code, message) that concern no single part.
+    warnings: (code, message) that concern no single part. Of a document only: units, of exact
+    shapes; rules, of which a later one overrides an earlier one.
     """
 
     parts: tuple[RawPart, ...]
     nodes: tuple[RawNode, ...]
     warnings: tuple[tuple[str, str], ...] = ()
+    units: str | None = None
+    rules: tuple[RawRule, ...] = ()
 
 
 def alone(mesh: RawMesh) -> RawScene:

@@ -29,6 +29,8 @@ FORMATS = {
     ".3dxml": "3dxml",
     ".xaml": "xaml",
 }
+# Formats of scenes: each node is a body, with rules, whatever files are beside it.
+DOCUMENTS = frozenset(("usd", "ifc"))
 
 # The longer marks first: the mark of UTF-32 begins like that of UTF-16.
 _WIDE_MARKS = (
