@@ -33,6 +33,7 @@ from satcheck.audit.summary import (
     exempt_of,
     issues_of,
     rule_reports,
+    stated_reading,
     summarise,
     tool,
     truncated_of,
@@ -138,6 +139,7 @@ def _check(
         summary=summarise(
             counts, findings, settings.fail_on, alone=len(bodies.placed) == len(bodies.ids) == 1
         ),
+        reading=stated_reading(scene),
         bodies=body_reports(bodies),
         exempt=exempt_of(scene),
         rules=rule_reports(scene.rules),

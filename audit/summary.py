@@ -16,6 +16,7 @@ from satcheck.audit.severity import is_failure
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
+from satcheck.report.reading import StatedReading
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
@@ -184,6 +185,12 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         part_error=None if parts is None else _part_error(parts, file.exponent),
         shape=stated_shape(shape_of_file(given.file, given.shape)),
     )
+
+
+def stated_reading(scene: Scene) -> StatedReading | None:
+    """The options that count for the formats of the files in the scene."""
+    stated = scene.reading.stated({body.file.format for body in scene.bodies})
+    return None if stated is None else StatedReading(**stated)
 
 
 def _part_error(parts: Decomposition, exponent: int) -> PartError:

@@ -14,6 +14,7 @@ from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.scene_builder import Split
 from satcheck.scene.units import Length
 
@@ -23,10 +24,11 @@ SettingValue = bool | int | float | str | Length | None
 
 
 class CheckOptions(Struct, frozen=True, kw_only=True):
-    """split, packages, geometry, allow_outside, units, rules, seconds_per_file, megabytes_per_file:
-    as in `load_scene`. settings: values of `audit.Settings` by name, lengths as given. names: what
-    messages call these lengths. places: state where scene files name the bodies of findings.
-    baseline: a file of known findings. config: what a report states of a config file."""
+    """split, packages, geometry, allow_outside, units, rules, reading, seconds_per_file,
+    megabytes_per_file: as in `load_scene`. settings: values of `audit.Settings` by name, lengths as
+    given. names: what messages call these lengths. places: state where scene files name the bodies
+    of findings. baseline: a file of known findings. config: what a report states of a config
+    file."""
 
     split: Split | None = None
     packages: Mapping[str, str] | None = None
@@ -34,6 +36,7 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()
+    reading: ReadOptions = ReadOptions()
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
     settings: Mapping[str, SettingValue] = {}
@@ -54,6 +57,7 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
             hashed=hashed,
             known=known,
             rules=self.rules,
+            reading=self.reading,
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,
         )

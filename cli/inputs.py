@@ -20,6 +20,7 @@ from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
 from satcheck.scene.path_kind import is_folder
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.scene_builder import Split
 
 
@@ -37,6 +38,7 @@ class Inputs(Struct, frozen=True):
     sample: int | None = None
     seed: int | None = None
     rules: tuple[Path, ...] = ()
+    time: float | None = None
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -54,6 +56,10 @@ class Inputs(Struct, frozen=True):
             "seconds_per_file": self.seconds_per_file,
             "megabytes_per_file": self.megabytes_per_file,
         }
+
+    @property
+    def reading(self) -> ReadOptions:
+        return ReadOptions(time=self.time)
 
     @property
     def has_poses(self) -> bool:
@@ -132,6 +138,7 @@ def read(inputs: Inputs, paths: Sequence[str], *, hashed: bool) -> Scene:
         units=inputs.units,
         hashed=hashed,
         rules=inputs.rules,
+        reading=inputs.reading,
         geometry=inputs.geometry or "collision",
         seconds_per_file=inputs.seconds_per_file,
         megabytes_per_file=inputs.megabytes_per_file,

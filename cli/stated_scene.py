@@ -14,6 +14,7 @@ from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.nodes import CORNER
 from satcheck.scene.mesh_units import placing_mesh
+from satcheck.scene.read_options import as_stated
 from satcheck.scene.shape_file import shape_file
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ def stated_scene(
 ) -> tuple[Scene, list[Issue]]:
     """The bodies that can be read, and what is not as it was when the report was made: a body
     whose file has changed is there as it is now. root: where the paths in the report start."""
-    files = MeshFiles(allow_outside=allow_outside)
+    reading = as_stated(to_builtins(report.reading))
+    files = MeshFiles(allow_outside=allow_outside, options=reading)
     bodies: list[Body] = []
     issues: list[Issue] = []
     for entry in report.bodies:

@@ -85,6 +85,7 @@ def check_options(
         units=inputs.units,
         geometry=inputs.geometry or "collision",
         rules=tuple(map(str, inputs.rules)),
+        reading=inputs.reading,
         settings={**options, **inputs.limits},
         seconds_per_file=inputs.seconds_per_file,
         megabytes_per_file=inputs.megabytes_per_file,

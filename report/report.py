@@ -24,6 +24,7 @@ from satcheck.report.components import Components
 from satcheck.report.config import StatedConfig
 from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
+from satcheck.report.reading import StatedReading
 from satcheck.report.settings import StatedSettings
 from satcheck.report.sweep import Sweep
 from satcheck.report.values import Code, Count, Interval, Length, Value
@@ -306,8 +307,9 @@ class Report(Value, frozen=True, kw_only=True):
     several rules for a pair set the same key, the last one counts. findings: one for every checked
     pair, except those that `truncated` counts, in the order of the bodies. truncated: the pairs
     with separate boxes that are not listed, if there are more than 60 pairs; None: all pairs are
-    listed. baseline: that the check was compared with; None: none. config: the options that a
-    config file set; None: no config file took effect.
+    listed. reading: options with which the files were read; None: their formats leave no choice, or
+    the defaults apply. baseline: that the check was compared with; None: none. config: the options
+    that a config file set; None: no config file took effect.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
@@ -315,6 +317,7 @@ class Report(Value, frozen=True, kw_only=True):
     units: str | None
     settings: StatedSettings
     summary: Summary
+    reading: StatedReading | None = None
     pose: Mapping[str, float | JointValues] | None = None
     motions: tuple[StatedMotion, ...] = ()
     bodies: tuple[BodyReport, ...]

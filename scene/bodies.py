@@ -15,6 +15,7 @@ from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
 
@@ -136,6 +137,7 @@ class Scene(Struct, frozen=True):
     motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
     entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
+    reading: the options with which the files were read.
     """
 
     name: str
@@ -152,6 +154,7 @@ class Scene(Struct, frozen=True):
     entries: Mapping[str, Entry] = {}
     robots: tuple[SceneRobot, ...] = ()
     posture: Posture | None = None
+    reading: ReadOptions = ReadOptions()
 
     def __post_init__(self) -> None:
         if self.motions:

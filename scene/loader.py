@@ -17,6 +17,7 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.plain_ids import plain_ids
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.scene_builder import SceneBuilder, Split
 from satcheck.scene.units import MICROMETRES, unit_of
 
@@ -41,6 +42,7 @@ def load_scene(
     rules: Sequence[str | Path] = (),
     geometry: GeometryKind = "collision",
     known: KnownMeshes | None = None,
+    reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -68,6 +70,7 @@ def load_scene(
     geometry: which elements of the links of robots are bodies: "collision" or "visual".
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
     known: mesh files that stay in memory from scene to scene.
+    reading: options for formats that leave a choice, such as the time of an animation.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
     is loaded. Raises SceneFileError for an invalid scene file or robot.
@@ -79,8 +82,9 @@ def load_scene(
         allow_outside=allow_outside,
         hashed=hashed,
         known=known,
+        options=reading,
     )
-    builder = SceneBuilder(files, None if units is None else _unit(units))
+    builder = SceneBuilder(files, None if units is None else _unit(units), reading)
     scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     document_ids = iter(plain_ids([path for path in given if kind_of(path) == "document"]))

@@ -23,6 +23,7 @@ from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.shape_file import shape_file
 from satcheck.scene.words import meant
 
@@ -36,7 +37,7 @@ DEFAULT_MEGABYTES_PER_FILE = 2048
 
 class MeshFiles:
     """Reads each file once, even if several paths lead to it and many bodies use it. known: files
-    that earlier scenes have read.
+    that earlier scenes have read. options: for formats that leave a choice.
 
     Formats that need large parsers are read in a child process, which ends with this object.
     """
@@ -49,9 +50,10 @@ class MeshFiles:
         allow_outside: bool = False,
         hashed: bool = True,
         known: KnownMeshes | None = None,
+        options: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
     ) -> None:
         self._known = known
-        self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed)
+        self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed, options)
         self._children = ReadingChildren(megabytes)
         self._places: dict[Path, Path] = {}
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}

@@ -23,6 +23,7 @@ from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import ratio, stated_unit
 
@@ -37,11 +38,12 @@ ROBOT_UNITS = "m"  # of every URDF and SDFormat file
 class SceneBuilder:
     """Takes inputs one by one; `scene` returns their scene.
 
-    files: reads their meshes. units: of the inputs that declare none.
+    files: reads their meshes, with the options `reading`. units: of the inputs that declare none.
     """
 
-    def __init__(self, files: MeshFiles, units: str | None = None) -> None:
+    def __init__(self, files: MeshFiles, units: str | None, reading: ReadOptions) -> None:
         self._files = files
+        self._reading = reading
         self._given_units = units
         self._ids = UniqueNames()
         self._group_names = UniqueNames()
@@ -316,6 +318,7 @@ class SceneBuilder:
             check_static=scenes is None or scenes.check_static,
             motions=scenes.motions(common.scales) if scenes else (),
             entries=self._entries,
+            reading=self._reading,
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,

@@ -19,6 +19,7 @@ from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.planar.flat_scene import flat_scene
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
@@ -94,13 +95,19 @@ class Placed:
 
 
 class Bodies:
-    """Reads each file once. allow_open: open meshes are meant to be open."""
+    """Reads each file once. allow_open: open meshes are meant to be open. reading: as the report
+    states it."""
 
     def __init__(
-        self, root: Path, *, allow_open: bool = False, allow_outside: bool = False
+        self,
+        root: Path,
+        *,
+        allow_open: bool = False,
+        allow_outside: bool = False,
+        reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
     ) -> None:
         self._root, self._allow_open = root, allow_open
-        self._files = MeshFiles(allow_outside=allow_outside)
+        self._files = MeshFiles(allow_outside=allow_outside, options=reading)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:

@@ -44,6 +44,7 @@ COVERAGE: dict[str, Cover] = {
     "units": _stated("units"),
     "settings": _stated("settings"),
     "summary": FOLLOWS,
+    "reading": _stated("how files are read"),
     "pose": _stated("poses"),
     "motions": _not("motions"),
     # The body: its file is read again and placed again.

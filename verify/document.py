@@ -8,9 +8,12 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
+from msgspec import to_builtins
+
 from satcheck.report.report import OVERLAPS, Finding, Report
 from satcheck.report.settings import StatedSettings
 from satcheck.report.verification import Checked, Outcome, Uncovered
+from satcheck.scene.read_options import as_stated
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.boxes import boxes_apart
 from satcheck.verify.coverage import uncovered
@@ -120,7 +123,12 @@ class _Report:
         self.report, self.findings = report_of(document)
         report = self.report
         self.request = _request_of_settings(report.settings)
-        reader = Bodies(root, allow_open=self.request.allow_open, allow_outside=allow_outside)
+        reader = Bodies(
+            root,
+            allow_open=self.request.allow_open,
+            allow_outside=allow_outside,
+            reading=as_stated(to_builtins(report.reading)),
+        )
         placed = reader.place_all(report.bodies, report.settings.planar)
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):

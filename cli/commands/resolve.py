@@ -213,7 +213,10 @@ def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) ->
     cannot be read is not left behind."""
     try:
         scene = load_scene(
-            [str(path), *target.rules], units=inputs.units, allow_outside=inputs.allow_outside
+            [str(path), *target.rules],
+            units=inputs.units,
+            allow_outside=inputs.allow_outside,
+            reading=inputs.reading,
         )
     except SatcheckError:
         path.unlink(missing_ok=True)

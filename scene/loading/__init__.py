@@ -22,13 +22,14 @@ from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.resolution import file_resolution, placement_step
 
 Made = TypeVar("Made")
 
 
 class ReadLimits(Struct, frozen=True):
-    """Limits for reading one file.
+    """Limits and options for reading one file.
 
     The file itself may have a quarter of the megabytes. allow_outside: whether the files that it
     refers to may lie outside of its folder. hashed: whether its SHA-256 is needed.
@@ -38,6 +39,7 @@ class ReadLimits(Struct, frozen=True):
     megabytes: int
     allow_outside: bool = False
     hashed: bool = True
+    options: ReadOptions = ReadOptions()
 
     @property
     def file_bytes(self) -> int:
@@ -101,6 +103,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
         children,
         flat=flat,
         allow_outside=allowed.allow_outside,
+        options=allowed.options,
         seconds=allowed.seconds,
         megabytes=allowed.megabytes,
     )

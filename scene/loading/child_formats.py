@@ -18,6 +18,7 @@ from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
+from satcheck.scene.read_options import ReadOptions
 
 _LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
@@ -28,12 +29,14 @@ _CODE_OF_WORKER = {
 
 class Request(msgspec.Struct, frozen=True):
     """A file to read: its format, its bytes, the directory that its references are relative to,
-    whether they may leave that directory, and whether to return one mesh for the whole file."""
+    whether they may leave that directory, whether to return one mesh for the whole file, and the
+    options of the user."""
 
     format: str
     directory: str
     flat: bool
     allow_outside: bool
+    options: ReadOptions
     data: Block
 
 
@@ -50,12 +53,13 @@ def read_in_child(
     *,
     flat: bool,
     allow_outside: bool,
+    options: ReadOptions,
     seconds: float,
     megabytes: int,
 ) -> RawScene:
     """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
-    request = Request(source.format, directory, flat, allow_outside, source.data)
+    request = Request(source.format, directory, flat, allow_outside, options, source.data)
     try:
         reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)

@@ -22,6 +22,7 @@ from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.planar.flat_scene import flat_scene
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written
@@ -48,7 +49,7 @@ def refuse_errors(scene: Scene) -> None:
 def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     kind = path.suffix[1:]
-    request = Request(kind, str(path.parent), False, False, path.read_bytes())
+    request = Request(kind, str(path.parent), False, False, ReadOptions(), path.read_bytes())
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply).content
     if isinstance(content, Refusal):

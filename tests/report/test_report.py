@@ -80,6 +80,7 @@ def test_keys_come_in_the_order_of_the_schema():
             "units",
             "settings",
             "summary",
+            "reading",
             "pose",
             "motions",
             "bodies",

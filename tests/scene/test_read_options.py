@@ -1,0 +1,30 @@
+"""Options of reading: what a report states of them, and that they travel."""
+
+from __future__ import annotations
+
+from msgspec.structs import replace
+
+from satcheck.batch.check_options import CheckOptions
+from satcheck.batch.key import terms_of
+from satcheck.scene.read_options import OPTIONS_OF, ReadOptions, as_stated
+
+
+def test_only_the_options_of_the_formats_that_occur_are_stated() -> None:
+    options = ReadOptions(time=2.5)
+    assert options.stated(["obj", "stl"]) is None
+    assert options.stated(["obj", "glb"]) == {"time": 2.5}
+
+
+def test_a_default_without_effect_is_not_stated() -> None:
+    assert ReadOptions().stated(["glb"]) is None
+
+
+def test_the_options_of_a_report_are_those_of_its_check() -> None:
+    options = ReadOptions(time=2.5)
+    assert as_stated(options.stated(OPTIONS_OF)) == options
+    assert as_stated(None) == ReadOptions()
+
+
+def test_a_result_of_a_batch_depends_on_them() -> None:
+    options = CheckOptions()
+    assert terms_of(options) != terms_of(replace(options, reading=ReadOptions(time=2.5)))
