@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 from satcheck.audit.assets import lost_asset
@@ -30,6 +31,7 @@ from satcheck.core.worker_errors import (
     WorkerError,
     WorkerNotStarted,
     WorkerOutOfMemory,
+    WorkerStopped,
     WorkerTimeout,
 )
 from satcheck.report.batch import Result
@@ -48,13 +50,11 @@ class Slot:
     def __init__(self, options: CheckOptions, limits: Limits, folder: str | None = None) -> None:
         self._options = options
         self._limits = limits
-        self._stopped = False
         self._copies: TemporaryDirectory[str] | None = None
         self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True, folder=folder)
 
     def stop(self) -> None:
         """Ends its process, even during a check; no check may follow."""
-        self._stopped = True
         self._worker.stop()
         self._worker.close()
         if self._copies is not None:
@@ -63,24 +63,25 @@ class Slot:
     def check(self, worlds: Sequence[World]) -> Iterator[Answer]:
         """An answer for each world, in this order, unless the slot is stopped. Raises
         WorkerNotStarted."""
+        with suppress(WorkerStopped):
+            yield from self._together(worlds)
+
+    def _together(self, worlds: Sequence[World]) -> Iterator[Answer]:
         try:
             yield from self._ask(worlds)
             return
-        except WorkerNotStarted:
+        except (WorkerNotStarted, WorkerStopped):
             raise
         except WorkerError:
             pass
-        for world in worlds:
-            if self._stopped:
-                return
-            yield self._alone(world)
+        yield from map(self._alone, worlds)
 
     def _alone(self, world: World) -> Answer:
         left_out: dict[str, Loss] = {}
         while True:
             try:
                 return self._carefully(world, left_out)
-            except WorkerNotStarted:
+            except (WorkerNotStarted, WorkerStopped):
                 raise
             except WorkerError as error:
                 loss = _loss(error)

@@ -23,6 +23,7 @@ from satcheck.core.worker_errors import (
     WorkerFailed,
     WorkerNotStarted,
     WorkerOutOfMemory,
+    WorkerStopped,
     WorkerTimeout,
 )
 from satcheck.core.worker_frames import (
@@ -45,6 +46,7 @@ __all__ = [
     "WorkerFailed",
     "WorkerNotStarted",
     "WorkerOutOfMemory",
+    "WorkerStopped",
     "WorkerTimeout",
     "run_isolated",
 ]
@@ -97,14 +99,15 @@ class Worker:
         self._folder = folder
         self._child: _Child | None = None
         self.answered = 0
+        self._stopped = False
         self._turn = threading.Lock()
 
     def ask(self, request: bytes, *, seconds: float) -> bytes:
         """The reply. seconds: wall-clock limit, including the start of the child; the child is then
         killed.
 
-        Raises WorkerNotStarted, WorkerTimeout, WorkerOutOfMemory or WorkerCrashed. Raises
-        WorkerFailed if serve() itself raises; the child survives that.
+        Raises WorkerNotStarted, WorkerStopped, WorkerTimeout, WorkerOutOfMemory or WorkerCrashed.
+        Raises WorkerFailed if serve() itself raises; the child survives that.
         """
         with self._turn:
             deadline = time.monotonic() + seconds
@@ -112,6 +115,9 @@ class Worker:
             if self._child is None:
                 self._child = _Child(self._module, self._megabytes, self._grouped, self._folder)
                 self.answered = 0
+            if self._stopped:  # stop() may have looked for a child before there was this one
+                self._end()
+                raise WorkerStopped(self._module)
             try:
                 frame = self._child.answer(request, deadline)
             except BaseException:  # Ctrl-C
@@ -127,7 +133,9 @@ class Worker:
             self._end()
 
     def stop(self) -> None:
-        """Kills the child, even during a request of another thread: that raises WorkerCrashed."""
+        """Kills the child, even during a request of another thread. That request and all later ones
+        raise WorkerStopped."""
+        self._stopped = True
         if (child := self._child) is not None:
             child.kill()
 
@@ -158,6 +166,8 @@ class Worker:
         """The reason why there is no reply, after the child has ended."""
         child = self._end()
         assert child is not None
+        if self._stopped:
+            return WorkerStopped(self._module)
         if child.reply_too_large:
             return WorkerOutOfMemory(self._module, self._megabytes)
         if child.timed_out:

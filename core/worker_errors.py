@@ -23,6 +23,14 @@ class WorkerNotStarted(WorkerError):
         self.reason = reason
 
 
+class WorkerStopped(WorkerError):
+    """The worker was stopped, before the request or during it."""
+
+    def __init__(self, module: str) -> None:
+        super().__init__("worker-stopped", f"{module} was stopped by the process that uses it")
+        self.args = (module,)
+
+
 class WorkerTimeout(WorkerError):
     """The child was killed at its time limit."""
 

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -191,6 +192,28 @@ def test_a_system_without_processes_is_an_error(
     monkeypatch.setattr(subprocess, "Popen", refuse)
     with pytest.raises(WorkerNotStarted, match="no process could be started"):
         list(slot(PATIENT).check([good()]))
+
+
+def test_a_stop_during_a_careful_check_ends_it(slot: Callable[[Limits], Slot]) -> None:
+    """The first world ends the process, so that each is then checked alone; the second hangs."""
+    worlds = [
+        scene(f"{word}.toml", ("a", f"{word}.obj"), ("b", "b.obj")) for word in ("abort", "hang")
+    ]
+    made = slot(Limits(seconds=600.0, megabytes=2048))
+    answered: list[World] = []
+    first, ended = Event(), Event()
+
+    def check() -> None:
+        for answer in made.check(worlds):
+            answered.append(answer.world)
+            first.set()
+        ended.set()
+
+    Thread(target=check, daemon=True).start()
+    assert first.wait(100)
+    made.stop()
+    assert ended.wait(100)
+    assert answered == worlds[:1]
 
 
 def _marked(mark: str) -> list[int]:

@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -21,6 +22,7 @@ from satcheck.core.worker import (
     WorkerFailed,
     WorkerNotStarted,
     WorkerOutOfMemory,
+    WorkerStopped,
     WorkerTimeout,
     run_isolated,
 )
@@ -230,6 +232,7 @@ def test_the_child_does_not_outlive_its_parent(tmp_path: Path, how: signal.Signa
     "error",
     [
         WorkerNotStarted("m", "no room"),
+        WorkerStopped("m"),
         WorkerTimeout("m", 2.0),
         WorkerOutOfMemory("m", 64),
         WorkerCrashed("m", -11, "a\nb"),
@@ -295,6 +298,45 @@ def test_threads_take_turns() -> None:
         for thread in threads:
             thread.join()
     assert sorted(replies) == [b"%d" % k for k in range(8)]
+
+
+def test_a_stop_ends_a_request_that_runs(tmp_path: Path) -> None:
+    pid_file = tmp_path / "pid"
+    errors: list[WorkerError] = []
+
+    def ask_to_hang() -> None:
+        try:
+            worker.ask(b"record_and_hang " + os.fsencode(pid_file), seconds=600.0)
+        except WorkerError as error:
+            errors.append(error)
+
+    with Worker(SERVER, megabytes=512) as worker:
+        thread = threading.Thread(target=ask_to_hang)
+        thread.start()
+        wait_until(lambda: pid_file.exists() and pid_file.read_text() != "")
+        worker.stop()
+        thread.join()
+        assert [type(error) for error in errors] == [WorkerStopped]
+        assert pid_is_gone(int(pid_file.read_text()))
+        with pytest.raises(WorkerStopped):
+            worker.ask(b"echo more", seconds=20.0)
+
+
+def test_a_stop_while_the_child_starts_ends_the_request(monkeypatch: pytest.MonkeyPatch) -> None:
+    """stop() sees no child yet."""
+    start = subprocess.Popen
+    started: list[subprocess.Popen[bytes]] = []
+
+    def stopped_meanwhile(*words: Any, **options: Any) -> subprocess.Popen[bytes]:
+        worker.stop()
+        started.append(start(*words, **options))
+        return started[-1]
+
+    with Worker(SERVER, megabytes=512) as worker:
+        monkeypatch.setattr(subprocess, "Popen", stopped_meanwhile)
+        with pytest.raises(WorkerStopped, match="was stopped by the process that uses it"):
+            worker.ask(b"hang", seconds=600.0)
+    assert started[0].returncode is not None
 
 
 def pid_is_gone(pid: int) -> bool:
