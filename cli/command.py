@@ -9,8 +9,8 @@ from importlib import import_module
 
 import click
 
+from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.options import HELP_NAMES, Group
 
 DEFAULT_COMMAND = "check"
 

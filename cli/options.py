@@ -3,158 +3,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_args
 
 import click
-from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
-from satcheck.audit.request.in_units import length_in_units, settings_in_units
 from satcheck.audit.request.settings import METHODS
-from satcheck.cli.output import Document
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.picture import FORMATS as PICTURE_FORMATS
+from satcheck.cli.lengths import length
 from satcheck.core.conventions import PLANES
-from satcheck.scene import Scene
 from satcheck.scene.input_kind import GeometryKind
-from satcheck.scene.loading.source import FORMATS as MESHES
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.units import MICROMETRES, Length, parse_length
+from satcheck.scene.units import MICROMETRES
 
-FORMATS = ("table", "json")
-# Formats of one report or of many.
-REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
-PICTURES = tuple(PICTURE_FORMATS)
 SPLITS = ("nodes", "components", "none")
-HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 DEFAULTS = Settings()
-_ENDINGS = {
-    ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
-} | {".parquet": "parquet"}
-# Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset({".svg", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
 _STANDARD_OUTPUT = Path("-")
 _NO_CONFIG = "satcheck.no-config"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
-
-
-class Command(click.Command):
-    """Its help is a document like any other: when it cannot be written, that is said. Many options
-    stand under headings. A wrong value of a config file is told with its line."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        try:
-            return super().parse_args(ctx, args)
-        except click.BadParameter as error:
-            if not ctx.default_map:
-                raise
-            from satcheck.cli.config.source import refuse_value
-
-            refuse_value(ctx, error)
-
-    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        from satcheck.cli.help_sections import MANY, brief, sections
-
-        options = [p for p in self.get_params(ctx) if isinstance(p, click.Option) and not p.hidden]
-        groups = sections(options) if len(options) >= MANY else {"Options": options}
-        for heading, chosen in groups.items():
-            with formatter.section(heading):
-                records = (option.get_help_record(ctx) for option in chosen)
-                formatter.write_dl([brief(record) for record in records if record is not None])
-
-    def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        return _written(super().get_help_option(ctx))
-
-
-class Group(click.Group):
-    """The same of a group of commands, and of those in it."""
-
-    command_class = Command
-
-    def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        return _written(super().get_help_option(ctx))
-
-
-def _written(option: click.Option | None) -> click.Option | None:
-    if option is not None:
-        option.callback = _show_help
-    return option
-
-
-def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if wanted and not ctx.resilient_parsing:
-        Document().write(f"{ctx.get_help()}\n")
-        ctx.exit()
-
-
-def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMATS) -> str:
-    """The format, one of `forms`: as given, else as the name of the output file says.
-
-    Raises click.UsageError for a name that promises another kind of document.
-    """
-    if output is not None and _is_overridden("form", "output"):
-        form = None
-    if form is not None and form not in forms:
-        raise click.UsageError(f"--format {form}: this command writes {', '.join(forms)}")
-    if form is not None or output is None:
-        return form or "table"
-    ending = output.suffix.lower()
-    named = "json" if ending == ".json" else _ENDINGS.get(ending, "table")
-    if ending in _NO_REPORTS or named not in forms:
-        raise click.UsageError(
-            f"{output}: this command writes {', '.join(forms)}: give one of them with --format, "
-            "or name the file .json"
-        )
-    return named
-
-
-def _is_overridden(name: str, typed: str) -> bool:
-    """Whether an option comes from a config file, and another one that decides it was typed."""
-    ctx = click.get_current_context(silent=True)
-    return (
-        ctx is not None
-        and ctx.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
-        and ctx.get_parameter_source(typed) is ParameterSource.COMMANDLINE
-    )
-
-
-def length(text: str) -> Length:
-    """A click parameter type; click.BadParameter for what is not a length."""
-    try:
-        return parse_length(text)
-    except ValueError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-def in_units_of(value: Length, declared: str | None, option: str) -> float:
-    """The length in the declared units of the scene; click.UsageError if they are unknown."""
-    try:
-        return length_in_units(value, declared, option)
-    except ValueError as error:
-        raise click.UsageError(str(error)) from None
-
-
-def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
-    """options: values of fields of Settings; a Length is converted to the units of the scene."""
-    try:
-        return settings_in_units(options, scene, names_of_lengths(options))
-    except ValueError as error:
-        raise click.UsageError(str(error)) from None
-
-
-def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
-    """What the user wrote for each length: `--clearance`, or `satcheck.toml:1: clearance`."""
-    return {name: _origin(name) for name, value in options.items() if isinstance(value, Length)}
-
-
-def _origin(name: str) -> str:
-    from satcheck.cli.config.source import origin
-
-    ctx = click.get_current_context(silent=True)
-    return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
 
 
 def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
@@ -187,6 +55,17 @@ def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
+def _together(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Command]:
+    """Several options, in this order in the help."""
+
+    def add(command: _Command) -> _Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
+
+
 def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Command], _Command]:
     """Gives a command the options of another one, but for these."""
 
@@ -199,29 +78,8 @@ def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Comman
     return add
 
 
-form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    metavar="FORMAT",
-    help="table or json.  [default: json if the file of -o ends in .json, otherwise table]",
-)
-reports_form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice(REPORT_FORMATS),
-    metavar="FORMAT",
-    help=f"{', '.join(REPORT_FORMATS)}.  [default: as the file of -o ends, otherwise table]",
-)
-report_form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice((*REPORT_FORMATS, *PICTURES)),
-    metavar="FORMAT",
-    help=f"{', '.join((*REPORT_FORMATS, *PICTURES))}; html is a 3-D view, png an image of the "
-    "worst finding, glb a 3-D model.  [default: as the file of -o ends, otherwise table]",
-)
-_PICTURE_OPTIONS = (
+# Of pictures beside a report.
+picture_options = _together(
     click.option(
         "--png",
         type=click.Path(dir_okay=False, path_type=Path),
@@ -264,7 +122,8 @@ outside_option = click.option(
     is_flag=True,
     help="Read files outside of the folder of the scene, robot or glTF file that names them.",
 )
-_READING_OPTIONS = (
+# About what reading a file may do.
+reading_options = _together(
     outside_option,
     click.option(
         "--seconds-per-file",
@@ -429,7 +288,8 @@ geometry_option = click.option(
     metavar="KIND",
     help="Of robots: collision (the default) or visual.",
 )
-_POSE_OPTIONS = (
+# That pose robots.
+pose_options = _together(
     click.option(
         "--pose",
         multiple=True,
@@ -458,14 +318,8 @@ _POSE_OPTIONS = (
 )
 
 
-def picture_options(command: _Command) -> _Command:
-    """Adds the options of pictures beside a report."""
-    for option in reversed(_PICTURE_OPTIONS):
-        command = option(command)
-    return command
-
-
-_ONE_POSE_OPTIONS = (
+# That pose robots once.
+one_pose_options = _together(
     click.option(
         "--pose",
         multiple=True,
@@ -476,24 +330,3 @@ _ONE_POSE_OPTIONS = (
         "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
     ),
 )
-
-
-def reading_options(command: _Command) -> _Command:
-    """Adds the options about what reading a file may do."""
-    for option in reversed(_READING_OPTIONS):
-        command = option(command)
-    return command
-
-
-def one_pose_options(command: _Command) -> _Command:
-    """Adds the options that pose robots once."""
-    for option in reversed(_ONE_POSE_OPTIONS):
-        command = option(command)
-    return command
-
-
-def pose_options(command: _Command) -> _Command:
-    """Adds the options that pose robots, in their order."""
-    for option in reversed(_POSE_OPTIONS):
-        command = option(command)
-    return command

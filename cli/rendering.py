@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from msgspec import Struct
 
 from satcheck.audit import Report
 from satcheck.audit.samples import Samples
-from satcheck.cli.options import PICTURES
+from satcheck.cli.forms import PICTURES
 from satcheck.cli.output import Page, talk
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import pieces as pieces_for_ci
@@ -23,6 +24,17 @@ from satcheck.scene import Scene
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
+
+
+class Delivery(Struct, frozen=True):
+    """Where the report goes, and in which form; how the exit code is made; how many assets a table
+    lists at most."""
+
+    form: str
+    output: Path | None
+    quiet: bool
+    exit_zero: bool
+    top: int | None
 
 
 class Shown(Struct, frozen=True):

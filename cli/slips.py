@@ -234,7 +234,7 @@ def _listed(folder: Path) -> list[Path]:
 
 
 def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
-    from satcheck.cli.options import REPORT_FORMATS
+    from satcheck.cli.forms import REPORT_FORMATS
 
     if wrong in REPORT_FORMATS and "--format" in known:
         return ("--format", wrong)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
@@ -12,9 +12,10 @@ from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs
-from satcheck.cli.options import names_of_lengths
+from satcheck.cli.lengths import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
+from satcheck.cli.rendering import Delivery
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import pieces as pieces_for_ci
 from satcheck.cli.report.overview import Overview, overview
@@ -24,17 +25,6 @@ from satcheck.report.assets import Asset
 from satcheck.report.config import StatedConfig
 from satcheck.report.json import render_assets
 from satcheck.scene.loader import read_rules
-
-
-class Delivery(NamedTuple):
-    """Where the report goes, and in which form; how the exit code is made; how many assets a table
-    lists at most."""
-
-    form: str
-    output: Path | None
-    quiet: bool
-    exit_zero: bool
-    top: int | None
 
 
 def check_worlds(

@@ -9,14 +9,12 @@ import click
 from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
-    HELP_NAMES,
-    Command,
     color_option,
     debug_option,
-    form_of,
-    form_option,
     geometry_option,
     merge_option,
     one_pose_options,

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.audit.baseline_file import asset_key, read_baseline
-from satcheck.cli.options import HELP_NAMES, Group
+from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import read_report

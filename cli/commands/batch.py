@@ -27,10 +27,11 @@ from satcheck.batch.spool import Spool
 from satcheck.batch.urls import is_url, matches
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
+from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import HELP_NAMES, Command, options_of, paths_argument
+from satcheck.cli.options import options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted

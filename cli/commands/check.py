@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from msgspec.structs import replace
@@ -18,24 +18,21 @@ from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.config.source import stated_config
+from satcheck.cli.forms import PICTURES, REPORT_FORMATS, form_of, report_form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
+from satcheck.cli.lengths import length, settings_of
 from satcheck.cli.options import (
     DEFAULTS,
-    HELP_NAMES,
-    PICTURES,
-    REPORT_FORMATS,
-    Command,
     cache_option,
     color_option,
     config_option,
     debug_option,
     exit_zero_option,
-    form_of,
     geometry_option,
     jobs_option,
-    length,
     merge_option,
     method_option,
     no_config_option,
@@ -47,19 +44,24 @@ from satcheck.cli.options import (
     planar_option,
     pose_options,
     reading_options,
-    report_form_option,
     rules_option,
-    settings_of,
     split_option,
     tolerance_option,
     top_option,
     units_option,
 )
 from satcheck.cli.output import Document
-from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
+from satcheck.cli.pictures import (
+    Pictures,
+    files_line,
+    refuse_pictures,
+    taken_pictures,
+    write_pictures,
+)
 from satcheck.cli.progress import Bar
-from satcheck.cli.rendering import Shown, rendered, tell
+from satcheck.cli.rendering import Delivery, Shown, rendered, tell
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene
 
 if TYPE_CHECKING:
@@ -70,6 +72,18 @@ SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
+
+
+class _Known(NamedTuple):
+    """The findings of a baseline."""
+
+    path: Path
+    baseline: Baseline
+
+    def beside(self, report: Report, files: Sequence[str]) -> Report:
+        """files: of the world that was checked."""
+        names = names_in_baseline(files, self.path)
+        return beside_baseline(report, self.baseline, str(self.path), names)
 
 
 class _DefaultContext(click.Context):
@@ -275,24 +289,21 @@ def command(
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, output, baseline)
     form = form_of(form, output, (*REPORT_FORMATS, *PICTURES))
-    if options["certificate"] and form != "json":
-        raise click.UsageError(
-            "--certificate needs a JSON report: add -o report.json or --format json"
-        )
+    _refuse_certificate(form, wanted=options["certificate"])
     pictures = taken_pictures(options)
     refuse_pictures(pictures, inputs, output, baseline)
     if pictures or form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     config = stated_config(click.get_current_context())
+    delivery = Delivery(form, output, quiet, exit_zero, top)
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
-        from satcheck.cli.worlds import Delivery, check_worlds
+        from satcheck.cli.worlds import check_worlds
 
         _refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
-        delivery = Delivery(form, output, quiet, exit_zero, top)
         return check_worlds(worlds, inputs, options, baseline, delivery, config)
-    known = None if baseline is None else read_baseline(baseline)
+    known = None if baseline is None else _Known(baseline, read_baseline(baseline))
     document = Document()
     scene = load(inputs, hashed=form == "json")
     _collect_garbage(scene)
@@ -300,34 +311,44 @@ def command(
     if failed and len(scene.bodies) < 2 and form == "table":
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
+    settings = {**options, **inputs.limits}
     result: Report | Samples
     if poses is None:
-        result = _check(scene, settings_of({**options, **inputs.limits}, scene))
-        if known is not None and baseline is not None:
-            names = names_in_baseline(inputs.paths, baseline)
-            result = beside_baseline(result, known, str(baseline), names)
+        result = _check(scene, settings_of(settings, scene))
+        if known is not None:
+            result = known.beside(result, inputs.paths)
         if form != "table":
             result = with_stated_places(result, scene)
     else:
         _refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
-        result = _check_poses(
-            scene, poses, settings_of({**options, **inputs.limits}, scene), inputs.random_seed
-        )
+        result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
     shown = Shown(explain=explain, timings=options["timings"], top=top, cache=options["cache"])
-    if output is not None or not quiet:
+    _deliver(document, result, scene, delivery, shown, pictures)
+    verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
+    return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
+
+
+def _deliver(
+    document: Document,
+    result: Report | Samples,
+    scene: Scene,
+    to: Delivery,
+    shown: Shown,
+    pictures: Pictures,
+) -> None:
+    """The report, the pictures beside it, and what stderr says."""
+    if to.output is not None or not to.quiet:
         document.deliver(
-            lambda page: rendered(result, scene, form, page, shown),
-            output,
-            utf8=form != "table",
+            lambda page: rendered(result, scene, to.form, page, shown),
+            to.output,
+            utf8=to.form != "table",
         )
     if isinstance(result, Report):
         write_pictures(pictures, result, scene)
-    files = "" if quiet else files_line(result, scene, form, output, pictures)
-    tell(result, scene, files, written=output is not None and not quiet)
-    verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
-    return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
+    files = "" if to.quiet else files_line(result, scene, to.form, to.output, pictures)
+    tell(result, scene, files, written=to.output is not None and not to.quiet)
 
 
 def _collect_garbage(scene: Scene) -> None:
@@ -357,6 +378,13 @@ def _check(scene: Scene, settings: Settings) -> Report:
             return check(scene, settings, progress=bar)
     except SystemExit as stop:  # a library that ends the process must not look like an answer
         raise RuntimeError(f"a library called exit({stop.code!r})") from stop
+
+
+def _refuse_certificate(form: str, *, wanted: bool) -> None:
+    if wanted and form != "json":
+        raise click.UsageError(
+            "--certificate needs a JSON report: add -o report.json or --format json"
+        )
 
 
 def _refuse_of_poses(form: str, **options: Any) -> None:

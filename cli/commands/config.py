@@ -9,9 +9,9 @@ from typing import Any, cast
 import click
 from click.core import ParameterSource
 
+from satcheck.cli.click_classes import HELP_NAMES, Command, Group
 from satcheck.cli.config.source import COMMANDS, config_of, is_from_config
 from satcheck.cli.config.values import configurable, is_inverted
-from satcheck.cli.options import HELP_NAMES, Command, Group
 from satcheck.cli.output import Document
 from satcheck.cli.report.config import toml
 

@@ -14,16 +14,14 @@ from rich.table import Table
 
 from satcheck.audit.summary import tool
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
-    HELP_NAMES,
-    Command,
     cache_option,
     color_option,
     debug_option,
-    form_of,
-    form_option,
     output_option,
     paths_argument,
     reading_options,

@@ -9,20 +9,15 @@ from typing import Any
 import click
 
 from satcheck.cli.asset_names import asset_names
+from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
+from satcheck.cli.forms import REPORT_FORMATS, form_of, reports_form_option
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import (
-    HELP_NAMES,
-    REPORT_FORMATS,
-    Command,
-    form_of,
-    options_of,
-    paths_argument,
-    reports_form_option,
-)
+from satcheck.cli.options import options_of, paths_argument
 from satcheck.cli.output import talk
-from satcheck.cli.worlds import Delivery, check_worlds
+from satcheck.cli.rendering import Delivery
+from satcheck.cli.worlds import check_worlds
 from satcheck.scene.changed_assets import changed_since
 
 # What is about one world, or about one report.

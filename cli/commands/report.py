@@ -10,15 +10,13 @@ import click
 from satcheck.batch.manifest import read_manifest
 from satcheck.batch.stored import StoredResults
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import REPORT_FORMATS, form_of
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
-    HELP_NAMES,
-    REPORT_FORMATS,
-    Command,
     color_option,
     debug_option,
     exit_zero_option,
-    form_of,
     output_option,
     outside_option,
     root_option,

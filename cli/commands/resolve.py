@@ -12,18 +12,15 @@ from msgspec.structs import replace
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve import Resolution, proof_of, resolve
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.lengths import in_units_of, length, settings_of
 from satcheck.cli.options import (
-    HELP_NAMES,
-    Command,
     color_option,
     debug_option,
-    form_of,
-    form_option,
     geometry_option,
-    in_units_of,
     jobs_option,
-    length,
     merge_option,
     one_pose_options,
     open_option,
@@ -31,7 +28,6 @@ from satcheck.cli.options import (
     package_option,
     paths_argument,
     reading_options,
-    settings_of,
     split_option,
     tolerance_option,
     units_option,

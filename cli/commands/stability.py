@@ -9,14 +9,12 @@ import click
 
 from satcheck.audit import Settings
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
-    HELP_NAMES,
-    Command,
     color_option,
     debug_option,
-    form_of,
-    form_option,
     output_option,
     paths_argument,
     reading_options,

@@ -10,10 +10,10 @@ from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.lengths import settings_of
 from satcheck.cli.options import (
-    HELP_NAMES,
-    Command,
     color_option,
     debug_option,
     geometry_option,
@@ -24,7 +24,6 @@ from satcheck.cli.options import (
     planar_option,
     pose_options,
     reading_options,
-    settings_of,
     split_option,
     units_option,
 )

@@ -10,14 +10,12 @@ import click
 
 from satcheck._version import __version__
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
-    HELP_NAMES,
-    Command,
     color_option,
     debug_option,
-    form_of,
-    form_option,
     output_option,
     outside_option,
     root_option,

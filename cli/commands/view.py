@@ -14,15 +14,13 @@ from click.core import ParameterSource
 from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.forms import PICTURES, form_of
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
-    HELP_NAMES,
-    PICTURES,
-    Command,
     cache_option,
     color_option,
     debug_option,
-    form_of,
     output_option,
     outside_option,
     picture_options,
