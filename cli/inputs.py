@@ -10,12 +10,13 @@ from typing import Any, Self
 import click
 from msgspec import Struct
 
+from satcheck.batch.load_options import LoadOptions
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene, load_scene
+from satcheck.scene import Scene
 from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
@@ -60,6 +61,20 @@ class Inputs(Struct, frozen=True):
     @property
     def reading(self) -> ReadOptions:
         return ReadOptions(time=self.time)
+
+    @property
+    def load_options(self) -> LoadOptions:
+        return LoadOptions(
+            split=self.split,
+            packages={name: str(folder) for name, folder in (self.packages or {}).items()},
+            geometry=self.geometry or "collision",
+            allow_outside=self.allow_outside,
+            units=self.units,
+            rules=tuple(map(str, self.rules)),
+            reading=self.reading,
+            seconds_per_file=self.seconds_per_file,
+            megabytes_per_file=self.megabytes_per_file,
+        )
 
     @property
     def has_poses(self) -> bool:
@@ -112,7 +127,7 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
-        scene = read(inputs, paths, hashed=hashed)
+        scene = inputs.load_options.load(paths, hashed=hashed)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     advice = _advice(paths)
@@ -126,23 +141,6 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     for line in advice:
         talk(line)
     return scene
-
-
-def read(inputs: Inputs, paths: Sequence[str], *, hashed: bool) -> Scene:
-    """These files as one world, read as the options say."""
-    return load_scene(
-        paths,
-        split=inputs.split,
-        packages=inputs.packages,
-        allow_outside=inputs.allow_outside,
-        units=inputs.units,
-        hashed=hashed,
-        rules=inputs.rules,
-        reading=inputs.reading,
-        geometry=inputs.geometry or "collision",
-        seconds_per_file=inputs.seconds_per_file,
-        megabytes_per_file=inputs.megabytes_per_file,
-    )
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

@@ -93,6 +93,20 @@ picture_options = _together(
         help="Also write a 3-D model of bodies, overlaps and ways out, for any viewer.",
     ),
 )
+
+
+def seconds_option(name: str, default: float, text: str) -> Callable[[_Command], _Command]:
+    """A limit of time. text: its help."""
+    return click.option(
+        name,
+        type=click.FloatRange(0, min_open=True),
+        metavar="SECONDS",
+        default=default,
+        show_default=True,
+        help=text,
+    )
+
+
 output_option = click.option(
     "-o",
     "--output",
@@ -125,13 +139,10 @@ outside_option = click.option(
 # About what reading a file may do.
 reading_options = _together(
     outside_option,
-    click.option(
+    seconds_option(
         "--seconds-per-file",
-        type=click.FloatRange(0, min_open=True),
-        metavar="SECONDS",
-        default=DEFAULTS.seconds_per_file,
-        show_default=True,
-        help="The most time for reading a mesh file.",
+        DEFAULTS.seconds_per_file,
+        "The most time for reading a mesh file.",
     ),
     click.option(
         "--megabytes-per-file",

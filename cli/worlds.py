@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from msgspec.structs import asdict
+
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
 from satcheck.batch.check_options import CheckOptions, World
@@ -67,18 +69,9 @@ def check_options(
         read_baseline(baseline)
     for path in inputs.rules:
         read_rules(str(path))
-    packages = {name: str(folder) for name, folder in (inputs.packages or {}).items()}
     return CheckOptions(
-        split=inputs.split,
-        packages=packages,
-        allow_outside=inputs.allow_outside,
-        units=inputs.units,
-        geometry=inputs.geometry or "collision",
-        rules=tuple(map(str, inputs.rules)),
-        reading=inputs.reading,
+        **asdict(inputs.load_options),
         settings={**options, **inputs.limits},
-        seconds_per_file=inputs.seconds_per_file,
-        megabytes_per_file=inputs.megabytes_per_file,
         names=names_of_lengths(options),
         places=places,
         baseline=None if baseline is None else str(baseline),

@@ -31,7 +31,7 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import options_of, paths_argument
+from satcheck.cli.options import options_of, paths_argument, seconds_option
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import counted
@@ -100,14 +100,7 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
-@click.option(
-    "--scene-seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="SECONDS",
-    default=_LIMITS.seconds,
-    show_default=True,
-    help="The most time for a scene.",
-)
+@seconds_option("--scene-seconds", _LIMITS.seconds, "The most time for a scene.")
 @click.option(
     "--scene-megabytes",
     type=click.IntRange(min=256),
@@ -144,40 +137,56 @@ def command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
-    files = tuple(name for world in worlds for name in world if not is_url(name))
-    if baseline is not None and any(map(is_remote, worlds)):
-        raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
-    if files and not is_url(output):
-        refuse_early(Inputs(paths=files, rules=inputs.rules), Path(output), baseline)
+    _refuse(worlds, inputs, output, baseline)
     config = stated_config(click.get_current_context())
     terms = check_options(inputs, options, baseline, config)
     limits = Limits(scene_seconds, scene_megabytes)
     check = _engine(engine, scheduler, options["jobs"])
     with _local(output) as (path, added), ResultsFile(path) as results, Bar("scenes") as bar:
-        if not resume and (existing := results.existing()) is not None:
-            reason = "has results: --resume keeps those that still hold; or remove the file"
-            named = output if is_url(output) else str(existing)
-            raise SatcheckError("results-exist", reason, file=named)
-
-        known = Tally(len(worlds))
-
-        def progress(tally: Tally) -> None:
-            nonlocal known
-            known = tally
-            added()
-            if bar is not None:
-                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
-
+        if not resume:
+            _refuse_existing(results, output)
+        watch = _Watch(Tally(len(worlds)), added, bar)
+        made = partial(check, options=terms, limits=limits)
         try:
-            made = partial(check, options=terms, limits=limits)
-            tally = run(worlds, terms, limits, made, results, progress)
+            tally = run(worlds, terms, limits, made, results, watch)
         except (KeyboardInterrupt, SatcheckError):
-            if known.done:
+            if watch.tally.done:
                 place = output if is_url(output) else str(results.part)
-                talk(f"satcheck: {_recorded(known, place)}")
+                talk(f"satcheck: {_recorded(watch.tally, place)}")
             raise
     talk(_summary(tally, output))
     return _exit_code(tally, exit_zero)
+
+
+class _Watch:
+    """Keeps and shows how far a run is. added: to be called when results are on the disk."""
+
+    def __init__(self, tally: Tally, added: Callable[[], None], bar: Bar | None) -> None:
+        self.tally = tally
+        self._added = added
+        self._bar = bar
+
+    def __call__(self, tally: Tally) -> None:
+        self.tally = tally
+        self._added()
+        if self._bar is not None:
+            self._bar(tally.done, tally.total, _verdicts(tally, but="pass"))
+
+
+def _refuse(worlds: Sequence[World], inputs: Inputs, output: str, baseline: Path | None) -> None:
+    """What can be seen to fail before any work is done."""
+    files = tuple(name for world in worlds for name in world if not is_url(name))
+    if baseline is not None and any(map(is_remote, worlds)):
+        raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
+    if files and not is_url(output):
+        refuse_early(Inputs(paths=files, rules=inputs.rules), Path(output), baseline)
+
+
+def _refuse_existing(results: ResultsFile, output: str) -> None:
+    if (existing := results.existing()) is not None:
+        reason = "has results: --resume keeps those that still hold; or remove the file"
+        named = output if is_url(output) else str(existing)
+        raise SatcheckError("results-exist", reason, file=named)
 
 
 @contextmanager

@@ -25,6 +25,7 @@ from satcheck.cli.options import (
     output_option,
     paths_argument,
     reading_options,
+    seconds_option,
     split_option,
     units_option,
 )
@@ -95,14 +96,7 @@ class _Parts(Struct, frozen=True):
     show_default=True,
     help="The seed of CoACD's random search: the same seed gives the same parts.",
 )
-@click.option(
-    "--seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="SECONDS",
-    default=DEFAULTS.part_seconds,
-    show_default=True,
-    help="The time limit of one body.",
-)
+@seconds_option("--seconds", DEFAULTS.part_seconds, "The time limit of one body.")
 @form_option
 @output_option
 @cache_option

@@ -132,7 +132,8 @@ def command(
 
 
 def _forms(sql: str | None, against: Sequence[Path], folder: Path | None) -> Sequence[str]:
-    """Those of what is asked."""
+    """The formats of a report, or of the answer or the comparison that replaces it. Raises
+    click.UsageError for options that contradict each other."""
     if sql is not None and against:
         raise click.UsageError("--sql and --against contradict each other")
     if folder is not None and (sql is not None or against):

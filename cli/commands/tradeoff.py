@@ -20,6 +20,7 @@ from satcheck.cli.options import (
     output_option,
     paths_argument,
     reading_options,
+    seconds_option,
     split_option,
     units_option,
 )
@@ -40,13 +41,10 @@ from satcheck.studies.tradeoff import Tradeoff, tradeoff
     show_default=True,
     help="The number of runs of each rung; the rungs take turns.",
 )
-@click.option(
+@seconds_option(
     "--budget",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="SECONDS",
-    default=60.0,
-    show_default=True,
-    help="Time for the whole run, shared by all pairs. Rungs that do not fit are shown as not run.",
+    60.0,
+    "Time for the whole run, shared by all pairs. Rungs that do not fit are shown as not run.",
 )
 @click.option(
     "--pairs",
