@@ -19,7 +19,11 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.input_kind import GeometryKind, kind_of
 from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
+from satcheck.scene.mesh_files import (
+    DEFAULT_MEGABYTES_PER_FILE,
+    DEFAULT_SECONDS_PER_FILE,
+    MeshFiles,
+)
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.scene_builder import Split
@@ -74,6 +78,16 @@ class Inputs(Struct, frozen=True):
             reading=self.reading,
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,
+        )
+
+    def mesh_files(self) -> MeshFiles:
+        """To read the mesh files of the scene once more, as it has read them."""
+        return MeshFiles(
+            self.seconds_per_file,
+            self.megabytes_per_file,
+            allow_outside=True,
+            hashed=False,
+            options=self.reading,
         )
 
     @property

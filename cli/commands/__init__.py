@@ -6,10 +6,11 @@ from __future__ import annotations
 # help of each command says the same.
 COMMANDS = {
     "axes": "Show why two convex bodies are apart: the separating axis theorem, axis by axis.",
-    "baseline": "Known findings that do not fail a check: write, update, prune.",
+    "baseline": "Known findings that do not fail a check.",
     "batch": "Check thousands of scenes: none stops the others.",
     "cache": "The cache of convex parts: info, clear.",
     "config": "The config file: show which options are in effect.",
+    "convert": "Write any scene as a scene file of satcheck, or as GLB.",
     "decompose": "Split meshes into convex parts, for physics engines.",
     "each": "Check each asset of a folder as a scene of its own.",
     "report": "Report which scenes of a batch fail, and how.",
@@ -18,6 +19,6 @@ COMMANDS = {
     "stability": "Check whether equivalent inputs get the same answer.",
     "suggest": "Suggest which pairs a scene may allow to overlap.",
     "tradeoff": "What accuracy costs in time: every rung of the ladder on one pair.",
-    "verify": "Re-check the certificates of a report from the mesh files.",
+    "verify": "Re-check the certificates of a report.",
     "view": "Show a report in 3-D, from its mesh files.",
 }

@@ -34,7 +34,7 @@ reason_option = click.option(
 
 @click.group("baseline", cls=Group, context_settings=HELP_NAMES)
 def command() -> None:
-    """Known findings that do not fail a check: write, update, prune.
+    """Known findings that do not fail a check.
 
     REPORT is a JSON report of a check or of `satcheck each`, with the options that the check in CI
     has. `satcheck --baseline BASELINE ...` then fails only on findings that are new or worse.

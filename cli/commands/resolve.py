@@ -39,8 +39,10 @@ from satcheck.cli.report.words import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.moved_file import moved_scene_file, scene_file_of, stray_mesh
+from satcheck.scene.input_kind import kind_of
+from satcheck.scene.loader import is_rules
+from satcheck.scene.moved_file import moved_scene_file, stray_mesh
+from satcheck.scene.new_scene_file import new_scene_file
 from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
@@ -130,7 +132,7 @@ def command(
             scene, settings, pins=pins, max_motion=farthest, iterations=iterations, progress=bar
         )
     if scene_out is not None:
-        _write_moved(scene_out, target, scene, result)
+        _write_moved(scene_out, target, scene, result, inputs)
         result = replace(result, report=_checked(scene_out, target, settings, inputs))
     document.deliver(
         lambda page: _render(result, form, page, scene_out), output, utf8=form == "json"
@@ -166,7 +168,7 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
     if moved is None:
         return target
     wanted = {Path(bodies[0]).suffix.lower()} if alone else set(SCENE_SUFFIXES)
-    if not alone and not all(map(is_mesh, bodies)):
+    if not alone and not all(kind_of(path) in ("mesh", "document") for path in bodies):
         raise click.UsageError(
             "--scene-out needs one scene file, or mesh files alone: links of robots are not moved"
         )
@@ -196,12 +198,14 @@ def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
     return stray
 
 
-def _write_moved(path: Path, target: _Target, scene: Scene, result: Resolution) -> None:
+def _write_moved(
+    path: Path, target: _Target, scene: Scene, result: Resolution, inputs: Inputs
+) -> None:
     translations = {move.body: move.translation for move in result.moves}
     if target.scene is not None:
         write_file(path, moved_scene_file(target.scene, path, translations))
     else:
-        write_file(path, scene_file_of(path, scene, translations))
+        write_file(path, new_scene_file(path, scene, inputs.mesh_files(), translations))
 
 
 def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) -> Report:

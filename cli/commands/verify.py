@@ -59,7 +59,7 @@ def command(
     output: Path | None,
     allow_outside: bool,
 ) -> int:
-    """Re-check the certificates of a report from the mesh files.
+    """Re-check the certificates of a report.
 
     satcheck --certificate -o REPORT.json A B writes such a report. Its verdicts are checked in
     rational arithmetic, without the solver. A verdict without a certificate (an estimate below

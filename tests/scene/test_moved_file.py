@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import os
-import struct
 from pathlib import Path
 
 from satcheck.scene import load_scene
-from satcheck.scene.moved_file import moved_scene_file, scene_file_of
+from satcheck.scene.moved_file import moved_scene_file
 from tests.audit.shapes import unit_box, write
 
 TOML = """\
@@ -45,49 +43,6 @@ def scene_file(folder: Path) -> Path:
     path = folder / "scene.json"
     path.write_text(json.dumps(content), encoding="utf-8")
     return path
-
-
-def two_nodes() -> str:
-    """A glTF file in which two nodes show one box, one of them elsewhere."""
-    points, quads = unit_box()
-    corners = [k for quad in quads for k in (quad[0], *quad[1:3], quad[0], *quad[2:])]
-    data = b"".join(struct.pack("<3f", *point) for point in points)
-    data += struct.pack(f"<{len(corners)}H", *corners)
-    uri = f"data:application/octet-stream;base64,{base64.b64encode(data).decode()}"
-    mesh = {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}
-    return json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": [0, 1]}],
-            "nodes": [
-                {"name": "one", "mesh": 0},
-                {"name": "two", "mesh": 0, "translation": [0.5, 0.25, 0]},
-            ],
-            "meshes": [mesh],
-            "buffers": [{"uri": uri, "byteLength": len(data)}],
-            "bufferViews": [
-                {"buffer": 0, "byteOffset": 0, "byteLength": 96},
-                {"buffer": 0, "byteOffset": 96, "byteLength": len(data) - 96},
-            ],
-            "accessors": [
-                {
-                    "bufferView": 0,
-                    "componentType": 5126,
-                    "count": 8,
-                    "type": "VEC3",
-                    "min": [0, 0, 0],
-                    "max": [1, 1, 1],
-                },
-                {
-                    "bufferView": 1,
-                    "componentType": 5123,
-                    "count": len(corners),
-                    "type": "SCALAR",
-                },
-            ],
-        }
-    )
 
 
 def test_nothing_but_the_translation_changes(tmp_path) -> None:
@@ -126,26 +81,3 @@ def test_a_toml_scene_keeps_its_comments(tmp_path) -> None:
     output.write_text(moved_scene_file(str(source), output, {"b": (0.5, 0.0, 0.0)}))
     assert output.read_text() == TOML.replace("[1, 2, 3]", "[1.5, 2, 3]")
     assert load_scene([output]).bodies[1].transform[3::4] == (1.5, 2, 3, 1)
-
-
-def test_mesh_files_become_a_scene(tmp_path) -> None:
-    scene = load_scene(write(tmp_path, a=unit_box(), b=unit_box(2)))
-    output = tmp_path / "made.json"
-    output.write_text(scene_file_of(output, scene, {"b": BY}), encoding="utf-8")
-    made = load_scene([output])
-    assert [body.id for body in made.bodies] == ["a", "b"]
-    assert made.bodies[0].transform is None
-    assert made.bodies[1].transform[3::4] == (*BY, 1)
-
-
-def test_nodes_of_a_file_become_parts(tmp_path) -> None:
-    (tmp_path / "asm.gltf").write_text(two_nodes())
-    scene = load_scene([tmp_path / "asm.gltf"])
-    output = tmp_path / "made.json"
-    output.write_text(scene_file_of(output, scene, {scene.bodies[1].id: BY}))
-    made = load_scene([output])
-    assert [body.id for body in made.bodies] == [body.id for body in scene.bodies]
-    assert made.units == scene.units
-    assert made.bodies[0].world_mesh().bounds == scene.bodies[0].world_mesh().bounds
-    (x, y, z), _ = scene.bodies[1].world_mesh().bounds
-    assert made.bodies[1].world_mesh().bounds[0] == (x + BY[0], y + BY[1], z + BY[2])

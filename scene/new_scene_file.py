@@ -1,0 +1,233 @@
+"""Writes any scene as a new scene file satcheck.scene/1. It names the mesh files of its bodies."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from msgspec import to_builtins
+
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
+from satcheck.scene.common_units import scaled_mesh
+from satcheck.scene.format.entries import SCENE_1, BodyEntry, MeshPath, SceneFile
+from satcheck.scene.format.text import is_toml
+from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.mesh_units import placing_file, shape_of_file
+from satcheck.scene.motion import Motion, PosePath, Rotation
+from satcheck.scene.path_kind import is_file
+from satcheck.scene.rules import KEYS, Rule, Selector
+from satcheck.scene.scene_builder import SceneBuilder
+from satcheck.scene.units import unit_in
+
+Vector = tuple[float, float, float]
+Entries = list[dict[str, Any]]
+_ORIGIN = (0.0, 0.0, 0.0)
+
+
+def new_scene_file(
+    output: Path,
+    scene: Scene,
+    files: MeshFiles,
+    translations: Mapping[str, Vector] = MappingProxyType({}),
+) -> str:
+    """The text of a scene file for the path `output`, TOML or JSON by its suffix. It states what
+    the scene states: bodies, groups, rules and motions; robots as they stand.
+
+    files: read the mesh files whose parts are bodies again, to see where they place them.
+    translations: id -> translation in the world, after the placement. An unreadable body is an
+    entry if its file may become readable, else it is left out (`left_out_of`).
+    """
+    unplaced = _without_placements(scene, files)
+    entries: Entries = []
+    for body in scene.in_order():
+        if isinstance(body, Body):
+            by = translations.get(body.id, _ORIGIN)
+            entries.append(_entry(output, body, unplaced[body.id], by))
+        elif _has_file(body):
+            entries.append(_named(output, body.id, body.file, body.path) | _common(body))
+    head: dict[str, Any] = {"schema": SCENE_1}
+    if scene.units:
+        head["units"] = scene.units
+    if scene.check_static and any(body.static for body in scene.in_order()):
+        head["check_static"] = True
+    if scene.ignore_within_groups:
+        head["ignore_within_groups"] = sorted(scene.ignore_within_groups)
+    lists = {
+        "bodies": entries,
+        "rules": list(map(_rule, scene.rules)),
+        "motion": list(map(_motion, scene.motions)),
+    }
+    return (_toml if is_toml(output) else _json)(head, lists)
+
+
+def left_out_of(scene: Scene) -> list[str]:
+    """The ids of the unreadable bodies that a new scene file cannot state."""
+    return [body.id for body in scene.unreadable if not _has_file(body)]
+
+
+def path_from(output: Path, target: Path) -> str:
+    """The path of `target` relative to the folder of `output`; absolute paths stay absolute."""
+    if target.is_absolute():
+        return target.as_posix()
+    return Path(os.path.relpath(target.absolute(), output.absolute().parent)).as_posix()
+
+
+def _has_file(body: Unreadable) -> bool:
+    place = Path(body.file)
+    return place.suffix.lower() in FORMATS and is_file(place)
+
+
+def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
+    """Where the bodies would stand if the scene file did not place them: where their mesh file
+    places them, in the unit of the scene."""
+    unplaced = {
+        body.id: (scaled_mesh(None, body.unit_scale or 1.0) if body.shape is None else None)
+        or IDENTITY
+        for body in scene.bodies
+    }
+    parts = tuple(
+        BodyEntry(
+            body.id,
+            MeshPath(body.file.path, Path(body.file.path)),
+            part=body.path,
+            units=_stated_units(body),
+        )
+        for body in scene.bodies
+        if body.path is not None
+    )
+    if parts:
+        builder = SceneBuilder(files, None, scene.reading)
+        nothing: Any = ()
+        builder.add_scene(SceneFile("", "", scene.units, parts, frozenset(), False, *[nothing] * 3))
+        for body in builder.scene().bodies:
+            unplaced[body.id] = placing_file(body.file, body.transform) or IDENTITY
+    return unplaced
+
+
+def _stated_units(body: Body) -> str | None:
+    """Of a mesh file that states none; None: nothing has to be said."""
+    if body.shape is None and body.file.units is None and body.unit_scale and body.units:
+        return unit_in(body.units, body.unit_scale)
+    return None
+
+
+def _entry(output: Path, body: Body, unplaced: Transform, by: Vector) -> dict[str, Any]:
+    """unplaced: as of `_without_placements`. by: its translation."""
+    shape = shape_of_file(body.file, body.shape)
+    if shape is None:
+        entry = _named(output, body.id, body.file.path, body.path)
+    else:
+        entry = {"id": body.id, "shape": to_builtins(shape)}
+    if units := _stated_units(body):
+        entry["units"] = units
+    placement = placing_file(body.file, body.transform) or IDENTITY
+    entry |= _placement(_after(placement, unplaced), by)
+    entry |= _common(body)
+    if body.pinned:
+        entry["pinned"] = True
+    if body.surface_tolerance is not None:
+        entry["surface_tolerance"] = body.surface_tolerance
+    return entry
+
+
+def _named(output: Path, id_: str, file: str, part: str | None) -> dict[str, Any]:
+    entry = {"id": id_, "mesh": path_from(output, Path(file))}
+    return entry if part is None else entry | {"part": part}
+
+
+def _common(body: Body | Unreadable) -> dict[str, Any]:
+    entry: dict[str, Any] = {}
+    if body.groups:
+        entry["groups"] = list(body.groups)
+    if body.static:
+        entry["static"] = True
+    return entry
+
+
+def _after(placement: Transform, first: Transform) -> Transform:
+    """The matrix that, after `first`, gives `placement`, but for rounding; without any if `first`
+    is the identity."""
+    if first == placement:
+        return IDENTITY
+    scale = first[0]
+    if first == (scaled_mesh(None, scale) or IDENTITY):
+        return tuple(value / scale if k % 4 < 3 else value for k, value in enumerate(placement))
+    wanted, known = (np.array(rows).reshape(4, 4) for rows in (placement, first))
+    return (*np.linalg.solve(known.T, wanted.T).T[:3].ravel().tolist(), 0.0, 0.0, 0.0, 1.0)
+
+
+def _placement(transform: Transform, by: Vector) -> dict[str, Any]:
+    rows = [list(transform[row : row + 4]) for row in (0, 4, 8, 12)]
+    for row, step in zip(rows, by, strict=False):
+        row[3] += step
+    position = [row[3] for row in rows[:3]]
+    if any(transform[k] != IDENTITY[k] for k in range(12) if k % 4 < 3):
+        return {"matrix": rows}
+    return {"position": position} if any(position) else {}
+
+
+def _rule(rule: Rule) -> dict[str, Any]:
+    stated = {key: getattr(rule, key) for key in KEYS}
+    entry = {"a": rule.a.text, "b": rule.b.text}
+    entry |= {key: value for key, value in stated.items() if value is not None}
+    reason = rule.reason or (f"allowed by {rule.name}" if rule.allowed else "")
+    return entry | {"reason": reason} if reason else entry
+
+
+def _motion(motion: Motion) -> dict[str, Any]:
+    entry: dict[str, Any] = {"bodies": [Selector.exactly(body).text for body in motion.bodies]}
+    path = motion.path
+    if isinstance(path, PosePath):
+        points = [
+            {"time": p.time, "position": list(p.position), "quaternion": _w_first(p.orientation)}
+            for p in path.waypoints
+        ]
+        return entry | {"path": points}
+    if isinstance(path, Rotation):
+        turn = {"axis": list(path.axis), "point": list(path.point), "degrees": path.degrees}
+        return entry | {"rotation": turn}
+    return entry | {"translation": list(path.vector)}
+
+
+def _w_first(quaternion: Sequence[float]) -> list[float]:
+    x, y, z, w = quaternion
+    return [w, x, y, z]
+
+
+def _json(head: Mapping[str, Any], lists: Mapping[str, Entries]) -> str:
+    lines = [
+        f"  {_value(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in head.items()
+    ]
+    for name, entries in lists.items():
+        if entries or name == "bodies":
+            rows = ",".join(f"\n    {json.dumps(entry, ensure_ascii=False)}" for entry in entries)
+            lines.append(f"  {_value(name)}: [{rows}\n  ]")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _toml(head: Mapping[str, Any], lists: Mapping[str, Entries]) -> str:
+    tables = [_lines(head)]
+    for name, entries in lists.items():
+        tables += [f"[[{name}]]\n{_lines(entry)}" for entry in entries]
+    return "\n".join(tables)
+
+
+def _lines(table: Mapping[str, Any]) -> str:
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
+
+
+def _value(value: object) -> str:
+    """A value in TOML; texts, numbers and lists are the same in JSON, but for a raw DEL, which TOML
+    forbids."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_value(inner)}" for key, inner in value.items()) + " }"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
