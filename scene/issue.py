@@ -48,6 +48,7 @@ _ALL = (
     Code("missing-resource", "error", "A file that this file refers to is missing."),
     Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
     Code("unknown-part", "error", "The file has no part of this name."),
+    Code("missing-extra", "error", "The library that reads the format is not installed."),
     Code("entity-declaration", "error", "XML entity declarations are refused."),
     # Its geometry.
     Code("non-finite", "error", "A coordinate is infinite or not a number."),
@@ -60,6 +61,8 @@ _ALL = (
     Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
     Code("no-surface", "warning", "A mesh has only lines or points: its pairs are not checked."),
     Code("rest-shape", "warning", "A deformable mesh is checked in its stored shape."),
+    Code("left-out", "note", "What is no body of a document was left out, or is not applied."),
+    Code("faceted", "note", "Curved surfaces are checked as the facets that replace them."),
     Code("cracks", "warning", "Faces miss each other by the precision of the file; closed."),
     Code(
         "not-closed",
@@ -82,7 +85,7 @@ _ALL = (
     Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
     Code("unknown-element", "warning", "An element unknown to the format was ignored."),
     Code("unknown-attribute", "warning", "An attribute unknown to the format was ignored."),
-    Code("no-shape", "warning", "A <collision> of size 0, or without geometry, has no body."),
+    Code("no-shape", "warning", "An element of size 0, or without geometry, has no body."),
     Code("no-limits", "warning", "A joint has no usable limits and is treated as unlimited."),
     Code("no-leader", "warning", "A joint mimics a missing joint and moves independently."),
     Code("no-collision-geometry", "note", "Links with only visual geometry have no body."),

@@ -148,6 +148,10 @@ def _read(request: Request) -> RawScene:
             from satcheck.scene.loading.xaml import read_xaml
 
             return alone(read_xaml(data))
+        case "ifc":
+            from satcheck.scene.loading.ifc import read_ifc
+
+            return read_ifc(data)
         case "zae":
             from satcheck.scene.loading.zae import read_zae
 

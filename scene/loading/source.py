@@ -28,6 +28,9 @@ FORMATS = {
     ".zae": "zae",
     ".3dxml": "3dxml",
     ".xaml": "xaml",
+    ".ifc": "ifc",
+    ".ifczip": "ifc",
+    ".ifcxml": "ifc",
 }
 # Formats of scenes: each node is a body, with rules, whatever files are beside it.
 DOCUMENTS = frozenset(("usd", "ifc"))
@@ -59,7 +62,7 @@ _SIGNATURES = (
     (b"\x7fELF", "an ELF program", ()),
     (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file", ()),
     (b"glTF", "a GLB file", ("glb",)),
-    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml")),
+    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml", "ifc")),
     (b"ply\n", "a PLY file", ("ply",)),
     (b"ply\r\n", "a PLY file", ("ply",)),
 )
