@@ -275,10 +275,10 @@ def command(
     """Do these meshes collide? How deep, and which way out?
 
     A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), scenes (TOML,
-    JSON), buildings (IFC), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body
-    is a file; of one GLB, glTF, 3MF or 3DXML file alone it is a node, of IFC an element. Every pair
-    of bodies is checked, in the coordinates of the files. A body inside another collides with it. A
-    LENGTH is in the units of the files, or has its own where these are known: 2mm, 0.5in.
+    JSON, IFC), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body is a file;
+    of one GLB, glTF, 3MF or 3DXML file alone it is a node. Every pair of bodies is checked, in the
+    coordinates of the files. A body inside another collides with it. A LENGTH is in the units of
+    the files, or has its own where these are known: 2mm, 0.5in.
 
     \b
       satcheck a.stl b.stl                   do they collide?
