@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec import UNSET, Struct
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
@@ -44,6 +44,7 @@ from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
+    from satcheck.audit.statics.support import Support
     from satcheck.core import Climb
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
@@ -130,14 +131,23 @@ def _check(
     motion_issues = () if movers is None else movers.issues(bodies.ids)
     pair_issues = (issue for pair in examined for issue in pair.issues)
     counts = count(bodies, [pair.finding for pair in examined], findings)
+    support = _support(scene, bodies, planner.settings)
+    support_issues = () if support is None else support.issues(scene)
     size_issues = doubtful_sizes(bodies, findings, settings.planar)
-    issues = issues_of(scene, bodies, counts, (*size_issues, *motion_issues, *pair_issues))
+    issues = issues_of(
+        scene, bodies, counts, (*size_issues, *motion_issues, *support_issues, *pair_issues)
+    )
+    statics = None if support is None else support.stated()
     return Report(
         tool=tool(),
         units=scene.units,
         settings=planner.stated(),
         summary=summarise(
-            counts, findings, settings.fail_on, alone=len(bodies.placed) == len(bodies.ids) == 1
+            counts,
+            findings,
+            settings.fail_on,
+            alone=len(bodies.placed) == len(bodies.ids) == 1,
+            statics=statics,
         ),
         reading=stated_reading(scene),
         bodies=body_reports(bodies),
@@ -154,6 +164,7 @@ def _check(
         findings=tuple(findings),
         issues=issues,
         truncated=truncated_of(counts, findings),
+        statics=UNSET if statics is None else statics,
     )
 
 
@@ -180,6 +191,16 @@ def _movers(scene: Scene) -> Movers | None:
     from satcheck.audit.motion.movers import Movers
 
     return Movers(scene.motions)
+
+
+def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
+    """None: no rule asks about support. Raises SatcheckError if the question cannot be answered at
+    all."""
+    if not any(rule.supported or rule.stable for rule in scene.body_rules):
+        return None
+    from satcheck.audit.statics.support import Support
+
+    return Support(scene, bodies, settings)
 
 
 def _examine_all(

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from satcheck.audit.answer import Answer
     from satcheck.audit.request.settings import FailOn
     from satcheck.report.report import Finding
+    from satcheck.report.statics import SupportFinding
 
 CLEARANCE_RULE = "clearance"
 
@@ -94,6 +95,12 @@ def fails(finding: Finding, fail_on: FailOn) -> bool:
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
     """Whether the check fails by it: a baseline does not hold it unchanged."""
     return fails(finding, fail_on) and finding.baseline_state != "unchanged"
+
+
+def is_unsupported(finding: SupportFinding, fail_on: FailOn) -> bool:
+    """Whether the check fails by the answer to a question of support."""
+    level = SEVERITIES.index(fail_on)
+    return finding.answer != "open" and SEVERITIES.index(finding.severity) <= level
 
 
 def by_rule(judgement: Judgement, request: Request) -> Judgement:

@@ -12,7 +12,7 @@ from msgspec import convert, to_builtins
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.severity import is_failure
+from satcheck.audit.severity import is_failure, is_unsupported
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
@@ -34,6 +34,7 @@ from satcheck.report.report import (
     Truncated,
     Verdict,
 )
+from satcheck.report.statics import Statics
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
@@ -86,16 +87,22 @@ def unlisted_indeterminate(counts: PairCounts, findings: Sequence[Finding]) -> i
 
 
 def summarise(
-    counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn, *, alone: bool = False
+    counts: PairCounts,
+    findings: Sequence[Finding],
+    fail_on: FailOn,
+    *,
+    alone: bool = False,
+    statics: Statics | None = None,
 ) -> Summary:
-    """alone: the scene is one usable body, which has nothing to collide with."""
+    """alone: the scene is one usable body, which has nothing to collide with. statics: the support
+    of bodies; None: no rule asks."""
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     unlisted_open = unlisted_indeterminate(counts, findings)
     by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
     by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)
     return Summary(
-        verdict="pass" if alone else _verdict(counts, findings, fail_on),
+        verdict=_worse("pass" if alone else _verdict(counts, findings, fail_on), statics, fail_on),
         pairs=counts,
         by_relation={relation: by_relation[relation] for relation in RELATIONS},
         surfaces_only=undecided["inside"],
@@ -110,7 +117,8 @@ def verdict_of(report: Report) -> Verdict:
     summary = report.summary
     if summary.verdict == "pass":
         return "pass"
-    return _verdict(summary.pairs, report.findings, report.settings.fail_on)
+    fail_on = report.settings.fail_on
+    return _worse(_verdict(summary.pairs, report.findings, fail_on), report.support, fail_on)
 
 
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
@@ -122,6 +130,15 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
         finding.undecided is not None for finding in findings
     )
     return "incomplete" if unchecked or not counts.asked else "pass"
+
+
+def _worse(verdict: Verdict, statics: Statics | None, fail_on: FailOn) -> Verdict:
+    """The verdict on pairs and on the support of bodies together."""
+    if statics is None or verdict == "fail":
+        return verdict
+    if any(is_unsupported(finding, fail_on) for finding in statics.findings):
+        return "fail"
+    return "incomplete" if statics.is_open else verdict
 
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any, TypeVar
 
-from msgspec import DecodeError, convert, msgpack, to_builtins
+from msgspec import UNSET, DecodeError, Struct, convert, msgpack, to_builtins
 from msgspec import json as msgspec_json
 
 from satcheck.report.assets import Asset, AssetsReport
@@ -41,15 +41,22 @@ def render(report: Report, *, timings: bool) -> Iterator[str]:
     Each piece is made when it is written: the text of a report is larger than the report in memory.
     Raises ValueError for a number that is not finite, before the first piece.
     """
-    for key in report.__struct_fields__:
-        for piece in _pieces_of(getattr(report, key)):
+    for _, value in _members(report):
+        for piece in _pieces_of(value):
             _require_finite(piece)
     return _rendered(report, timings)
 
 
 def _rendered(report: Report, timings: bool) -> Iterator[str]:
-    members = ((key, getattr(report, key)) for key in report.__struct_fields__)
-    return _object(_member(key, value, timings) for key, value in members)
+    return _object(_member(key, value, timings) for key, value in _members(report))
+
+
+def _members(report: Report) -> Iterator[tuple[str, Any]]:
+    """Those that are set."""
+    for key in report.__struct_fields__:
+        value = getattr(report, key)
+        if value is not UNSET:
+            yield key, value
 
 
 def render_assets(report: AssetsReport, assets: Iterable[Asset], *, timings: bool) -> Iterator[str]:
@@ -126,6 +133,8 @@ def _object(members: Iterable[Iterable[str]]) -> Iterator[str]:
 def _member(key: str, value: Any, timings: bool) -> Iterable[str]:
     """A member of the outermost object; a long list of structs in pieces."""
     if not isinstance(value, tuple):
+        if not timings and isinstance(value, Struct):
+            value = without_timings(to_builtins(value))
         return (_text({key: value}).removeprefix("{").removesuffix("\n}"),)
     return _list(key, _pieces_of(value), timings)
 

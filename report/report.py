@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from itertools import chain
 from typing import Annotated, Any, Literal, get_args
 
-from msgspec import Meta, to_builtins
+from msgspec import UNSET, Meta, UnsetType, to_builtins
 
 from satcheck.report.baseline import BaselineState, StatedBaseline
 from satcheck.report.bodies import BodyReport as BodyReport
@@ -26,6 +26,7 @@ from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
 from satcheck.report.reading import StatedReading
 from satcheck.report.settings import StatedSettings
+from satcheck.report.statics import Statics
 from satcheck.report.sweep import Sweep
 from satcheck.report.values import Code, Count, Interval, Length, Value
 from satcheck.report.values import Quality as Quality
@@ -307,9 +308,10 @@ class Report(Value, frozen=True, kw_only=True):
     several rules for a pair set the same key, the last one counts. findings: one for every checked
     pair, except those that `truncated` counts, in the order of the bodies. truncated: the pairs
     with separate boxes that are not listed, if there are more than 60 pairs; None: all pairs are
-    listed. reading: options with which the files were read; None: their formats leave no choice, or
-    the defaults apply. baseline: that the check was compared with; None: none. config: the options
-    that a config file set; None: no config file took effect.
+    listed. statics: the support of bodies; absent if no rule asks. reading: options with which the
+    files were read; None: their formats leave no choice, or the defaults apply. baseline: that the
+    check was compared with; None: none. config: the options that a config file set; None: no config
+    file took effect.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
@@ -327,8 +329,14 @@ class Report(Value, frozen=True, kw_only=True):
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
     truncated: Truncated | None = None
+    statics: Statics | UnsetType = UNSET
     baseline: StatedBaseline | None = None
     config: StatedConfig | None = None
+
+    @property
+    def support(self) -> Statics | None:
+        """None: no rule asks."""
+        return self.statics or None
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

@@ -22,6 +22,7 @@ from satcheck.scene.rules import Rule
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
     from satcheck.scene.robot import Posture, SceneRobot
+    from satcheck.scene.statics import BodyRule, StaticsTerms
 
 UNITS_UNKNOWN = "units-unknown"
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
@@ -137,7 +138,8 @@ class Scene(Struct, frozen=True):
     motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
     entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
-    reading: the options with which the files were read.
+    reading: the options with which the files were read. body_rules: questions about the support of
+    single bodies. statics: gravity and friction, as stated; None: not stated.
     """
 
     name: str
@@ -155,6 +157,8 @@ class Scene(Struct, frozen=True):
     robots: tuple[SceneRobot, ...] = ()
     posture: Posture | None = None
     reading: ReadOptions = ReadOptions()
+    body_rules: tuple[BodyRule, ...] = ()
+    statics: StaticsTerms | None = None
 
     def __post_init__(self) -> None:
         if self.motions:

@@ -154,7 +154,7 @@ def has_only_rules(path: str) -> bool:
     if _begins_a_body(path):
         return False
     scene = _read_scenes([path], allow_outside=True).get(path)
-    return scene is not None and bool(scene.rules) and not scene.bodies
+    return scene is not None and bool(scene.rules or scene.body_rules) and not scene.bodies
 
 
 def _begins_a_body(path: str) -> bool:

@@ -29,6 +29,7 @@ from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Part, SceneRobot, Srdf
+    from satcheck.scene.statics import BodyRule
 
 Split = Literal["nodes", "components", "none"]
 
@@ -315,6 +316,8 @@ class SceneBuilder:
             order=tuple(self._order),
             ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
             rules=self._rules(common.scales),
+            body_rules=self._body_rules(common.scales),
+            statics=scenes.statics(common.scales) if scenes else None,
             check_static=scenes is None or scenes.check_static,
             motions=scenes.motions(common.scales) if scenes else (),
             entries=self._entries,
@@ -333,6 +336,11 @@ class SceneBuilder:
         everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
         stated = self._scenes.rules(everybody, scales) if self._scenes else ()
         return (*self._document_rules, *stated)
+
+    def _body_rules(self, scales: Mapping[str, float]) -> tuple[BodyRule, ...]:
+        if self._scenes is None:
+            return ()
+        return self._scenes.body_rules([*self._bodies, *self._unreadable], scales)
 
 
 def _rules_of(

@@ -114,6 +114,7 @@ COVERAGE: dict[str, Cover] = {
     "issues[].message": _not("issues"),
     "truncated.pairs": FOLLOWS,
     "truncated.reason": _not("reasons"),
+    "statics": _not("the support of bodies"),
     "baseline.file": _not("which findings a baseline accepts"),
     "baseline.absent": _not("which findings a baseline accepts"),
     "config.file": _not("where options come from"),

@@ -146,6 +146,8 @@ class _Report:
         self.faults += _faults_of_issues(report, self.bodies)
         if report.motions:
             self.beyond.append("bodies move: what happens on the way is not certified")
+        if report.support is not None:
+            self.beyond.append("the support of bodies is not certified")
         if report.summary.accepted and report.summary.verdict != "fail":
             self.beyond.append("a baseline accepts findings: without it the verdict is 'fail'")
 

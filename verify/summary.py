@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from satcheck.report.report import EFFECTS, Finding, Report
+from satcheck.report.statics import SupportFinding
 from satcheck.verify.exact import Rejected
 from satcheck.verify.rules import SEVERITIES, Rules
 
@@ -50,6 +51,10 @@ def check_summary(
     failed = any(_fails(finding, least) for finding in new)
     alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
     open_ = left_open or undecided.total() > undecided[None] or (total == allowed and not alone)
+    support = report.support
+    if support is not None:
+        failed = failed or any(_is_unsupported(answer, least) for answer in support.findings)
+        open_ = open_ or support.is_open
     verdict = "fail" if failed else "incomplete" if open_ else "pass"
     if report.summary.verdict != verdict:
         raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
@@ -94,6 +99,10 @@ def _check_baseline(report: Report, findings: Sequence[Finding], least: int) -> 
     accepted = sum(finding.baseline_state == "unchanged" for finding in findings)
     if report.summary.accepted != accepted:
         raise Rejected(f"the baseline accepts {accepted} findings")
+
+
+def _is_unsupported(answer: SupportFinding, least: int) -> bool:
+    return answer.answer != "open" and answer.severity in SEVERITIES[least:]
 
 
 def _fails(finding: Finding, least: int) -> bool:

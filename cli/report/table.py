@@ -65,6 +65,10 @@ def render(
         from satcheck.cli.report.components import component_lines
 
         lines += component_lines(page, shown)
+    if report.support is not None:
+        from satcheck.cli.report.support import support_lines
+
+        lines += support_lines(report, page)
     if explain:
         from satcheck.cli.report.explain import explanation  # rich's tables
 

@@ -104,9 +104,20 @@ def _failed(report: Report) -> str:
     said = [_failure(finding, report) for finding in failing[:NAMED]]
     if more := len(failing) - len(said):
         said.append(f"and {counted(more, 'more pair')}")
-    if all(finding.severity != "error" for finding in failing):
+    if report.support is not None:
+        said += _unsupported(report)
+    if failing and all(finding.severity != "error" for finding in failing):
         said.append(f"failed by --fail-on {report.settings.fail_on}")
     return "; ".join(said)
+
+
+def _unsupported(report: Report) -> list[str]:
+    from satcheck.cli.report.support import failed_support
+
+    failed = failed_support(report)
+    more = len(failed) - NAMED
+    rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
+    return failed[:NAMED] + rest
 
 
 def _failure(finding: Finding, report: Report) -> str:
@@ -178,6 +189,10 @@ def _left_open(report: Report) -> list[str]:
         said.append(_of_pairs(moving, "may hit while moving", "may hit while moving"))
     if disputed := summary.disputed:
         said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
+    if report.support is not None:
+        from satcheck.cli.report.support import open_support
+
+        said += open_support(report)
     return said
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from satcheck.core.transform import Transform
     from satcheck.scene.motion import Motion
     from satcheck.scene.rules import Rule
+    from satcheck.scene.statics import BodyRule, StaticsTerms
 
 # The name of the schema in a scene file of each form.
 SCENE_1 = "satcheck.scene/1"
@@ -65,6 +66,8 @@ class SceneFile(Struct, frozen=True):
     rules: tuple[Rule, ...]
     motions: tuple[Motion, ...]
     issues: tuple[Issue, ...]
+    body_rules: tuple[BodyRule, ...] = ()
+    statics: StaticsTerms | None = None
 
 
 def unknown_units(units: str | None, path: str) -> list[Issue]:

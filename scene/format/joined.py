@@ -8,6 +8,7 @@ bodies.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -17,6 +18,9 @@ from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
+
+if TYPE_CHECKING:
+    from satcheck.scene.statics import BodyRule, StaticsTerms
 
 MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 
@@ -74,6 +78,53 @@ class JoinedScenes:
             else:
                 rules += _own_rules(scene, ids, bare, everybody)
         return tuple(rules)
+
+    def body_rules(
+        self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
+    ) -> tuple[BodyRule, ...]:
+        """everybody, scales: as for rules. A rule that selects other bodies in the whole check than
+        in its file is written out body by body."""
+        if not any(scene.body_rules for scene, _ in self._scenes):
+            return ()
+        placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
+        bare = [body for body in everybody if body.id not in placed]
+        rules: list[BodyRule] = []
+        for scene, ids in self._scenes:
+            scale = scales.get(scene.path, 1.0)
+            own = [rule.scaled(scale) for rule in scene.body_rules]
+            if len(everybody) == len(scene.bodies) or not scene.bodies:
+                rules += own
+            else:
+                rules += _own_body_rules(own, scene, ids, bare)
+        return tuple(rules)
+
+    def statics(self, scales: Mapping[str, float]) -> StaticsTerms | None:
+        """What all files together state; None: none does. Raises SatcheckError if they differ."""
+        stated = [
+            scene.statics.scaled(scales.get(scene.path, 1.0))
+            for scene, _ in self._scenes
+            if scene.statics is not None
+        ]
+        if not stated:
+            return None
+        from satcheck.scene.statics import joined_terms
+
+        return joined_terms(stated)
+
+
+def _own_body_rules(
+    rules: Sequence[BodyRule],
+    scene: SceneFile,
+    ids: Mapping[str, str],
+    bare: Sequence[Body | Unreadable],
+) -> Iterator[BodyRule]:
+    final = {id(b): ids[b.id] for b in scene.bodies} | {id(b): b.id for b in bare}
+    for rule in rules:
+        chosen = rule.bodies.select((*scene.bodies, *bare))
+        for body in chosen:
+            yield replace(rule, bodies=Selector.exactly(final[id(body)]))
+        if not chosen:
+            yield replace(rule, bodies=Selector.nobody())
 
 
 def _own_rules(

@@ -54,7 +54,7 @@ def length_in(units: str | None) -> Reader[float]:
 
     def read(value: Any) -> float:
         if not isinstance(value, str):
-            return _not_negative(value, "length")
+            return not_negative(value, "length")
         try:
             length = parse_length(value)
         except ValueError as error:
@@ -68,10 +68,11 @@ def length_in(units: str | None) -> Reader[float]:
 
 
 def _volume(value: Any) -> float:
-    return _not_negative(value, "volume")
+    return not_negative(value, "volume")
 
 
-def _not_negative(value: Any, what: str) -> float:
+def not_negative(value: Any, what: str) -> float:
+    """A number >= 0. what: its name in the message."""
     limit = number(value)
     if limit < 0:
         raise Wrong(f"a {what} >= 0 expected, not {shown(value)}")

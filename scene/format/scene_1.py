@@ -6,7 +6,7 @@ is an error, because it may be important.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from satcheck.core.shapes import PRIMITIVES, Primitive, primitive_of
 from satcheck.scene.format.entries import (
@@ -28,7 +28,12 @@ from satcheck.scene.format.values import boolean, known_unit, list_of, shown, te
 from satcheck.scene.motion import Motion
 from satcheck.scene.rules import Rule
 
-_RULES_KEYS = frozenset(("schema", "$schema", "name", "description", "units", "bodies", "rules"))
+if TYPE_CHECKING:
+    from satcheck.scene.statics import BodyRule, StaticsTerms
+
+_RULES_KEYS = frozenset(
+    ("schema", "$schema", "name", "description", "units", "bodies", "rules", "statics")
+)
 _KEYS = _RULES_KEYS | {"check_static", "ignore_within_groups", "motion"}
 _BODY_KEYS = PLACEMENT_KEYS | {
     *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
@@ -77,6 +82,7 @@ class _Reader:
         ignored = frozenset(top.read("ignore_within_groups", _texts, []))
         for key in ("$schema", "description"):  # not used here, but they have to be texts
             top.read(key, text, None)
+        rules, body_rules = self._rules(top, units)
         return SceneFile(
             path=self._parsed.path,
             name=top.read("name", text, self._parsed.location.stem),
@@ -84,7 +90,9 @@ class _Reader:
             bodies=bodies,
             ignore_within_groups=ignored,
             check_static=top.read("check_static", boolean, False),
-            rules=self._rules(top, units),
+            rules=rules,
+            body_rules=body_rules,
+            statics=self._statics(top, units),
             motions=self._motions(top, bodies if are_sound else None),
             issues=(
                 *unknown_units(units, self._parsed.path),
@@ -94,6 +102,7 @@ class _Reader:
 
     def read_rules(self, top: Table) -> SceneFile:
         units = top.read("units", text, None)
+        rules, body_rules = self._rules(top, units)
         return SceneFile(
             path=self._parsed.path,
             name=self._parsed.location.stem,
@@ -101,7 +110,9 @@ class _Reader:
             bodies=(),
             ignore_within_groups=frozenset(),
             check_static=False,
-            rules=self._rules(top, units),
+            rules=rules,
+            body_rules=body_rules,
+            statics=self._statics(top, units),
             motions=(),
             issues=tuple(unknown_units(units, self._parsed.path)),
         )
@@ -127,12 +138,29 @@ class _Reader:
             surface_tolerance=table.read("surface_tolerance", length_in(units), None),
         )
 
-    def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:
-        candidates = (
-            read_rule(table, units, self._parsed.path, self._line(table))
-            for table in top.tables("rules")
-        )
-        return tuple(rule for rule in candidates if rule is not None)
+    def _rules(
+        self, top: Table, units: str | None
+    ) -> tuple[tuple[Rule, ...], tuple[BodyRule, ...]]:
+        """Those of pairs, and those of bodies, which have the key `bodies`."""
+        of_pairs: list[Rule | None] = []
+        of_bodies: list[BodyRule | None] = []
+        path = self._parsed.path
+        for table in top.tables("rules"):
+            if "bodies" in table:
+                from satcheck.scene.format.statics_keys import read_body_rule
+
+                of_bodies.append(read_body_rule(table, path, self._line(table)))
+            else:
+                of_pairs.append(read_rule(table, units, path, self._line(table)))
+        return tuple(filter(None, of_pairs)), tuple(filter(None, of_bodies))
+
+    def _statics(self, top: Table, units: str | None) -> StaticsTerms | None:
+        table = top.table("statics")
+        if table is None:
+            return None
+        from satcheck.scene.format.statics_keys import read_statics
+
+        return read_statics(table, units)
 
     def _motions(self, top: Table, bodies: tuple[BodyEntry, ...] | None) -> tuple[Motion, ...]:
         moved: dict[str, str] = {}  # id of a body -> its motion

@@ -1,0 +1,99 @@
+"""Answers to questions about one body, and the parts of a report that state them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from satcheck.audit.statics.graph import Graph
+from satcheck.audit.statics.islands import Outcome
+from satcheck.audit.statics.subjects import Subject
+from satcheck.report.report import Severity
+from satcheck.report.statics import (
+    BodyIsland,
+    BodyRuleReport,
+    Question,
+    State,
+    SupportFinding,
+)
+from satcheck.scene.statics import BodyRule, BodyTerms
+
+if TYPE_CHECKING:
+    from satcheck.audit.statics.near import Floats
+    from satcheck.report.values import Vector
+
+NO_CHAIN = "it floats: no chain of contacts leads to a fixed body"
+FALLS = "no contact forces hold it: it starts to move"
+
+
+def answer_to(
+    question: Question, k: int, subject: Subject, graph: Graph, outcome: Outcome | None
+) -> tuple[State, str | None]:
+    """The answer, and the reason if it is not yes. outcome: of its island; None: it is fixed."""
+    if subject.fixed is not None or outcome is None:
+        return "yes", None
+    if graph.floating[k] == "yes":
+        return "no", NO_CHAIN
+    if outcome.tolerant == "no":
+        if k in outcome.motions:
+            return "no", FALLS
+        return "open", "it is in contact with bodies that start to move"
+    if graph.floating[k] == "open":
+        return "open", outcome.reason or "whether a chain of contacts holds it is not decided"
+    state = outcome.tolerant if question == "supported" else outcome.strict
+    if state == "yes":
+        return "yes", None
+    return "open", outcome.reason
+
+
+def finding(
+    body: str,
+    question: Question,
+    rule: BodyRule,
+    severity: str | None,
+    answer: State,
+    reason: str | None,
+) -> SupportFinding:
+    """severity: that a rule gives the errors of this body; None: the default."""
+    level: Severity = "none"
+    if answer == "open":
+        level = "error" if severity == "error" else "warning"
+    elif answer == "no":
+        level = "silenced" if severity == "none" else severity or "error"  # type: ignore[assignment]
+    return SupportFinding(body, question, rule.name, level, answer, reason)
+
+
+def island_report(
+    members: Sequence[int], subjects: Sequence[Subject], outcome: Outcome
+) -> BodyIsland:
+    return BodyIsland(
+        bodies=tuple(subjects[k].id for k in members),
+        tolerant=outcome.tolerant,
+        strict=outcome.strict,
+        missing=outcome.missing,
+        reason=outcome.reason,
+    )
+
+
+def rule_report(rule: BodyRule) -> BodyRuleReport:
+    return BodyRuleReport(
+        bodies=rule.bodies.text,
+        supported=rule.supported,
+        stable=rule.stable,
+        mounted=rule.mounted,
+        density=rule.density,
+        mass=rule.mass,
+        friction=rule.friction,
+        severity=rule.severity,
+        reason=rule.reason,
+        where=rule.where,
+    )
+
+
+def vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
+
+
+def asks(terms: BodyTerms) -> bool:
+    return terms.asks("supported") is not None or terms.asks("stable") is not None

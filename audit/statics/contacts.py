@@ -1,0 +1,192 @@
+"""Contact points of two bodies whose surfaces are within a tolerance of each other.
+
+Exact contacts do not suffice for forces: a turned box misses its table by 1e-17. So a contact is a
+vertex near a face, or an edge near an edge across it, with a normal that separates the two bodies
+there. A patch comes out as its extreme points, and forces at other points of a patch are mixtures
+of theirs. Where edges are parallel, or corners meet, the vertices give the extreme normals.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from msgspec import Struct
+
+from satcheck.audit.statics.features import Features
+from satcheck.audit.statics.near import Floats, Indices, cross, near_boxes
+
+# Edges whose directions differ by less than this sine are parallel: their vertices decide.
+PARALLEL = 1e-6
+
+
+class Points(Struct, frozen=True):
+    """Contact points of A and B. at: (n, 3) world. normals: (n, 3) unit, from B to A: a force along
+    them pushes A away from B. heights: (n,) of A over B along the normal; below 0: an overlap.
+    strict: (n,) the contact is as near as the nearest one, and no tolerance bends its normal or
+    widens its place."""
+
+    at: Floats
+    normals: Floats
+    heights: Floats
+    strict: NDArrayBool
+
+    def __len__(self) -> int:
+        return len(self.at)
+
+    def turned(self) -> Points:
+        """The same contacts of B and A."""
+        return Points(self.at, -self.normals, self.heights, self.strict)
+
+
+NDArrayBool = np.ndarray[tuple[int], np.dtype[np.bool_]]
+NOBODY = Points(np.empty((0, 3)), np.empty((0, 3)), np.empty(0), np.empty(0, dtype=bool))
+
+
+def contact_points(a: Features, b: Features, tolerance: float, rounding: float) -> Points:
+    """The contacts of two closed meshes within the tolerance. rounding: how far coordinates may be
+    off by themselves; strict contacts are no farther than that beyond the nearest one."""
+    parts = [
+        _vertices_on_faces(a, b, tolerance, rounding),
+        _vertices_on_faces(b, a, tolerance, rounding, turned=True),
+        _edges_on_edges(a, b, tolerance, rounding),
+    ]
+    parts = [part for part in parts if len(part)]
+    return extreme(joined(parts), rounding) if parts else NOBODY
+
+
+def joined(parts: list[Points]) -> Points:
+    """Contacts of one pair together; the nearest of all decides which are strict."""
+    if not parts:
+        return NOBODY
+    return Points(
+        np.concatenate([part.at for part in parts]),
+        np.concatenate([part.normals for part in parts]),
+        np.concatenate([part.heights for part in parts]),
+        np.concatenate([part.strict for part in parts]),
+    )
+
+
+def extreme(points: Points, rounding: float) -> Points:
+    """Each contact once, and only those as near as the nearest one strict."""
+    nearest = points.heights[points.strict].min(initial=np.inf)
+    strict = points.strict & (points.heights <= nearest + 2 * rounding)
+    # Contacts of the same place and normal: the strict ones first.
+    keys = np.column_stack(
+        [np.round(points.at / (4 * rounding)), np.round(points.normals * 1e7), ~strict]
+    )
+    order = np.lexsort(keys.T[::-1])
+    ordered = keys[order][:, :6]
+    first = np.r_[True, (ordered[1:] != ordered[:-1]).any(axis=1)]
+    kept = np.sort(order[first])
+    return Points(points.at[kept], points.normals[kept], points.heights[kept], strict[kept])
+
+
+def _vertices_on_faces(
+    a: Features, b: Features, tolerance: float, rounding: float, *, turned: bool = False
+) -> Points:
+    """Vertices of A over faces of B."""
+    corners = b.corners
+    used = a.neighbours[a.first[:-1][a.first[:-1] < a.first[1:]], 0]
+    at = a.points[used]
+    i, j = near_boxes(at, at, corners.min(axis=1), corners.max(axis=1), tolerance)
+    i = used[i]
+    n = b.normals[j]
+    facing = np.einsum("ci,ci->c", n, a.point_normals[i]) < 0
+    i, j, n = i[facing], j[facing], n[facing]
+    foot = nearest_on_triangles(a.points[i], corners[j])
+    step = a.points[i] - foot
+    height = np.einsum("ci,ci->c", n, step)
+    aside = np.linalg.norm(step - n * height[:, None], axis=1)
+    near = np.einsum("ci,ci->c", step, step) <= tolerance * tolerance
+    i, n, foot, height, aside = i[near], n[near], foot[near], height[near], aside[near]
+    lowest = _lowest_neighbour(a, i, n)
+    kept = lowest >= -2 * tolerance
+    strict = (lowest >= -2 * rounding) & (aside <= rounding)
+    points = Points(foot[kept], n[kept], height[kept], strict[kept])
+    return points.turned() if turned else points
+
+
+def _lowest_neighbour(a: Features, vertices: Indices, normals: Floats) -> Floats:
+    """How far the lowest neighbour of each vertex lies over it, along the normal."""
+    counts = a.first[vertices + 1] - a.first[vertices]
+    if not len(vertices):
+        return np.empty(0)
+    starts = np.cumsum(counts) - counts
+    place = np.repeat(a.first[vertices] - starts, counts) + np.arange(counts.sum())
+    step = a.points[a.neighbours[place, 1]] - a.points[a.neighbours[place, 0]]
+    heights = np.einsum("ci,ci->c", step, np.repeat(normals, counts, axis=0))
+    lowest: Floats = np.minimum.reduceat(heights, starts)
+    return lowest
+
+
+def _edges_on_edges(a: Features, b: Features, tolerance: float, rounding: float) -> Points:
+    """Convex edges of A across convex edges of B."""
+    of_a, of_b = a.points[a.ends], b.points[b.ends]
+    i, j = near_boxes(
+        of_a.min(axis=1), of_a.max(axis=1), of_b.min(axis=1), of_b.max(axis=1), tolerance
+    )
+    if not i.size:
+        return NOBODY
+    p, q = of_a[i], of_b[j]
+    u, v = p[:, 1] - p[:, 0], q[:, 1] - q[:, 0]
+    lengths = np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1)
+    n = cross(u, v)
+    sine = np.linalg.norm(n, axis=1)
+    crossing = sine > PARALLEL * lengths
+    i, j, p, q, u, v = i[crossing], j[crossing], p[crossing], q[crossing], u[crossing], v[crossing]
+    n = n[crossing] / sine[crossing, None]
+    # The normal points from B to A, away from the material of both.
+    out = np.einsum("ci,ci->c", n, b.edge_normals[j] - a.edge_normals[i])
+    n = n * np.where(out < 0, -1.0, 1.0)[:, None]
+    s, t = _nearest_on_lines(p[:, 0], u, q[:, 0], v)
+    on_a = p[:, 0] + u * np.clip(s, 0.0, 1.0)[:, None]
+    on_b = q[:, 0] + v * np.clip(t, 0.0, 1.0)[:, None]
+    step = on_a - on_b
+    height = np.einsum("ci,ci->c", n, step)
+    aside = np.linalg.norm(step - n * height[:, None], axis=1)
+    low_a = np.einsum("ckj,cj->ck", a.points[a.wings[i]] - p[:, :1], n).min(axis=1)
+    high_b = np.einsum("ckj,cj->ck", b.points[b.wings[j]] - q[:, :1], n).max(axis=1)
+    outward = (np.einsum("ci,ci->c", n, a.edge_normals[i]) < 0) & (
+        np.einsum("ci,ci->c", n, b.edge_normals[j]) > 0
+    )
+    depth = np.maximum(-low_a, high_b)
+    kept = outward & (np.einsum("ci,ci->c", step, step) <= tolerance**2) & (depth <= 2 * tolerance)
+    strict = (depth <= 2 * rounding) & (aside <= rounding)
+    return Points(0.5 * (on_a + on_b)[kept], n[kept], height[kept], strict[kept])
+
+
+def _nearest_on_lines(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """Where the lines p + s u and q + t v, which are not parallel, are nearest."""
+    w = p - q
+    uu, uv, vv = (np.einsum("ci,ci->c", x, y) for x, y in ((u, u), (u, v), (v, v)))
+    uw, vw = np.einsum("ci,ci->c", u, w), np.einsum("ci,ci->c", v, w)
+    across = cross(u, v)
+    area = np.einsum("ci,ci->c", across, across)
+    return np.asarray((uv * vw - vv * uw) / area), np.asarray((uu * vw - uv * uw) / area)
+
+
+def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
+    """The nearest point of triangle k to point k. points: (n, 3), corners: (n, 3, 3).
+
+    C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, for many triangles: the
+    foot on the plane if it is inside, else the nearest of three edges.
+    """
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    ab, ac = b - a, c - a
+    n = cross(ab, ac)
+    step = points - a
+    area = np.einsum("ci,ci->c", n, n)
+    over = np.einsum("ci,ci->c", n, step) / area
+    foot = points - n * over[:, None]
+    inside = np.ones(len(points), dtype=bool)
+    best, nearest = foot, np.full(len(points), np.inf)
+    for p, q in ((a, b), (b, c), (c, a)):
+        along = q - p
+        inside &= np.einsum("ci,ci->c", cross(along, foot - p), n) >= 0
+        share = np.einsum("ci,ci->c", points - p, along) / np.einsum("ci,ci->c", along, along)
+        on_edge = p + along * np.clip(share, 0.0, 1.0)[:, None]
+        away = points - on_edge
+        squared = np.einsum("ci,ci->c", away, away)
+        closer = squared < nearest
+        nearest = np.where(closer, squared, nearest)
+        best = np.where(closer[:, None], on_edge, best)
+    return np.asarray(np.where(inside[:, None], foot, best))

@@ -1,0 +1,186 @@
+"""The answers to the body rules of a scene, as a part of its report."""
+
+from __future__ import annotations
+
+from time import perf_counter_ns
+from typing import TYPE_CHECKING
+
+from satcheck.audit.bodies.placed_bodies import UNUSED_RULE, PlacedBodies
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.statics.answers import (
+    answer_to,
+    asks,
+    finding,
+    island_report,
+    rule_report,
+    vector,
+)
+from satcheck.audit.statics.equilibrium import require_solver
+from satcheck.audit.statics.graph import graph_of
+from satcheck.audit.statics.islands import Outcome, outcome_of
+from satcheck.audit.statics.subjects import subjects_of
+from satcheck.audit.statics.terms import terms_for
+from satcheck.audit.statics.touching import Contact, contacts_of
+from satcheck.core.errors import SatcheckError
+from satcheck.report.report import Issue
+from satcheck.report.statics import (
+    BodyContact,
+    ContactPoint,
+    FirstMotion,
+    Question,
+    Statics,
+    SupportedBody,
+    SupportFinding,
+)
+from satcheck.scene.statics import QUESTIONS, BodyRule, terms_of
+
+if TYPE_CHECKING:
+    from satcheck.audit.statics.near import Floats
+    from satcheck.scene import Scene
+
+NOT_SOLVED = Outcome("open", "open", {}, {}, reason="no rule asks about a body of this island")
+
+
+class Support:
+    """What was found about the bodies of a scene. unusable: id -> why a body cannot be used."""
+
+    def __init__(self, scene: Scene, bodies: PlacedBodies, settings: Settings) -> None:
+        """Raises SatcheckError: `no-solver`; `units-unknown` if bodies have no common unit."""
+        if settings.planar is not None:
+            raise SatcheckError("planar-only", "rules of support need bodies in space: no --planar")
+        require_solver()
+        scene.require_one_unit()
+        started = perf_counter_ns()
+        self.rules = scene.body_rules
+        members = scene.in_order()
+        everything = terms_of(members, scene.body_rules)
+        index = list(bodies.placed)
+        self.unusable = {
+            body.id: (body.reason, everything[k]) for k, body in bodies.unusable.items()
+        }
+        self.subjects = subjects_of(
+            [bodies.placed[k] for k in index], [everything[k] for k in index]
+        )
+        free = [subject.body for subject in self.subjects if subject.fixed is None]
+        self.terms = terms_for(scene, free)
+        alone = not self.unusable
+        self.contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
+        self.graph = graph_of(self.subjects, self.contacts, alone=alone)
+        self.outcomes = self._outcomes(alone)
+        self.microseconds = (perf_counter_ns() - started) / 1000.0
+
+    def _outcomes(self, alone: bool) -> list[Outcome]:
+        """One for each island. Islands that no rule asks about, and those in the air, are not
+        solved."""
+        by_island: list[list[tuple[int, Contact]]] = [[] for _ in self.graph.islands]
+        for index, contact in enumerate(self.contacts):
+            of_both = {self.graph.island.get(contact.a), self.graph.island.get(contact.b)}
+            for island in of_both - {None}:
+                assert island is not None
+                by_island[island].append((index, contact))
+        return [
+            outcome_of(members, self.subjects, contacts, self.terms, alone=alone)
+            if any(asks(self.subjects[k].terms) for k in members)
+            else NOT_SOLVED
+            for members, contacts in zip(self.graph.islands, by_island, strict=True)
+        ]
+
+    def stated(self) -> Statics:
+        names = dict.fromkeys(
+            rule.name for rule in self.rules if any(getattr(rule, q) for q in QUESTIONS)
+        )
+        forces = {key: force for outcome in self.outcomes for key, force in outcome.forces.items()}
+        return Statics(
+            gravity=self.terms.gravity,
+            friction=self.terms.friction,
+            tolerance=self.terms.tolerance,
+            stated=self.terms.stated,
+            asked_by=tuple(names),
+            rules=tuple(map(rule_report, self.rules)),
+            bodies=tuple(self._body(k) for k in range(len(self.subjects))),
+            contacts=tuple(self._contact(k, forces) for k in range(len(self.contacts))),
+            islands=tuple(
+                island_report(members, self.subjects, outcome)
+                for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
+            ),
+            findings=tuple(self._findings()),
+            pairs=self.pairs,
+            microseconds=self.microseconds,
+        )
+
+    def issues(self, scene: Scene) -> list[Issue]:
+        """Rules that select no body."""
+        members = scene.in_order()
+        return [
+            Issue(
+                UNUSED_RULE,
+                "warning",
+                None,
+                rule.file,
+                f"{rule.name}: the rule selects no body",
+                rule.line,
+            )
+            for rule in self.rules
+            if not rule.bodies.select(members)
+        ]
+
+    def _body(self, k: int) -> SupportedBody:
+        subject, graph = self.subjects[k], self.graph
+        island = graph.island.get(k)
+        motion = None if island is None else self.outcomes[island].motions.get(k)
+        return SupportedBody(
+            id=subject.id,
+            fixed=subject.fixed,
+            mass=subject.mass,
+            centre=None
+            if subject.mass is None or subject.centre is None
+            else vector(subject.centre),
+            island=island,
+            floating=graph.floating[k],
+            held_by=tuple(self.subjects[n].id for n in graph.touching[k]),
+            chain=tuple(self.subjects[n].id for n in graph.chains[k]),
+            motion=None if motion is None else FirstMotion(vector(motion[:3]), vector(motion[3:])),
+        )
+
+    def _contact(self, k: int, forces: dict[tuple[int, int], Floats]) -> BodyContact:
+        contact = self.contacts[k]
+        one, other = self.subjects[contact.a], self.subjects[contact.b]
+        points = contact.points
+        return BodyContact(
+            a=one.id,
+            b=other.id,
+            touch=contact.touch,
+            friction=self.terms.friction_of(one.terms, other.terms),
+            complete=contact.complete,
+            points=tuple(
+                ContactPoint(
+                    vector(points.at[n]),
+                    vector(points.normals[n]),
+                    bool(points.strict[n]),
+                    vector(forces[k, n]) if (k, n) in forces else None,
+                )
+                for n in range(len(points))
+            ),
+        )
+
+    def _findings(self) -> list[SupportFinding]:
+        findings = []
+        for k, subject in enumerate(self.subjects):
+            for question in QUESTIONS:
+                rule = subject.terms.asks(question)
+                if rule is not None:
+                    findings.append(self._finding(k, question, rule))
+        for id_, (reason, terms) in self.unusable.items():
+            for question in QUESTIONS:
+                rule = terms.asks(question)
+                if rule is not None:
+                    findings.append(
+                        finding(id_, question, rule, terms.value("severity"), "open", reason)
+                    )
+        return findings
+
+    def _finding(self, k: int, question: Question, rule: BodyRule) -> SupportFinding:
+        subject, graph = self.subjects[k], self.graph
+        outcome = None if subject.fixed is not None else self.outcomes[graph.island[k]]
+        answer, reason = answer_to(question, k, subject, graph, outcome)
+        return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)

@@ -1,0 +1,128 @@
+"""Which bodies touch, and where.
+
+The ladder decides which pairs are farther apart than the tolerance, and which overlap by more; that
+is proven. The contact points of the others are found on their features.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from msgspec import Struct
+
+from satcheck.audit.bodies.boxes import largest_coordinate
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.finding import examine
+from satcheck.audit.ladder.core_climb import start_climbs
+from satcheck.audit.request.planner import request_for
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.request.trace import Trace
+from satcheck.audit.statics.balls import ball_on_ball, ball_on_mesh
+from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
+from satcheck.audit.statics.features import Features
+from satcheck.audit.statics.near import near_boxes
+from satcheck.audit.statics.subjects import Ball, Subject
+from satcheck.core.risky_steps import not_for_lack_of_memory
+from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Finding
+from satcheck.report.statics import Touch
+
+# Coordinates are off by the precision of the files, up to this share of the tolerance.
+PRECISION_SHARE = 0.01
+
+
+class Contact(Struct, frozen=True):
+    """Two subjects by number, the first below the second. complete: no contact within the tolerance
+    is missing. reason: why the touch is unknown."""
+
+    a: int
+    b: int
+    touch: Touch
+    complete: bool
+    points: Points = NOBODY
+    reason: str | None = None
+
+
+def contacts_of(
+    subjects: Sequence[Subject], tolerance: float, settings: Settings
+) -> tuple[list[Contact], int]:
+    """The contacts of free bodies, and the number of pairs that were looked at."""
+    low = np.array([subject.body.bounds[0] for subject in subjects])
+    high = np.array([subject.body.bounds[1] for subject in subjects])
+    fixed = np.array([subject.fixed is not None for subject in subjects])
+    i, j = near_boxes(low, high, low, high, tolerance)
+    kept = (i < j) & ~(fixed[i] & fixed[j])
+    numbers = sorted(zip(i[kept].tolist(), j[kept].tolist(), strict=True))
+    findings = _relations(subjects, numbers, tolerance, settings)
+    contacts = []
+    for (a, b), finding in zip(numbers, findings, strict=True):
+        contact = _contact(subjects, a, b, finding, tolerance)
+        if contact is not None:
+            contacts.append(contact)
+    return contacts, len(numbers)
+
+
+def _relations(
+    subjects: Sequence[Subject],
+    numbers: Sequence[tuple[int, int]],
+    tolerance: float,
+    settings: Settings,
+) -> list[Finding | str]:
+    """A finding of each pair with this tolerance, and of nothing else; or why there is none."""
+    if not numbers:
+        return []
+    plain = Settings(
+        tolerance=tolerance, depth=False, allow_open=settings.allow_open, jobs=settings.jobs
+    )
+    request = request_for(plain, composed=True)
+    pairs = [Pair(subjects[a].body, subjects[b].body, plain, request) for a, b in numbers]
+    climbs = start_climbs(pairs, settings.jobs)()
+    findings: list[Finding | str] = []
+    for pair, climb in zip(pairs, climbs, strict=True):
+        try:
+            findings.append(examine(pair, Trace(), climb).finding)
+        except Exception as error:  # noqa: BLE001 the other pairs are still looked at
+            not_for_lack_of_memory(error)
+            findings.append(f"internal error: {type(error).__name__}: {error}")
+    return findings
+
+
+def _contact(
+    subjects: Sequence[Subject], a: int, b: int, finding: Finding | str, tolerance: float
+) -> Contact | None:
+    """None: they are farther apart than the tolerance."""
+    if isinstance(finding, str):
+        return Contact(a, b, "unknown", False, reason=finding)
+    if finding.undecided in ("relation", "inside") or finding.quality == "estimate":
+        reason = finding.reason or "how they relate is not decided"
+        return Contact(a, b, "unknown", False, reason=reason)
+    if finding.relation in ("separated", "near"):
+        return None
+    if finding.relation != "touching":
+        return Contact(a, b, "overlapping", False)
+    one, other = subjects[a], subjects[b]
+    points = _points(one, other, tolerance)
+    complete = one.complete and other.complete and len(points) > 0
+    return Contact(a, b, "touching", complete, points)
+
+
+def _points(one: Subject, other: Subject, tolerance: float) -> Points:
+    rounding = _rounding(one, other, tolerance)
+    a, b = one.form, other.form
+    if a is None or b is None:
+        return NOBODY
+    if isinstance(a, Features) and isinstance(b, Features):
+        return contact_points(a, b, tolerance, rounding)
+    if isinstance(a, Ball) and isinstance(b, Ball):
+        return ball_on_ball(a.centre, a.radius, b.centre, b.radius, tolerance)
+    if isinstance(a, Ball) and isinstance(b, Features):
+        return ball_on_mesh(a.centre, a.radius, b, tolerance, rounding)
+    assert isinstance(a, Features)
+    assert isinstance(b, Ball)
+    return ball_on_mesh(b.centre, b.radius, a, tolerance, rounding).turned()
+
+
+def _rounding(one: Subject, other: Subject, tolerance: float) -> float:
+    written = min(one.body.resolution + other.body.resolution, PRECISION_SHARE * tolerance)
+    return written + rounding_pad(largest_coordinate(one.body.bounds, other.body.bounds))

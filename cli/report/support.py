@@ -1,0 +1,100 @@
+"""What a table says about the support of bodies: those that fail first, and what holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from satcheck.audit.severity import is_unsupported
+from satcheck.cli.report.lines import BOLD, BOLD_RED, YELLOW, fitted
+from satcheck.cli.report.numbers import number, vector
+from satcheck.cli.report.words import counted, with_unit
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.cli.output import Page
+    from satcheck.report.report import Report
+    from satcheck.report.statics import Statics, SupportedBody, SupportFinding
+
+MOST_BODIES = 40  # JSON has them all
+MOST_LINKS = 5  # of a chain
+_RANK = {"no": 0, "open": 1, "yes": 2}
+_WORDS = {"yes": "{}", "no": "not {}", "open": "{} is open"}
+_STYLES = {"no": BOLD_RED, "open": YELLOW, "yes": ""}
+
+
+def support_lines(report: Report, page: Page) -> list[str]:
+    """The lines between the table and the remarks."""
+    statics = report.support
+    if statics is None:
+        return []
+    lines = fitted(f"Support: {', '.join(_assumptions(statics, report.units))}", page, BOLD)
+    bodies = {body.id: body for body in statics.bodies}
+    answers = _by_body(statics)
+    for body, findings in answers[:MOST_BODIES]:
+        style = _STYLES[findings[0].answer]
+        lines += fitted(f"  {_answers(body, findings, bodies.get(body))}", page, style)
+    if rest := len(answers) - MOST_BODIES:
+        lines += (
+            fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page) if rest > 0 else []
+        )
+    return lines
+
+
+def failed_support(report: Report) -> list[str]:
+    """`top is not stable: no contact forces hold it`, of each failing body once."""
+    statics = report.support
+    if statics is None:
+        return []
+    fail_on = report.settings.fail_on
+    said = {}
+    for finding in statics.findings:
+        if is_unsupported(finding, fail_on) and finding.body not in said:
+            said[finding.body] = f"{finding.body} is not {finding.question}: {finding.reason}"
+    return list(said.values())
+
+
+def open_support(report: Report) -> list[str]:
+    """`the support of 2 bodies is open`."""
+    statics = report.support
+    count = len({f.body for f in statics.findings if f.answer == "open"}) if statics else 0
+    return [f"the support of {counted(count, 'body', 'bodies')} is open"] if count else []
+
+
+def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:
+    """The findings of each body, the worst first."""
+    groups = [(body, list(of)) for body, of in groupby(statics.findings, key=lambda f: f.body)]
+    for _, findings in groups:
+        findings.sort(key=lambda f: _RANK[f.answer])
+    return sorted(groups, key=lambda group: _RANK[group[1][0].answer])
+
+
+def _answers(body: str, findings: list[SupportFinding], stated: SupportedBody | None) -> str:
+    """`top: not stable: no forces hold it; held by base; chain: top, base, floor`."""
+    said = ", ".join(_WORDS[f.answer].format(f.question) for f in findings)
+    reasons = dict.fromkeys(f.reason for f in findings if f.reason)
+    parts = [f"{body}: {said}", *reasons]
+    if stated is not None:
+        parts += _held(stated)
+    return "; ".join(map(str, parts))
+
+
+def _held(body: SupportedBody) -> Iterator[str]:
+    if body.fixed is not None:
+        yield body.fixed
+    elif len(body.chain) > 1:
+        links = body.chain[1:]
+        shown = " > ".join(links[:MOST_LINKS])
+        yield f"chain: {shown}" + (" > ..." if len(links) > MOST_LINKS else "")
+
+
+def _assumptions(statics: Statics, units: str | None) -> Iterator[str]:
+    unit = unit_of(units)
+    values = {
+        "gravity": vector(statics.gravity),
+        "friction": number(statics.friction),
+        "tolerance": with_unit(number(statics.tolerance), unit),
+    }
+    for name, value in values.items():
+        yield f"{name} {value}" + ("" if name in statics.stated else " (assumed)")

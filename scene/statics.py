@@ -1,0 +1,136 @@
+"""What a scene asks about support: rules of bodies, and what gravity and friction are.
+
+A body rule applies to every body that its selector selects. If several rules for a body set the
+same key, the last one counts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.core.conventions import Vector
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.rules import SEVERITIES, Selectable, Selector, Severity
+
+# What a body rule asks of a body, and what it states about a body.
+QUESTIONS: tuple[Literal["supported", "stable"], ...] = ("supported", "stable")
+FACTS = ("mounted", "density", "mass", "friction")
+KEYS = (*QUESTIONS, *FACTS, "severity")
+
+FRICTION = 0.5  # an assumption, for scenes that state none; reports show it
+
+
+class BodyRule(Struct, frozen=True, kw_only=True):
+    """Questions about single bodies, and facts for their answers. None: the rule does not set the
+    key.
+
+    supported: contacts within the tolerance must be able to carry the body. stable: so must its
+    nearest contacts alone. False revokes an earlier question. mounted: fixed to something, as a
+    lamp to its ceiling; holds like a static body and is never asked to stand. density: mass by
+    cubed unit of the scene. mass: of each of these bodies; overrides the density. friction: of its
+    contacts; of two bodies the smaller one counts. severity: of a failed question.
+    reason, where, file, line: as for a `Rule`.
+
+    Raises SatcheckError `bad-rule`: a key is out of range, or no key has an effect.
+    """
+
+    bodies: Selector
+    supported: bool | None = None
+    stable: bool | None = None
+    mounted: bool | None = None
+    density: float | None = None
+    mass: float | None = None
+    friction: float | None = None
+    severity: Severity | None = None
+    reason: str = ""
+    where: str = ""
+    file: str | None = None
+    line: int | None = None
+
+    def __post_init__(self) -> None:
+        for key in ("density", "mass"):
+            value = getattr(self, key)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise _refused(f"{key} must be a finite number > 0, not {value!r}")
+        if self.friction is not None and not (math.isfinite(self.friction) and self.friction >= 0):
+            raise _refused(f"friction must be a finite number >= 0, not {self.friction!r}")
+        if self.severity not in (None, *SEVERITIES):
+            names = ", ".join(SEVERITIES)
+            raise _refused(f"severity must be one of {names}, not {self.severity!r}")
+        if all(getattr(self, key) is None for key in KEYS):
+            raise _refused(f"the rule has no effect: give it one of {', '.join(KEYS)}")
+
+    def scaled(self, scale: float) -> BodyRule:
+        """The same rule in another unit of length, which is `scale` times smaller."""
+        if scale == 1.0 or self.density is None:
+            return self
+        return replace(self, density=self.density / scale**3)
+
+    @property
+    def name(self) -> str:
+        """Its place in a file, else its selector."""
+        return self.where or self.bodies.text
+
+
+class StaticsTerms(Struct, frozen=True, kw_only=True):
+    """What a scene states for all its bodies. None: not stated.
+
+    gravity: the direction in which things fall, not 0; its length does not count. friction: the
+    Coulomb coefficient. tolerance: a gap, or an overlap, up to this is a contact.
+    """
+
+    gravity: Vector | None = None
+    friction: float | None = None
+    tolerance: float | None = None
+
+    def scaled(self, scale: float) -> StaticsTerms:
+        """The same in another unit of length."""
+        if self.tolerance is None:
+            return self
+        return replace(self, tolerance=self.tolerance * scale)
+
+
+class BodyTerms(Struct, frozen=True):
+    """What all rules together say about one body, with the rule that asks each question."""
+
+    rules: dict[str, BodyRule]
+
+    def value(self, key: str) -> Any:
+        rule = self.rules.get(key)
+        return None if rule is None else getattr(rule, key)
+
+    def asks(self, question: str) -> BodyRule | None:
+        """The rule that asks this question; None: none does."""
+        return self.rules.get(question) if self.value(question) else None
+
+
+def terms_of(bodies: Sequence[Selectable], rules: Sequence[BodyRule]) -> list[BodyTerms]:
+    """What the rules say about each body."""
+    found: dict[str, dict[str, BodyRule]] = {body.id: {} for body in bodies}
+    for rule in rules:
+        set_keys = [key for key in KEYS if getattr(rule, key) is not None]
+        for body in rule.bodies.select(bodies):
+            found[body.id] |= dict.fromkeys(set_keys, rule)
+    return [BodyTerms(found[body.id]) for body in bodies]
+
+
+def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:
+    """The terms of several files together. Raises SatcheckError `bad-rule` where they differ."""
+    values: dict[str, Any] = {}
+    for terms in stated:
+        for key in StaticsTerms.__struct_fields__:
+            value = getattr(terms, key)
+            if value is None:
+                continue
+            if values.setdefault(key, value) != value:
+                raise _refused(f"two inputs state another {key} in [statics]: state it once")
+    return StaticsTerms(**values)
+
+
+def _refused(message: str) -> SatcheckError:
+    return SatcheckError("bad-rule", message)
