@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 from msgspec import Struct
 
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.scene_builder import Split
 
 
@@ -19,7 +18,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
 
     split: Split | None = None
     packages: Mapping[str, str] | None = None
-    geometry: GeometryKind = "collision"
+    geometry: GeometryKind | None = None
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()

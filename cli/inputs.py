@@ -17,7 +17,7 @@ from satcheck.cli.report.words import counted, issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.input_kind import GeometryKind, kind_of
+from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -25,7 +25,7 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.read_options import GeometryKind, Purpose, ReadOptions
 from satcheck.scene.scene_builder import Split
 
 
@@ -44,6 +44,7 @@ class Inputs(Struct, frozen=True):
     seed: int | None = None
     rules: tuple[Path, ...] = ()
     time: float | None = None
+    purpose: tuple[Purpose, ...] = ()
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -64,14 +65,14 @@ class Inputs(Struct, frozen=True):
 
     @property
     def reading(self) -> ReadOptions:
-        return ReadOptions(time=self.time)
+        return ReadOptions(time=self.time, purpose=self.purpose or None)
 
     @property
     def load_options(self) -> LoadOptions:
         return LoadOptions(
             split=self.split,
             packages={name: str(folder) for name, folder in (self.packages or {}).items()},
-            geometry=self.geometry or "collision",
+            geometry=self.geometry,
             allow_outside=self.allow_outside,
             units=self.units,
             rules=tuple(map(str, self.rules)),

@@ -14,8 +14,8 @@ from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
 from satcheck.cli.lengths import length
 from satcheck.core.conventions import PLANES
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.path_kind import is_folder
+from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.units import MICROMETRES
 
 SPLITS = ("nodes", "components", "none")
@@ -134,7 +134,7 @@ root_option = click.option(
 outside_option = click.option(
     "--allow-outside",
     is_flag=True,
-    help="Read files outside of the folder of the scene, robot or glTF file that names them.",
+    help="Read what a file names outside of its folder.",
 )
 # About what reading a file may do.
 reading_options = _together(
@@ -293,11 +293,21 @@ package_option = click.option(
     callback=_packages,
     help="The folder of a package or model, or of a folder in it (arm/meshes). Repeatable.",
 )
-geometry_option = click.option(
-    "--geometry",
-    type=click.Choice(get_args(GeometryKind)),
-    metavar="KIND",
-    help="Of robots: collision (the default) or visual.",
+# That choose between the geometries of a file.
+geometry_options = _together(
+    click.option(
+        "--geometry",
+        type=click.Choice(get_args(GeometryKind)),
+        metavar="KIND",
+        help="collision (default: robots) or visual (default: USD).",
+    ),
+    click.option(
+        "--purpose",
+        multiple=True,
+        type=click.Choice(get_args(Purpose)),
+        metavar="NAME",
+        help="Of USD prims to draw: render (the default), proxy or guide. Repeatable.",
+    ),
 )
 # That pose robots.
 pose_options = _together(

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from satcheck.report.values import Value
 
 
 class StatedReading(Value, frozen=True, kw_only=True):
     """The options that count for the formats of these files; None: no such file, or the default.
 
-    time: of animations, in seconds; None: the pose that the file stores.
+    time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
+    the first samples. geometry: of USD, "collision" or "visual". purpose: of the prims of USD that
+    are drawn, beside those without a purpose.
     """
 
     time: float | None = None
+    geometry: Literal["collision", "visual"] | None = None
+    purpose: tuple[Literal["render", "proxy", "guide"], ...] | None = None

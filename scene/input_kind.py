@@ -11,7 +11,6 @@ from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import DOCUMENTS, FORMATS
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
-GeometryKind = Literal["collision", "visual"]  # the elements of the links of a robot
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 SDF_SUFFIXES = frozenset((".sdf", ".world"))

@@ -7,17 +7,19 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
-from satcheck.scene.input_kind import GeometryKind, kind_of
+from satcheck.scene.input_kind import kind_of
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     MeshFiles,
 )
 from satcheck.scene.plain_ids import plain_ids
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.scene_builder import SceneBuilder, Split
 from satcheck.scene.units import MICROMETRES, unit_of
 
@@ -40,7 +42,7 @@ def load_scene(
     hashed: bool = True,
     units: str | None = None,
     rules: Sequence[str | Path] = (),
-    geometry: GeometryKind = "collision",
+    geometry: GeometryKind | None = None,
     known: KnownMeshes | None = None,
     reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
 ) -> Scene:
@@ -67,7 +69,8 @@ def load_scene(
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
     rules: files of rules, about all bodies. They count after those of the scenes.
-    geometry: which elements of the links of robots are bodies: "collision" or "visual".
+    geometry: which elements of the links of robots are bodies, "collision" or "visual"; of USD the
+    colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
     known: mesh files that stay in memory from scene to scene.
     reading: options for formats that leave a choice, such as the time of an animation.
@@ -76,6 +79,8 @@ def load_scene(
     is loaded. Raises SceneFileError for an invalid scene file or robot.
     """
     given = _as_texts(paths)
+    if geometry is not None:
+        reading = replace(reading, geometry=geometry)
     files = MeshFiles(
         seconds_per_file,
         megabytes_per_file,
@@ -97,7 +102,7 @@ def load_scene(
         if kind == "scene":
             builder.add_scene(scenes[path])
         elif kind == "robot":
-            builder.add_robot(path, Path(path), packages, allow_outside, geometry)
+            builder.add_robot(path, Path(path), packages, allow_outside, geometry or "collision")
         elif kind == "srdf":
             builder.add_srdf(path, Path(path))
         elif kind == "document":

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Literal
 
-from msgspec import Struct
+from msgspec import Struct, convert
+
+GeometryKind = Literal["collision", "visual"]
+Purpose = Literal["render", "proxy", "guide"]
 
 # The options that count for files of a format.
 OPTIONS_OF: dict[str, tuple[str, ...]] = {
     "glb": ("time",),
     "gltf": ("time",),
+    "usd": ("time", "geometry", "purpose"),
 }
 
 
@@ -18,10 +22,15 @@ class ReadOptions(Struct, frozen=True):
     """Options for reading files. They decide the geometry of a check, so a report states them, and
     whoever reads the same files again needs the same options.
 
-    time: of animations, in seconds; None: the pose that the file stores.
+    time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
+    the first samples. geometry: collision: the colliders of a simulation are bodies; visual or
+    None: what is drawn. purpose: of the prims that are drawn, beside those without a purpose; None:
+    render.
     """
 
     time: float | None = None
+    geometry: GeometryKind | None = None
+    purpose: tuple[Purpose, ...] | None = None
 
     def stated(self, formats: Iterable[str]) -> dict[str, Any] | None:
         """The options that count for files of these formats, by name; None: no option counts."""
@@ -32,4 +41,4 @@ class ReadOptions(Struct, frozen=True):
 
 def as_stated(stated: Mapping[str, Any] | None) -> ReadOptions:
     """The options as a report states them."""
-    return ReadOptions(**{k: v for k, v in (stated or {}).items() if v is not None})
+    return convert({k: v for k, v in (stated or {}).items() if v is not None}, ReadOptions)

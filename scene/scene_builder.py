@@ -16,14 +16,13 @@ from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, s
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.nodes import Nodes
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import ratio, stated_unit
 
@@ -377,7 +376,7 @@ def _node_id(path: str | None, file_id: str, alone: bool) -> str:
         return file_id
     if path.startswith(COMPONENT_MARK):  # of a file without nodes
         return file_id + path
-    return path if alone else f"{file_id}/{path}"
+    return path if alone else f"{file_id}/{path.removeprefix('/')}"
 
 
 def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:

@@ -15,7 +15,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_option,
+    geometry_options,
     merge_option,
     one_pose_options,
     open_option,
@@ -68,7 +68,7 @@ TABLE_ROWS = 20
 @open_option
 @reading_options
 @package_option
-@geometry_option
+@geometry_options
 @one_pose_options
 @color_option
 @debug_option

@@ -31,7 +31,7 @@ from satcheck.cli.options import (
     config_option,
     debug_option,
     exit_zero_option,
-    geometry_option,
+    geometry_options,
     jobs_option,
     merge_option,
     method_option,
@@ -147,7 +147,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--contacts",
     is_flag=True,
-    help="Where surfaces meet: curves, patches of flush faces, points.",
+    help="Where surfaces meet: curves, flush patches, points.",
 )
 @click.option(
     "--components",
@@ -248,7 +248,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @units_option
 @reading_options
 @package_option
-@geometry_option
+@geometry_options
 @pose_options
 @color_option
 @no_config_option
@@ -275,10 +275,10 @@ def command(
     """Do these meshes collide? How deep, and which way out?
 
     A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), scenes (TOML,
-    JSON, IFC), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body is a file;
-    of one GLB, glTF, 3MF or 3DXML file alone it is a node. Every pair of bodies is checked, in the
-    coordinates of the files. A body inside another collides with it. A LENGTH is in the units of
-    the files, or has its own where these are known: 2mm, 0.5in.
+    JSON, IFC, USD), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body is a
+    file; of one GLB, glTF, 3MF or 3DXML file alone it is a node. Every pair of bodies is checked,
+    in the coordinates of the files. A body inside another collides with it. A LENGTH is in units of
+    the files, or has its own where these are known: 2mm.
 
     \b
       satcheck a.stl b.stl                   do they collide?

@@ -14,7 +14,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_option,
+    geometry_options,
     merge_option,
     one_pose_options,
     package_option,
@@ -51,7 +51,7 @@ Told = tuple[list[str], list[str]]
 @split_option
 @merge_option
 @package_option
-@geometry_option
+@geometry_options
 @one_pose_options
 @units_option
 @reading_options

@@ -19,7 +19,7 @@ from satcheck.cli.lengths import in_units_of, length, settings_of
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_option,
+    geometry_options,
     jobs_option,
     merge_option,
     one_pose_options,
@@ -85,7 +85,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @split_option
 @merge_option
 @package_option
-@geometry_option
+@geometry_options
 @one_pose_options
 @units_option
 @reading_options

@@ -16,7 +16,7 @@ from satcheck.cli.lengths import settings_of
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_option,
+    geometry_options,
     merge_option,
     output_option,
     package_option,
@@ -74,7 +74,7 @@ def _form_of(output: Path | None) -> str:
 @units_option
 @reading_options
 @package_option
-@geometry_option
+@geometry_options
 @pose_options
 @color_option
 @debug_option

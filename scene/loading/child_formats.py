@@ -1,4 +1,4 @@
-"""Reads 3MF, DAE, 3DXML, XAML, ZAE and some glTF files in a child process.
+"""Reads 3MF, DAE, 3DXML, XAML, ZAE, USD and some glTF files in a child process.
 
 Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
 `serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
@@ -20,6 +20,7 @@ from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.read_options import ReadOptions
 
+_OPENED_BY_NAME = frozenset(("usd",))
 _LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
     "worker-timeout": "reader-timeout",
@@ -28,12 +29,13 @@ _CODE_OF_WORKER = {
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A file to read: its format, its bytes, the directory that its references are relative to,
-    whether they may leave that directory, whether to return one mesh for the whole file, and the
-    options of the user."""
+    """A file to read: its format, the directory that its references are relative to, its name
+    there, whether references may leave that directory, whether to return one mesh for the whole
+    file, the options of the user, and its bytes (none for a reader that opens it by name)."""
 
     format: str
     directory: str
+    name: str
     flat: bool
     allow_outside: bool
     options: ReadOptions
@@ -59,7 +61,9 @@ def read_in_child(
 ) -> RawScene:
     """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
-    request = Request(source.format, directory, flat, allow_outside, options, source.data)
+    data = b"" if source.format in _OPENED_BY_NAME else source.data
+    name = source.location.name
+    request = Request(source.format, directory, name, flat, allow_outside, options, data)
     try:
         reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
@@ -156,6 +160,11 @@ def _read(request: Request) -> RawScene:
             from satcheck.scene.loading.zae import read_zae
 
             return alone(read_zae(data))
+        case "usd":
+            from satcheck.scene.loading.usd import read_usd
+
+            place = Path(request.directory, request.name)
+            return read_usd(place, request.options, allow_outside=request.allow_outside)
     from satcheck.scene.loading.gltf import read_gltf
 
     return read_gltf(

@@ -31,6 +31,10 @@ FORMATS = {
     ".ifc": "ifc",
     ".ifczip": "ifc",
     ".ifcxml": "ifc",
+    ".usd": "usd",
+    ".usda": "usd",
+    ".usdc": "usd",
+    ".usdz": "usd",
 }
 # Formats of scenes: each node is a body, with rules, whatever files are beside it.
 DOCUMENTS = frozenset(("usd", "ifc"))
@@ -62,7 +66,7 @@ _SIGNATURES = (
     (b"\x7fELF", "an ELF program", ()),
     (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file", ()),
     (b"glTF", "a GLB file", ("glb",)),
-    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml", "ifc")),
+    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml", "ifc", "usd")),
     (b"ply\n", "a PLY file", ("ply",)),
     (b"ply\r\n", "a PLY file", ("ply",)),
 )

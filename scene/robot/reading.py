@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.urdf import robot_of

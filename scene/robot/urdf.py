@@ -16,8 +16,8 @@ from typing import NoReturn, get_args
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 from satcheck.scene.robot.model import (

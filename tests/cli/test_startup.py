@@ -25,6 +25,7 @@ HEAVY = {
     "multiprocessing",
     "networkx",
     "numpy",
+    "pxr",
     "rich.live",
     "rich.progress",
     "scipy",

@@ -49,7 +49,9 @@ def refuse_errors(scene: Scene) -> None:
 def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     kind = path.suffix[1:]
-    request = Request(kind, str(path.parent), False, False, ReadOptions(), path.read_bytes())
+    request = Request(
+        kind, str(path.parent), path.name, False, False, ReadOptions(), path.read_bytes()
+    )
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply).content
     if isinstance(content, Refusal):

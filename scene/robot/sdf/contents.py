@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.input_kind import GeometryKind
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.exemptions import Contacts
 from satcheck.scene.robot.sdf.frames import WORLD, Frame, Frames, Name, Scope

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.input_kind import GeometryKind
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.frames import Frames, Name, Scope

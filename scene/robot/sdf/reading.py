@@ -12,8 +12,8 @@ from pathlib import Path
 
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import check_mimics
 from satcheck.scene.robot.model import Exemption, Link, Robot
 from satcheck.scene.robot.sdf.contents import Contents, FoundLink

@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.core.transform import Transform
 from satcheck.scene import Issue, SceneFileError, load_scene
-from satcheck.scene.input_kind import GeometryKind
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import FilePlaces, Robot, read_robot
 from satcheck.scene.robot.kinematics import link_poses
 from satcheck.scene.robot.poses import settle

@@ -1,0 +1,17 @@
+"""Reads USD (usda, usdc, usdz) with usd-core: a body for each geometric prim, named by its path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.usd.stage import open_stage
+from satcheck.scene.read_options import ReadOptions
+
+
+def read_usd(location: Path, options: ReadOptions, *, allow_outside: bool) -> RawScene:
+    """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError."""
+    stage = open_stage(location, allow_outside=allow_outside)
+    from satcheck.scene.loading.usd.reading import read_scene  # imports usd-core
+
+    return read_scene(stage, options)

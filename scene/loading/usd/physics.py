@@ -1,0 +1,170 @@
+"""Rules of USD physics: which pairs a simulator does not collide, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations_with_replacement
+from typing import Any
+
+from msgspec.structs import replace
+from pxr import Usd, UsdPhysics
+
+from satcheck.scene.loading.raw_mesh import RawNode, RawRule
+from satcheck.scene.loading.usd.walk import Found
+
+
+def with_physics(
+    stage: Any, nodes: Sequence[RawNode], found: Sequence[Found]
+) -> tuple[tuple[RawNode, ...], tuple[RawRule, ...]]:
+    """The nodes with the groups that the rules name, and the rules.
+
+    found: where each node comes from. Simulators do not collide colliders of one rigid body,
+    FilteredPairs, members of CollisionGroups that filter each other, and bodies that a joint
+    connects without collisionEnabled. Visual geometry below these prims is treated alike.
+    """
+    sources = _Sources(stage)
+    if not sources:
+        return tuple(nodes), ()
+    made = _Rules(sources, _Members(stage, found), len(nodes))
+    rules = tuple(made.rules())
+    pairs = zip(nodes, made.groups, strict=True)
+    return tuple(replace(node, groups=tuple(groups)) for node, groups in pairs), rules
+
+
+class _Sources:
+    """The prims of a stage that make rules."""
+
+    def __init__(self, stage: Any) -> None:
+        self.filters: list[Any] = []
+        self.joints: list[Any] = []
+        self.has_bodies = False
+        for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+            if prim.HasAPI(UsdPhysics.RigidBodyAPI):
+                self.has_bodies = True
+            if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
+                self.filters.append(prim)
+            if prim.IsA(UsdPhysics.Joint):
+                self.joints.append(UsdPhysics.Joint(prim))
+        self.table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(stage)
+        self.stage = stage
+
+    def __bool__(self) -> bool:
+        return bool(self.has_bodies or self.filters or self.joints or self.table.GetGroups())
+
+
+class _Members:
+    """Which nodes are below a prim, or in a rigid body."""
+
+    def __init__(self, stage: Any, found: Sequence[Found]) -> None:
+        self._stage = stage
+        self._found = found
+        self._below: dict[str, list[int]] = {}
+        self.of_body: dict[str, list[int]] = {}
+        for number, each in enumerate(found):
+            if each.prim is None:  # of an unresolved reference
+                self._below.setdefault(each.name, []).append(number)
+                continue
+            body = None
+            for name, prim in each.frame.ancestors(each.prim):
+                self._below.setdefault(name, []).append(number)
+                body = body or (name if _is_body(prim) else None)
+            if body is not None:
+                self.of_body.setdefault(body, []).append(number)
+
+    def below(self, path: Any) -> list[int]:
+        return self._below.get(str(path), [])
+
+    def of_collision_group(self, path: Any) -> list[int]:
+        api = UsdPhysics.CollisionGroup.Get(self._stage, path).GetCollidersCollectionAPI()
+        query = api.ComputeMembershipQuery()
+        return [
+            number
+            for number, each in enumerate(self._found)
+            if each.prim is not None and query.IsPathIncluded(_outer_path(each))
+        ]
+
+
+def _is_body(prim: Any) -> bool:
+    if not prim.HasAPI(UsdPhysics.RigidBodyAPI):
+        return False
+    return bool(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get())
+
+
+class _Rules:
+    """The rules, and the groups of each node that they name."""
+
+    def __init__(self, sources: _Sources, members: _Members, count: int) -> None:
+        self._sources = sources
+        self._members = members
+        self._made: set[str] = set()
+        self.groups: list[list[str]] = [[] for _ in range(count)]
+
+    def rules(self) -> Iterator[RawRule]:
+        for body, numbers in self._members.of_body.items():
+            if len(numbers) > 1:
+                own = self._group(f"rigid body {body}", numbers)
+                yield _rule(own, own, f"one rigid body {body}")
+        for prim in self._sources.filters:
+            yield from self._of_filter(prim)
+        for joint in self._sources.joints:
+            yield from self._of_joint(joint)
+        yield from self._of_collision_groups()
+
+    def _group(self, name: str, numbers: Sequence[int]) -> str:
+        if name not in self._made:
+            self._made.add(name)
+            for number in numbers:
+                self.groups[number].append(name)
+        return name
+
+    def _of_filter(self, prim: Any) -> Iterator[RawRule]:
+        path = prim.GetPath()
+        own = self._members.below(path)
+        for other in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetForwardedTargets():
+            others = self._members.below(other)
+            if own and others:
+                a, b = self._group(f"below {path}", own), self._group(f"below {other}", others)
+                yield _rule(a, b, f"filteredPairs of {path}")
+
+    def _of_joint(self, joint: Any) -> Iterator[RawRule]:
+        if joint.GetCollisionEnabledAttr().Get() or not joint.GetJointEnabledAttr().Get():
+            return
+        stage = self._sources.stage
+        ends = [_body_at(stage, end) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+        held = [(end, self._members.of_body.get(end, [])) for end in ends if end is not None]
+        if len(held) == 2 and all(numbers for _, numbers in held):
+            a, b = (self._group(f"rigid body {end}", numbers) for end, numbers in held)
+            yield _rule(a, b, f"joint {joint.GetPath()}")
+
+    def _of_collision_groups(self) -> Iterator[RawRule]:
+        """As the table of the stage says, with merged and inverted groups."""
+        table = self._sources.table
+        held = {path: self._members.of_collision_group(path) for path in table.GetGroups()}
+        for one, other in combinations_with_replacement(held, 2):
+            if held[one] and held[other] and not table.IsCollisionEnabled(one, other):
+                a, b = (self._group(f"collision group {path}", held[path]) for path in (one, other))
+                both = f"groups {one} and {other}" if one != other else f"group {one}"
+                yield _rule(a, b, f"collision {both}")
+
+
+def _rule(a: str, b: str, reason: str) -> RawRule:
+    return RawRule(a, b, f"USD: {reason}", of_groups=True)
+
+
+def _outer_path(found: Found) -> Any:
+    """Of the prim, or of the point instancer around all."""
+    prim, frame = found.prim, found.frame
+    while frame.instancer is not None:
+        prim, frame = frame.instancer
+    return prim.GetPath()
+
+
+def _body_at(stage: Any, relationship: Any) -> str | None:
+    """The rigid body that the end of a joint is in; None: the world."""
+    for path in relationship.GetForwardedTargets():
+        prim = stage.GetPrimAtPath(path)
+        while prim and not prim.IsPseudoRoot():
+            if _is_body(prim):
+                return str(prim.GetPath())
+            prim = prim.GetParent()
+    return None

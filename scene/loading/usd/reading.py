@@ -1,0 +1,194 @@
+"""Makes a scene of a stage: a node for each body, with its mesh or exact shape."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pxr import Gf, Usd, UsdGeom, UsdPhysics
+
+from satcheck.core import Mesh
+from satcheck.core.shapes import Primitive
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import (
+    NO_SURFACE,
+    RawMesh,
+    RawNode,
+    RawPart,
+    RawScene,
+    Refusal,
+)
+from satcheck.scene.loading.usd.choice import Choice
+from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
+from satcheck.scene.loading.usd.physics import with_physics
+from satcheck.scene.loading.usd.remarks import Remarks
+from satcheck.scene.loading.usd.shapes import flat_faces, placed_shape, shape_of
+from satcheck.scene.loading.usd.stage import Stage
+from satcheck.scene.loading.usd.walk import WORLD, Found, Walk
+from satcheck.scene.read_options import ReadOptions
+
+_NO_SURFACE = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points", "Volume"))
+_NOT_TURNED = Gf.Matrix4d(1.0)
+Content = RawMesh | Primitive | Refusal
+
+
+def read_scene(stage: Stage, options: ReadOptions) -> RawScene:
+    """Raises MeshFileError if the stage has no body."""
+    return _Reading(stage, options).scene()
+
+
+class _Reading:
+    def __init__(self, stage: Stage, options: ReadOptions) -> None:
+        self._stage = stage
+        self._choice = Choice(options)
+        self._said = Remarks()
+        self._lost = dict(stage.lost)
+        self._parts: list[RawPart] = []
+        self._nodes: list[RawNode] = []
+        self._found: list[Found] = []
+        self._read: dict[Any, tuple[int, Any]] = {}
+        self._places: dict[object, int] = {}
+
+    def scene(self) -> RawScene:
+        for found in Walk(self._stage.stage, self._choice.time).prims():
+            self._take(found)
+        for name, reason in self._lost.items():
+            self._add(Found(name, None, WORLD), reason, None)
+        warnings = (*self._stage.warnings, *self._of_time(), *self._said.warnings())
+        if not self._nodes:
+            reasons = "; ".join(message for _, message in warnings)
+            raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
+        nodes, rules = with_physics(self._stage.stage, self._nodes, self._found)
+        return RawScene(tuple(self._parts), nodes, warnings, self._stage.unit, rules)
+
+    def _of_time(self) -> list[tuple[str, str]]:
+        if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
+            return []
+        first, last = self._stage.sampled
+        message = f"bodies stand as at the first of the time codes {first:g} to {last:g} (--time)"
+        return [("time-sampled", message)]
+
+    def _take(self, found: Found) -> None:
+        """Adds the body of a prim, if it is one."""
+        prim, name = found.prim, found.name
+        refusal = found.refusal or self._lost.pop(name, None)
+        if not prim.IsA(UsdGeom.Gprim) and refusal is None:
+            self._look_at_other(prim, name)
+        elif (reason := self._choice.why_not(found, lost=refusal is not None)) is not None:
+            self._said.add("not-a-body", reason, name)
+        elif refusal is not None:
+            self._add(found, refusal, None)
+        elif prim.GetTypeName() in _NO_SURFACE:
+            words = f"of type {prim.GetTypeName()}, without a surface of triangles"
+            self._said.add("ignored-geometry", words, name)
+        elif prim.GetTypeName() == "Plane" and self._choice.colliders:
+            self._said.add("half-space", "a half space, nothing is checked against it", name)
+        else:
+            self._place(found)
+
+    def _look_at_other(self, prim: Any, name: str) -> None:
+        kind = prim.GetTypeName()
+        if kind and not Usd.SchemaRegistry().FindConcretePrimDefinition(kind):
+            words = f"of type {kind}, which is not known"
+            self._said.add("unknown-element", words, name)
+        elif self._choice.colliders and prim.HasAPI(UsdPhysics.CollisionAPI):
+            self._said.add("ignored-geometry", f"a collider of type {kind}, without geometry", name)
+
+    def _place(self, found: Found) -> None:
+        prim = found.prim
+        key = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
+        if key not in self._read:
+            content, turn = self._content(prim)
+            self._read[key] = self._part(found.name, content), turn
+        number, turn = self._read[key]
+        content = self._parts[number].mesh
+        if isinstance(content, Refusal):
+            if content.code == NO_SURFACE:
+                self._said.add(NO_SURFACE, "a mesh without faces", found.name)
+                return
+            self._node(found, number, None)
+            return
+        matrix = self._matrix(turn * found.matrix)
+        if not isinstance(content, RawMesh):
+            try:
+                matrix = placed_shape(content, matrix)
+            except MeshFileError as error:
+                self._add(found, Refusal(error.code, error.message), None)
+                return
+        self._node(found, number, None if matrix == IDENTITY else matrix)
+
+    def _content(self, prim: Any) -> tuple[Content, Any]:
+        """(mesh or shape of a prim in its own coordinates, a turn before its placement)."""
+        time, unit = self._choice.time, self._stage.unit
+        try:
+            if (shape := shape_of(prim, time)) is not None:
+                return shape
+            if (faces := flat_faces(prim, time, unit)) is not None:
+                return faces, _NOT_TURNED
+            if prim.IsA(UsdGeom.Mesh):
+                return self._mesh(prim), _NOT_TURNED
+            if prim.IsA(UsdGeom.TetMesh):
+                return read_tetrahedra(prim, time, unit), _NOT_TURNED
+        except MeshFileError as error:
+            return Refusal(error.code, error.message), _NOT_TURNED
+        message = f"geometry of the type {prim.GetTypeName()} is not read: convert it to a Mesh"
+        return Refusal("unsupported-feature", message), _NOT_TURNED
+
+    def _mesh(self, prim: Any) -> RawMesh:
+        mesh = read_mesh(prim, self._choice.time, self._stage.unit)
+        scheme = UsdGeom.Mesh(prim).GetSubdivisionSchemeAttr().Get(self._choice.time)
+        name = str(prim.GetPath())
+        if scheme != UsdGeom.Tokens.none:
+            self._said.add(
+                "control-cage", f"subdivision surface ({scheme}), checked as its control cage", name
+            )
+        if prim.HasAPI("SkelBindingAPI") or prim.HasAttribute("primvars:skel:jointIndices"):
+            self._said.add("rest-shape", "skinned, its points are those of the file", name)
+        return self._simulated(prim, mesh) if self._choice.colliders else mesh
+
+    def _simulated(self, prim: Any, mesh: RawMesh) -> RawMesh:
+        """The convex hull if the simulator takes that. Other approximations are named."""
+        api = UsdPhysics.MeshCollisionAPI(prim)
+        kind = api.GetApproximationAttr().Get() if api else UsdPhysics.Tokens.none
+        if kind in (None, UsdPhysics.Tokens.none):
+            return mesh
+        if kind == UsdPhysics.Tokens.convexHull:
+            try:
+                hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
+            except ValueError as error:
+                raise MeshFileError("bad-record", f"it has no convex hull: {error}") from None
+            vertices, triangles = hull.to_bytes()
+            return RawMesh(vertices, triangles, mesh.number_format, units=mesh.units)
+        words = f"a simulator takes its {kind}, its mesh is checked"
+        self._said.add("simplified-mesh", words, str(prim.GetPath()))
+        return mesh
+
+    def _part(self, name: str, content: Content) -> int:
+        """Its number. Equal meshes and shapes are one part."""
+        if isinstance(content, RawMesh):
+            key: object = (bytes(content.vertices), bytes(content.triangles), content.warnings)
+        else:
+            key = content
+        if key not in self._places:
+            self._places[key] = len(self._parts)
+            self._parts.append(RawPart(name, content))
+        return self._places[key]
+
+    def _add(self, found: Found, content: Content, matrix: Transform | None) -> None:
+        self._parts.append(RawPart(found.name, content))
+        self._node(found, len(self._parts) - 1, matrix)
+
+    def _node(self, found: Found, part: int, matrix: Transform | None) -> None:
+        self._nodes.append(RawNode(found.name, part, matrix))
+        self._found.append(found)
+
+    def _matrix(self, matrix: Any) -> Transform:
+        """For column vectors, in the unit of the scene, with z up."""
+        columns = [[matrix[column][row] for column in range(4)] for row in range(4)]
+        if self._stage.y_up:
+            x, y, z, last = columns
+            columns = [x, [0.0 - value for value in z], y, last]
+        scale = self._stage.scale
+        scaled = [value * scale for row in columns[:3] for value in row]
+        return (*scaled, *columns[3])

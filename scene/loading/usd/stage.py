@@ -1,0 +1,157 @@
+"""Opens a stage: its layers, its unit and up axis, and what of it could not be opened."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from msgspec import Struct
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import note
+from satcheck.scene.loading.extras import imported
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.path_kind import followed
+from satcheck.scene.units import unit_of
+
+_METRE = "m"
+# Composition errors that concern single opinions. All others may hide a part of the scene.
+_OF_OPINIONS = ("Target", "Inconsistent", "Property", "Opinion", "VariableExpression")
+_OF_LAYERS = ("Sublayer",)
+_CODES = {"ErrorInvalidAssetPath": "missing-resource", "ErrorArcCycle": "reference-cycle"}
+
+
+class Stage(Struct, frozen=True):
+    """An open stage.
+
+    unit: of lengths after the factor `scale`. y_up: its y axis points up. lost: prim -> why what it
+    refers to is missing. warnings: (code, message). sampled: it has time samples, from the first to
+    the last time code.
+    """
+
+    stage: Any
+    unit: str
+    scale: float
+    y_up: bool
+    lost: dict[str, Refusal]
+    warnings: tuple[tuple[str, str], ...]
+    sampled: tuple[float, float] | None
+
+
+def open_stage(location: Path, *, allow_outside: bool) -> Stage:
+    """Raises MeshFileError. allow_outside: layers may lie outside of the folder of the file."""
+    os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
+    usd = imported("pxr.Usd", "usd", "USD files")
+    tf = imported("pxr.Tf", "usd", "USD files")
+    try:
+        stage = usd.Stage.Open(str(location))
+    except tf.ErrorException as error:
+        raise MeshFileError("bad-record", _plain(str(error))) from None
+    layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
+    _note_files(layers)
+    if not allow_outside:
+        _refuse_outside(layers, location.parent)
+    lost, warnings = _composition_errors(stage)
+    lost |= _lost_clips(stage)
+    unit, scale = _unit(stage, warnings)
+    geom = imported("pxr.UsdGeom", "usd", "USD files")
+    y_up = geom.GetStageUpAxis(stage) == geom.Tokens.y
+    return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
+
+
+def _plain(message: str) -> str:
+    """What an error of the library says, without the places in its source code."""
+    quoted = [line.partition(" : '")[2] for line in message.splitlines() if " : '" in line]
+    text = next(filter(None, quoted), message).strip().rstrip("'")
+    return f"not a valid USD file: {' '.join(text.split())}"
+
+
+def _note_files(layers: list[Any]) -> None:
+    """The layers, and those that they name, even if they are not there."""
+    from pxr import Ar, Sdf
+
+    for layer in layers:
+        note(Ar.SplitPackageRelativePathOuter(layer.realPath)[0])
+        for name in filter(None, layer.GetCompositionAssetDependencies()):
+            place = Sdf.ComputeAssetPathRelativeToLayer(layer, name)
+            note(Ar.SplitPackageRelativePathOuter(place)[0])
+
+
+def _refuse_outside(layers: list[Any], folder: Path) -> None:
+    from pxr import Ar
+
+    root = followed(folder)
+    for layer in layers:
+        place = Ar.SplitPackageRelativePathOuter(layer.realPath)[0]
+        if not followed(Path(place)).is_relative_to(root):
+            message = f"layer {place!r} lies outside the file's directory: refused"
+            raise MeshFileError("outside-path", message)
+
+
+def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:
+    """(prim -> why a part of it is missing, warnings). Raises MeshFileError for a lost layer."""
+    lost: dict[str, Refusal] = {}
+    ignored: list[str] = []
+    for error in stage.GetCompositionErrors():
+        kind, message = type(error).__name__, " ".join(str(error).split())
+        code = _CODES.get(kind, "missing-resource")
+        if any(word in kind for word in _OF_LAYERS):
+            raise MeshFileError(code, message)
+        if any(word in kind for word in _OF_OPINIONS):
+            ignored.append(message)
+            continue
+        path = error.rootSite.path.GetPrimPath()
+        if _may_hold_bodies(stage.GetPrimAtPath(path)):
+            lost.setdefault(str(path.StripAllVariantSelections()), Refusal(code, message))
+        else:
+            ignored.append(message)
+    counted = f" (and {len(ignored) - 1} more)" if len(ignored) > 1 else ""
+    return lost, [("ignored-opinion", ignored[0] + counted)] if ignored else []
+
+
+def _may_hold_bodies(prim: Any) -> bool:
+    """Whether geometry may be missing below a prim with an unresolved reference."""
+    if not prim:
+        return True
+    if prim.IsAbstract():
+        return False
+    return prim.GetTypeName() not in ("Material", "Shader", "NodeGraph", "Camera")
+
+
+def _lost_clips(stage: Any) -> dict[str, Refusal]:
+    from pxr import Usd
+
+    return {
+        str(prim.GetPath()): Refusal("missing-resource", f"missing value clip {path.path!r}")
+        for prim in stage.Traverse()
+        if prim.HasAuthoredMetadata("clips")
+        for path in _clips(Usd.ClipsAPI(prim))
+        if not path.resolvedPath
+    }
+
+
+def _clips(api: Any) -> Iterator[Any]:
+    for name in api.GetClips() or ():
+        yield from api.GetClipAssetPaths(name) or ()
+
+
+def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
+    """(unit, factor from stage units to it). Only the root layer's value counts."""
+    from pxr import UsdGeom
+
+    metres = UsdGeom.GetStageMetersPerUnit(stage)
+    if not (math.isfinite(metres) and metres > 0):
+        raise MeshFileError("bad-record", f"metersPerUnit is {metres:g}")
+    if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
+        message = f"the file has no metersPerUnit: {metres:g} counts, the default of USD"
+        warnings.append(("assumed-units", message))
+    unit = unit_of(f"{metres!r} * meters")
+    return (_METRE, metres) if unit is None else (unit, 1.0)
+
+
+def _sampled(layers: list[Any]) -> tuple[float, float] | None:
+    times = [time for layer in layers for time in layer.ListAllTimeSamples()]
+    return (min(times), max(times)) if times else None

@@ -1,0 +1,139 @@
+"""Colliders, and the rules of USD physics."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import Scene
+from tests.cli.process import satcheck
+from tests.scene.usd.files import bounds_of, cube, load, said, stage
+
+COLLIDER = '"PhysicsCollisionAPI"'
+
+
+def body(name: str, *content: str, more: str = "") -> str:
+    inside = "\n".join(content)
+    return (
+        f'def Xform "{name}" (\n prepend apiSchemas = ["PhysicsRigidBodyAPI"]\n)\n'
+        f"{{\n{more}\n{inside}\n}}\n"
+    )
+
+
+A, B = body("A", cube("Box", api=COLLIDER)), body("B", cube("Box", api=COLLIDER))
+FILTERED = A.replace(
+    '"PhysicsRigidBodyAPI"]\n)\n{',
+    '"PhysicsRigidBodyAPI", "PhysicsFilteredPairsAPI"]\n)\n{\n rel physics:filteredPairs = </B>',
+)
+
+
+def joint(more: str = "") -> str:
+    return (
+        'def PhysicsFixedJoint "J" {\n rel physics:body0 = </A>\n rel physics:body1 = </B>\n'
+        f"{more}\n}}"
+    )
+
+
+def group(name: str, member: str, more: str = "") -> str:
+    return (
+        f'def PhysicsCollisionGroup "{name}" {{\n'
+        f" rel collection:colliders:includes = <{member}>\n{more}\n}}"
+    )
+
+
+def allowed(scene: Scene) -> dict[tuple[str, str], str]:
+    """Pairs that no rule takes back -> the reason why they may overlap."""
+    pairs = {}
+    for rule in scene.rules:
+        chosen = [rule.a.select(scene.bodies), rule.b.select(scene.bodies)]
+        for one, other in combinations(scene.bodies, 2):
+            if (one in chosen[0] and other in chosen[1]) or (
+                other in chosen[0] and one in chosen[1]
+            ):
+                pairs[one.id, other.id] = rule.reason
+    return pairs
+
+
+@pytest.mark.parametrize("geometry", ["visual", "collision"])
+@pytest.mark.parametrize(
+    ("prims", "reason"),
+    [
+        ((A, B), None),
+        ((FILTERED, B), "filteredPairs of /A"),
+        ((A, B, joint()), "joint /J"),
+        ((A, B, joint("bool physics:collisionEnabled = 1")), None),
+        ((A, B, joint("bool physics:jointEnabled = 0")), None),
+        ((A, B, group("G", "/A", "rel physics:filteredGroups = </H>"), group("H", "/B")),
+         "collision groups /G and /H"),
+        ((A, B, group("G", "/A"), group("H", "/B")), None),
+    ],
+)  # fmt: skip
+def test_a_pair_that_no_simulator_collides_is_a_rule(
+    tmp_path: Path, prims: tuple[str, ...], reason: str | None, geometry: str
+) -> None:
+    scene = load(tmp_path, stage(*prims), geometry=geometry)
+    wanted = {("/A/Box", "/B/Box"): f"USD: {reason}"} if reason else {}
+    assert allowed(scene) == wanted
+
+
+def test_parts_of_one_rigid_body_are_no_pair(tmp_path: Path) -> None:
+    one = body("A", cube("L"), cube("R"))
+    assert allowed(load(tmp_path, stage(one))) == {("/A/L", "/A/R"): "USD: one rigid body /A"}
+    off = body("A", cube("L"), cube("R"), more="bool physics:rigidBodyEnabled = 0")
+    assert allowed(load(tmp_path, stage(off))) == {}
+
+
+def test_each_instance_is_a_rigid_body_of_its_own(tmp_path: Path) -> None:
+    instancer = (
+        'def PointInstancer "P" {\n rel prototypes = [</P/A>]\n int[] protoIndices = [0, 0]\n'
+        " point3f[] positions = [(0,0,0), (9,0,0)]\n" + body("A", cube("L"), cube("R")) + "}"
+    )
+    assert allowed(load(tmp_path, stage(instancer))) == {
+        (f"/P[{i}]:A/L", f"/P[{i}]:A/R"): f"USD: one rigid body /P[{i}]:A" for i in range(2)
+    }
+
+
+def test_colliders_are_bodies_whether_they_are_drawn_or_not(tmp_path: Path) -> None:
+    text = stage(
+        cube("Drawn"),
+        cube("Guide", 'uniform token purpose = "guide"', api=COLLIDER),
+        cube("Hidden", 'token visibility = "invisible"', api=COLLIDER),
+        cube("Disabled", "bool physics:collisionEnabled = 0", api=COLLIDER),
+    )
+    assert {one.id for one in load(tmp_path, text, geometry="collision").bodies} == {
+        "/Guide",
+        "/Hidden",
+    }
+    assert {one.id for one in load(tmp_path, text).bodies} == {"/Drawn", "/Disabled"}
+
+
+def test_a_hull_is_computed_and_other_approximations_are_named(tmp_path: Path) -> None:
+    api = f'{COLLIDER}, "PhysicsMeshCollisionAPI"'
+    hull = cube("Hull", 'uniform token physics:approximation = "convexHull"', api)
+    notched = hull.replace("[0,1,3,2,", "[0,1,3,3,")
+    assert not load(tmp_path, stage(notched)).bodies[0].file.health.closed
+    box = cube("Box", 'uniform token physics:approximation = "boundingCube"', api)
+    scene = load(tmp_path, stage(notched, box), geometry="collision")
+    assert scene.bodies[0].file.health.closed
+    assert "/Box" in said(scene)["simplified-mesh"]
+    assert "boundingCube" in said(scene)["simplified-mesh"]
+
+
+def test_a_plane_is_a_half_space_to_a_simulator(tmp_path: Path) -> None:
+    plane = 'def Plane "Floor" (\n prepend apiSchemas = ["PhysicsCollisionAPI"]\n)\n{\n}\n'
+    scene = load(tmp_path, stage(plane, A), geometry="collision")
+    assert list(bounds_of(scene)) == ["/A/Box"]
+    assert "/Floor" in said(scene)["half-space"]
+
+
+def test_the_certificates_of_colliders_are_accepted(tmp_path: Path) -> None:
+    path, report = tmp_path / "a.usda", tmp_path / "report.json"
+    path.write_text(stage(A, cube("Guide", 'uniform token purpose = "guide"', api=COLLIDER)))
+    ran = satcheck(
+        "--geometry", "collision", "--certificate", "--format", "json", "-o", str(report), str(path)
+    )
+    assert ran.code == 1, ran.err
+    accepted = satcheck("verify", str(report))
+    assert accepted.code == 0, accepted.err
