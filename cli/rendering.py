@@ -16,6 +16,7 @@ from satcheck.cli.report.ci import pieces as pieces_for_ci
 from satcheck.cli.report.plain_names import in_one_line_each
 from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.summary import counts_line
+from satcheck.cli.report.titles import with_titles
 from satcheck.cli.report.verdict import next_step, verdict_line
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.report.json import document as json_document
@@ -56,7 +57,7 @@ def rendered(
     if isinstance(result, Samples):
         return _samples(result, form, page, shown)
     if form == "table":
-        result = in_one_line_each(result)
+        result = in_one_line_each(with_titles(result))
     if form == "json":
         return render_json(result, timings=shown.timings)
     if form in CI_FORMATS:
@@ -94,7 +95,7 @@ def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -
         talk(samples_counts(result))
         summary = samples_verdict(result)
     else:
-        result = in_one_line_each(result)
+        result = in_one_line_each(with_titles(result))
         summary = " ".join([verdict_line(result), *next_step(result, written=True)])
         warnings = [issue for issue in result.issues if issue.severity == "warning"]
         for issue in warnings[:WARNINGS]:

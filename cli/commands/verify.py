@@ -61,9 +61,10 @@ def command(
 ) -> int:
     """Re-check the certificates of a report.
 
-    satcheck --certificate -o REPORT.json A B writes such a report. Its verdicts are checked in
-    rational arithmetic, without the solver. A verdict without a certificate (an estimate below
-    --accuracy exact, for instance) is not certified and does not pass.
+    satcheck --certificate -o REPORT.json A B writes such a report. Its verdicts are checked
+    against the mesh files in rational arithmetic, without the solver. A verdict without a
+    certificate (an estimate below --accuracy exact, for instance) is not certified and does not
+    pass.
 
     Exit codes: 0, every verdict is accepted; 1, a verdict is rejected or not certified; 2, wrong
     usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
