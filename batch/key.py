@@ -19,7 +19,7 @@ from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.limits import Limits
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
-from satcheck.scene.robot.packages import search_path
+from satcheck.scene.search_path import search_path
 
 _MOST_DIGESTS = 5_000
 # Settings that change no answer.

@@ -11,7 +11,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from itertools import chain
 from typing import Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
@@ -215,11 +214,11 @@ class Finding(Value, frozen=True, kw_only=True):
     baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
+        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
         vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
-        figures = (
-            *(self.tolerance, self.distance, self.depth, self.volume, self.volume_error),
-            *chain.from_iterable(filter(None, (*vectors, self.thickness_bounds))),
-        )
+        for vector in (*vectors, self.thickness_bounds):
+            if vector is not None:
+                figures += vector
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 

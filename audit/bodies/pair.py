@@ -65,13 +65,13 @@ class Pair(Struct, frozen=True):
         tolerances = (self.a.surface_tolerance, self.b.surface_tolerance)
         off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
         force_setattr(self, "off", (off_a, off_b))
-        files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
-        closer = sum((file.deviation for file in files), 0.0)
-        farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
-        gap_limit = max((self.request.clearance or 0.0) + closer, tolerance)
+        if self.settings.planar:
+            files = (self.a.body.file, self.b.body.file)
+            outer = [file.deviation for file in files if not file.inscribed]
+            force_setattr(self, "closer", sum(file.deviation for file in files))
+            force_setattr(self, "farther", sum(outer, 0.0))
+        gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
         force_setattr(self, "gap_limit", gap_limit)
-        force_setattr(self, "closer", closer)
-        force_setattr(self, "farther", farther)
 
     def _resolution(self) -> float:
         plane = self.settings.planar

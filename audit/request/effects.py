@@ -110,15 +110,16 @@ def effects_of(
         UNREADABLE: unreadable,
         UNITS_UNKNOWN: units_unknown,
     }
+    requesters = {effect: planner.requested_by(effect) for effect in effects}
     return tuple(
         EffectReport(
             effect,
-            planner.requested_by(effect),
+            by,
             ran[effect],
-            _reasons(planner, effect, spared[effect], beforehand, counts.allowed),
+            _reasons(spared[effect], beforehand, counts.allowed, is_requested=bool(by)),
             time[effect],
         )
-        for effect in effects
+        for effect, by in requesters.items()
     )
 
 
@@ -144,13 +145,8 @@ def _grouped(close: Iterable[tuple[Request, Finding]]) -> list[_Alike]:
 
 
 def _reasons(
-    planner: Planner,
-    effect: Effect,
-    spared: Counter[str],
-    beforehand: Mapping[str, int],
-    allowed: int,
+    spared: Counter[str], beforehand: Mapping[str, int], allowed: int, *, is_requested: bool
 ) -> dict[str, int]:
-    is_requested = bool(planner.requested_by(effect))
     reasons = Counter(spared)
     for reason, count in beforehand.items():
         reasons[reason if is_requested else NOT_ASKED] += count

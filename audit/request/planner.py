@@ -81,6 +81,7 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
+        self._by_flags = request_for(settings, composed=composed)
         self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
@@ -94,14 +95,14 @@ class Planner:
         """The flag and the rules that request the effect; empty: none does."""
         if effect == "sweep":
             return (MOTIONS,) if self.moving else ()
-        flag = request_for(self.settings, composed=self._composed).by.get(effect)
+        flag = self._by_flags.by.get(effect)
         key = KEY_OF_EFFECT.get(effect)
         rules = (rule.name for rule in self._book.rules if key and _requests_effect(rule, key))
         return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
 
     def stated(self) -> StatedSettings:
         """The settings, and whether the depth and the thickness of every overlap are computed."""
-        request = request_for(self.settings, composed=self._composed)
+        request = self._by_flags
         return self.settings.stated(
             depth=request.wants("depth"), thickness=request.wants("thickness")
         )

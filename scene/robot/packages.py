@@ -23,6 +23,7 @@ from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.path_kind import followed, is_file, is_folder
+from satcheck.scene.search_path import folders_of_environment
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")
@@ -31,16 +32,6 @@ _MANIFESTS = (_PACKAGE_XML, "model.config")  # mark the root of a package, of a 
 _MAX_BYTES = 1 << 20
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
 _MODELS = "models"  # the usual name of a folder with Gazebo models, each a folder
-# Environment variables with folders that hold packages, models or files.
-_VARIABLES = (
-    "ROS_PACKAGE_PATH",
-    "GAZEBO_MODEL_PATH",
-    "GAZEBO_RESOURCE_PATH",
-    "GZ_SIM_RESOURCE_PATH",
-    "IGN_GAZEBO_RESOURCE_PATH",
-    "SDF_PATH",
-)
-_AMENT = "AMENT_PREFIX_PATH"  # the packages are in `share` of its folders
 MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old Gazebo models
 
 
@@ -107,7 +98,7 @@ class MeshPlaces:
         try:
             return _existing(self._folder, rest, models, quoted=quoted)
         except MeshFileError:
-            for root in _environment():
+            for root in folders_of_environment():
                 with suppress(MeshFileError):
                     return _existing(root, rest, models, quoted=quoted)
             raise
@@ -166,11 +157,11 @@ class MeshPlaces:
                 yield folder
             yield folder / name
             yield folder / _MODELS / name
-        for root in _environment():
+        for root in folders_of_environment():
             yield root if root.name == name else root / name
 
     def _by_manifest(self, name: str) -> Iterator[Path]:
-        for root in (self._root, *_environment()):
+        for root in (self._root, *folders_of_environment()):
             for folder in (root, *_folders_in(root)):
                 if _name_in_manifest(folder) == name:
                     yield folder
@@ -270,17 +261,6 @@ def _folders_in(folder: Path) -> list[Path]:
         return []
 
 
-def search_path() -> tuple[str, ...]:
-    """The environment variables of ROS and Gazebo that name folders of packages and models."""
-    return tuple(os.environ.get(name, "") for name in (_AMENT, *_VARIABLES))
-
-
-def _environment() -> list[Path]:
-    ament, *others = (text.split(os.pathsep) for text in search_path())
-    plain = [Path(entry) for entries in others for entry in entries if entry]
-    return plain + [Path(entry) / "share" for entry in ament if entry]
-
-
 def _is_file(place: Path) -> bool:
     note(place)
     return is_file(place)
@@ -292,7 +272,7 @@ def _is_folder(place: Path) -> bool:
 
 
 def _is_from_environment(place: Path) -> bool:
-    return any(_within(place, followed(root)) for root in _environment())
+    return any(_within(place, followed(root)) for root in folders_of_environment())
 
 
 def _within(place: Path, folder: Path) -> bool:

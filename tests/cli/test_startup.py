@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -68,6 +71,39 @@ def test_help_imports_no_large_library(arguments: tuple[str, ...]) -> None:
 def test_completion_imports_no_large_library() -> None:
     shell = {"_SATCHECK_COMPLETE": "bash_complete", "COMP_WORDS": "satcheck -", "COMP_CWORD": "1"}
     assert imported(code=0, env=shell) & HEAVY == set()
+
+
+def test_a_batch_imports_no_large_library(tmp_path: Path) -> None:
+    results = str(tmp_path / "results.jsonl")
+    names = imported("batch", "box.obj", "cell.toml", "-o", results, "--exit-zero", code=0)
+    assert names & HEAVY == set()
+
+
+def test_a_slot_of_a_batch_imports_no_large_library(tmp_path: Path) -> None:
+    """The child of a batch, on worlds whose pairs are apart, touch and overlap."""
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    far = '[[bodies]]\nid = "{0}"\nmesh = "box.obj"\nposition = [{0}, 0, 0]\n'
+    scene = f'schema = "satcheck.scene/1"\n{far.format(0)}{far.format(9)}'
+    (tmp_path / "apart.toml").write_text(scene)
+    code = """
+import sys
+from satcheck.batch.check_options import CheckOptions
+from satcheck.batch.limits import Limits
+from satcheck.batch.slot_server import Chunk, answers_in, request_of, serve
+worlds = ((sys.argv[1],), ("box.obj", "box_pushed.stl"), ("box.obj", "box_flush.stl"))
+reply = serve(request_of(Chunk(worlds, CheckOptions(), Limits())))
+print(*[answer.verdict for answer in answers_in(reply, worlds)], file=sys.stderr)
+print(*sys.modules)
+"""
+    ran = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "apart.toml")],
+        cwd=SAMPLES,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.stderr.split() == ["pass", "fail", "pass"]
+    assert set(ran.stdout.split()) & HEAVY == set()
 
 
 def test_the_second_run_on_a_concave_pair_imports_no_coacd(tmp_path: Path) -> None:
