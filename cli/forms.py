@@ -42,7 +42,8 @@ report_form_option = click.option(
     type=click.Choice((*REPORT_FORMATS, *PICTURES)),
     metavar="FORMAT",
     help=f"{', '.join((*REPORT_FORMATS, *PICTURES))}; html is a 3-D view, png an image of the "
-    "worst finding, glb a 3-D model.  [default: as the file of -o ends, otherwise table]",
+    "worst finding, glb a 3-D model, bcf and bcfzip topics (BCF 3.0, 2.1).  [default: as the file "
+    "of -o ends, otherwise table]",
 )
 
 

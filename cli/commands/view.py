@@ -69,8 +69,8 @@ def command(
     """Show a report in 3-D, from its mesh files.
 
     REPORT is a JSON report of a check. The mesh files are read again, and a file that has changed
-    since is named. Without an output the page opens in the browser; -o takes .html, .png and .glb.
-    Where surfaces cross is shown if the check had --contacts.
+    since is named. Without an output the page opens in the browser; -o takes .html, .png, .glb and
+    .bcf. Where surfaces cross is shown if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.

@@ -18,6 +18,8 @@ FORMATS: dict[str, tuple[str, ...]] = {
     "html": (".html", ".htm"),
     "png": (".png",),
     "glb": (".glb",),
+    "bcf": (".bcf",),
+    "bcfzip": (".bcfzip",),
 }
 
 

@@ -46,9 +46,9 @@ MARGIN = 1.1
 LINE = 1.0  # half the width of a line in pixels
 
 
-class _View(NamedTuple):
-    """rows: right, up, and towards the eye. scale: pixels of a unit of length. middle: of the
-    image, in pixels."""
+class View(NamedTuple):
+    """A parallel projection. rows: right, up, and towards the eye. target: a point in the middle of
+    the image. scale: pixels of a unit of length. middle: of the image, in pixels."""
 
     rows: Floats
     target: Floats
@@ -67,7 +67,14 @@ def render(report: Report, scene: Scene, size: tuple[int, int] = SIZE) -> bytes:
     bodies = {body.id: body for body in scene.bodies}
     finding = drawn_finding(report, scene)
     pair = [bodies[finding.a], bodies[finding.b]] if finding else list(bodies.values())
-    view = _view(pair, bool(finding), up_of(scene), size)
+    view = view_of(pair, bool(finding), up_of(scene), size)
+    return image_of(scene, finding, pair, view, size)
+
+
+def image_of(
+    scene: Scene, finding: Finding | None, pair: list[Body], view: View, size: tuple[int, int]
+) -> bytes:
+    """pair: the bodies of the finding."""
     corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
     for mesh, kind in _meshes(scene, finding, pair):
         faces = view.seen(np.asarray(mesh.vertices))[np.asarray(mesh.triangles)]
@@ -79,7 +86,7 @@ def render(report: Report, scene: Scene, size: tuple[int, int] = SIZE) -> bytes:
         numbers.append(np.full(len(quads), CURVE))
     triangles = Triangles(np.concatenate(corners), np.concatenate(numbers))
     kinds = list(KINDS)
-    if len(bodies) > CROWD:
+    if len(scene.bodies) > CROWD:
         kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
     return image_file(drawn(triangles, kinds, OVERLAP, size, WHITE))
 
@@ -98,7 +105,7 @@ def image_file(pixels: npt.NDArray[np.uint8]) -> bytes:
     )
 
 
-def _view(bodies: list[Body], is_pair: bool, up: str, size: tuple[int, int]) -> _View:
+def view_of(bodies: list[Body], is_pair: bool, up: str, size: tuple[int, int]) -> View:
     """Fits the bodies into the image."""
     towards = np.array([np.cos(PITCH) * np.cos(YAW), np.cos(PITCH) * np.sin(YAW), np.sin(PITCH)])
     right = np.array([-np.sin(YAW), np.cos(YAW), 0.0])
@@ -108,7 +115,7 @@ def _view(bodies: list[Body], is_pair: bool, up: str, size: tuple[int, int]) -> 
     low, high = seen.min(axis=0), seen.max(axis=0)
     largest = max((high - low)[:2] / size) or 1.0
     middle = (size[0] / 2, size[1] / 2)
-    return _View(rows, (low + high) / 2 @ rows, 1.0 / (MARGIN * largest), middle)
+    return View(rows, (low + high) / 2 @ rows, 1.0 / (MARGIN * largest), middle)
 
 
 def _to_be_seen(bodies: list[Body], is_pair: bool) -> Floats:

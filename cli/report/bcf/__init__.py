@@ -1,0 +1,38 @@
+"""Findings as topics for coordination programs: BCF 2.1 and 3.0 (buildingSMART, BCF-XML).
+
+One topic for each finding. The order of XML elements is that of the schemas at tags v2.1 and v3.0
+of buildingSMART/BCF-XML.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.cli.report.bcf.archive import archive
+from satcheck.cli.report.bcf.markup import extensions, markup, project, version_file
+from satcheck.cli.report.bcf.text import Version
+from satcheck.cli.report.bcf.topics import topics_of
+from satcheck.cli.report.bcf.viewpoint import Snapshots, visualization
+from satcheck.cli.report.picture.data import require_drawable
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Report
+    from satcheck.scene import Scene
+
+
+def render(report: Report, scene: Scene, version: Version) -> bytes:
+    """The zip archive."""
+    require_drawable(scene)
+    topics = topics_of(report, scene)
+    files = {"bcf.version": version_file(version), "project.bcfp": project(scene, version)}
+    if version == "3.0":
+        files["extensions.xml"] = extensions(topics)
+    snapshots = Snapshots(scene)
+    for topic in topics:
+        seen = snapshots.of(topic)
+        files[f"{topic.guid}/markup.bcf"] = markup(topic, version, has_view=seen is not None)
+        if seen is not None:
+            name = f"{topic.guid}/{topic.view_guid}"
+            files[f"{name}.bcfv"] = visualization(topic, seen, version)
+            files[f"{name}.png"] = seen.image
+    return archive(files)

@@ -1,0 +1,93 @@
+"""The XML files of BCF about topics and the project."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import PurePath
+from typing import TYPE_CHECKING
+from uuid import NAMESPACE_URL, uuid5
+from xml.etree.ElementTree import Element
+
+from satcheck.cli.report.bcf.archive import date
+from satcheck.cli.report.bcf.text import Version, below, document
+from satcheck.cli.report.bcf.topics import PRIORITIES, STATUSES, TYPES, Topic
+
+if TYPE_CHECKING:
+    from satcheck.scene import Scene
+
+AUTHOR = "satcheck"
+
+
+def version_file(version: Version) -> bytes:
+    root = Element("Version", VersionId=version)
+    if version == "2.1":
+        below(root, "DetailedVersion", version)
+    return document(root)
+
+
+def project(scene: Scene, version: Version) -> bytes:
+    root = Element("ProjectInfo" if version == "3.0" else "ProjectExtension")
+    number = str(uuid5(NAMESPACE_URL, f"satcheck:{scene.name}"))
+    below(below(root, "Project", ProjectId=number), "Name", scene.name)
+    if version == "2.1":
+        below(root, "ExtensionSchema", "")
+    return document(root)
+
+
+def extensions(topics: Sequence[Topic]) -> bytes:
+    """The words that topics of BCF 3.0 may use."""
+    root = Element("Extensions")
+    labels = sorted({label for topic in topics for label in topic.labels})
+    lists = (
+        ("TopicTypes", "TopicType", sorted(set(TYPES.values()))),
+        ("TopicStatuses", "TopicStatus", STATUSES),
+        ("Priorities", "Priority", PRIORITIES.values()),
+        ("TopicLabels", "TopicLabel", labels),
+        ("Users", "User", [AUTHOR]),
+    )
+    for name, item, values in lists:
+        parent = below(root, name)
+        for value in values:
+            below(parent, item, value)
+    below(root, "SnippetTypes")
+    below(root, "Stages")
+    return document(root)
+
+
+def markup(topic: Topic, version: Version, *, has_view: bool) -> bytes:
+    root = Element("Markup")
+    _header(root, topic, version)
+    element = below(root, "Topic", Guid=topic.guid, TopicType=topic.kind, TopicStatus=topic.status)
+    below(element, "Title", topic.title)
+    below(element, "Priority", topic.priority)
+    below(element, "Index", str(topic.index))
+    _labels(element, topic, version)
+    below(element, "CreationDate", date())
+    below(element, "CreationAuthor", AUTHOR)
+    below(element, "Description", topic.description)
+    if has_view and version == "3.0":
+        _view(below(below(element, "Viewpoints"), "ViewPoint", Guid=topic.view_guid), topic)
+    elif has_view:
+        _view(below(root, "Viewpoints", Guid=topic.view_guid), topic)
+    return document(root)
+
+
+def _header(root: Element, topic: Topic, version: Version) -> None:
+    """The files of the bodies."""
+    parent = below(root, "Header")
+    attribute = "isExternal"
+    if version == "3.0":
+        parent, attribute = below(parent, "Files"), "IsExternal"
+    for file in dict.fromkeys(member.file for member in topic.members):
+        below(below(parent, "File", **{attribute: "true"}), "Filename", PurePath(file).name)
+
+
+def _labels(element: Element, topic: Topic, version: Version) -> None:
+    parent = below(element, "Labels") if version == "3.0" and topic.labels else element
+    for label in topic.labels:
+        below(parent, "Label" if version == "3.0" else "Labels", label)
+
+
+def _view(parent: Element, topic: Topic) -> None:
+    below(parent, "Viewpoint", f"{topic.view_guid}.bcfv")
+    below(parent, "Snapshot", f"{topic.view_guid}.png")
