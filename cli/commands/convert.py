@@ -30,7 +30,7 @@ from satcheck.cli.report.words import counted, with_unit
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Scene
 from satcheck.scene.glb_file import Node, glb, rounding
-from satcheck.scene.moved_file import stray_mesh
+from satcheck.scene.moved.scene_file import stray_mesh
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file
 from satcheck.scene.units import unit_of
 

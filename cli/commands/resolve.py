@@ -41,11 +41,20 @@ from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_rules
-from satcheck.scene.moved_file import moved_scene_file, stray_mesh
+from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.moved.scene_file import moved_scene_file, stray_mesh
+from satcheck.scene.moved.usd import SUFFIXES as USD_SUFFIXES
+from satcheck.scene.moved.usd import Request as UsdRequest
+from satcheck.scene.moved.usd import moved_usd
 from satcheck.scene.new_scene_file import new_scene_file
 from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
+# Endings of a file -> those under which it is written back.
+_WRITTEN_BACK = {
+    **{ending: frozenset({ending}) for ending in SCENE_SUFFIXES},
+    **dict.fromkeys(USD_SUFFIXES, USD_SUFFIXES),
+}
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
@@ -146,13 +155,20 @@ def command(
 class _Target(Struct, frozen=True):
     """Where the moved scene goes, and what it is made from.
 
-    path: None: it is not written. rules: inputs beside others that state rules alone. scene: the
-    scene file, where one is all that was given, but for rules; None for mesh files.
+    path: None: it is not written. rules: inputs beside others that state rules alone. source: the
+    file that is written back, where it is all that was given, but for rules; None: the scene file
+    is new.
     """
 
     path: Path | None
     rules: tuple[str, ...]
-    scene: str | None
+    source: str | None
+
+    @property
+    def scene(self) -> str | None:
+        """The scene file that is written back."""
+        source = self.source
+        return source if source and Path(source).suffix.lower() in SCENE_SUFFIXES else None
 
 
 def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
@@ -163,19 +179,25 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
             raise click.UsageError("--scene-out and -o name the same file")
     rules = tuple(filter(is_rules, inputs.paths)) if len(inputs.paths) > 1 else ()
     bodies = [path for path in inputs.paths if path not in rules]
-    alone = len(bodies) == 1 and Path(bodies[0]).suffix.lower() in SCENE_SUFFIXES
-    target = _Target(moved, rules, bodies[0] if alone else None)
     if moved is None:
-        return target
-    wanted = {Path(bodies[0]).suffix.lower()} if alone else set(SCENE_SUFFIXES)
-    if not alone and not all(kind_of(path) in ("mesh", "document") for path in bodies):
+        return _Target(moved, rules, None)
+    ending = moved.suffix.lower()
+    own = _WRITTEN_BACK.get(Path(bodies[0]).suffix.lower(), frozenset())
+    back = len(bodies) == 1 and ending in own
+    is_scene = len(bodies) == 1 and kind_of(bodies[0]) == "scene"
+    if not is_scene and not all(kind_of(path) in ("mesh", "document") for path in bodies):
         raise click.UsageError(
             "--scene-out needs one scene file, or mesh files alone: links of robots are not moved"
         )
-    if moved.suffix.lower() not in wanted:
+    wanted = own if is_scene else SCENE_SUFFIXES | (own if len(bodies) == 1 else frozenset())
+    if ending not in wanted:
         known = " or ".join(sorted(wanted))
         raise click.UsageError(f"--scene-out {moved}: this scene is written as a {known} file")
-    return target
+    if back and not is_scene and moved.absolute().parent != Path(bodies[0]).absolute().parent:
+        raise click.UsageError(
+            f"--scene-out {moved}: write it beside {bodies[0]}, which may refer to files there"
+        )
+    return _Target(moved, rules, bodies[0] if back else None)
 
 
 def _posed(scene: Scene, inputs: Inputs) -> Scene:
@@ -187,7 +209,7 @@ def _posed(scene: Scene, inputs: Inputs) -> Scene:
 def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
     """A mesh outside of the folder of the file to write, which names it; UsageError unless
     allow_outside."""
-    if target.path is None:
+    if target.path is None or (target.source is not None and target.scene is None):
         return None
     stray = stray_mesh(target.scene, target.path, scene)
     if stray is not None and not allow_outside:
@@ -204,6 +226,16 @@ def _write_moved(
     translations = {move.body: move.translation for move in result.moves}
     if target.scene is not None:
         write_file(path, moved_scene_file(target.scene, path, translations))
+    elif target.source is not None:
+        request = UsdRequest(
+            location=target.source,
+            suffix=path.suffix.lower(),
+            bodies=tuple(body.id for body in scene.in_order()),
+            translations=translations,
+            options=scene.reading,
+        )
+        children = ReadingChildren(inputs.megabytes_per_file)
+        write_file(path, moved_usd(request, children, seconds=inputs.seconds_per_file))
     else:
         write_file(path, new_scene_file(path, scene, inputs.mesh_files(), translations))
 

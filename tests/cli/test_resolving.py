@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 from satcheck.cli.report.schema import text
 from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
+from tests.scene.usd.files import at, cube, stage
 
 # The box from (0, 0, 0) to (1, 1, 1).
 BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + (
@@ -255,3 +256,25 @@ def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> No
     ran = satcheck("resolve", *PUSHED, *arguments)
     assert ran.code == 2
     assert said in " ".join(ran.err.split())
+
+
+def test_a_usd_file_is_written_back_and_checked_again(tmp_path: Path) -> None:
+    source = tmp_path / "scene.usda"
+    source.write_text(stage(cube("A"), cube("B", at(0.75))))
+    output = tmp_path / "moved.usda"
+    ran = satcheck("resolve", str(source), "--scene-out", str(output))
+    assert ran.code == 0, ran.err
+    assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out
+    assert satcheck(str(output)).code == 0
+    assert "xformOp:translate:resolved" in output.read_text()
+
+
+def test_a_usd_file_is_written_beside_the_files_that_it_names(tmp_path: Path) -> None:
+    source = tmp_path / "scene.usda"
+    source.write_text(stage(cube("A"), cube("B", at(0.75))))
+    (tmp_path / "elsewhere").mkdir()
+    output = tmp_path / "elsewhere" / "moved.usda"
+    ran = satcheck("resolve", str(source), "--scene-out", str(output))
+    assert ran.code == 2
+    assert "write it beside" in ran.err
+    assert not output.exists()

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from satcheck.scene import load_scene
-from satcheck.scene.moved_file import moved_scene_file
+from satcheck.scene.moved.scene_file import moved_scene_file
 from tests.audit.shapes import unit_box, write
 
 TOML = """\
