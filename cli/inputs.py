@@ -45,6 +45,7 @@ class Inputs(Struct, frozen=True):
     rules: tuple[Path, ...] = ()
     time: float | None = None
     purpose: tuple[Purpose, ...] = ()
+    mesh_hulls: bool = False
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -65,7 +66,11 @@ class Inputs(Struct, frozen=True):
 
     @property
     def reading(self) -> ReadOptions:
-        return ReadOptions(time=self.time, purpose=self.purpose or None)
+        return ReadOptions(
+            time=self.time,
+            purpose=self.purpose or None,
+            mesh_hulls=self.mesh_hulls or None,
+        )
 
     @property
     def load_options(self) -> LoadOptions:

@@ -308,6 +308,11 @@ geometry_options = _together(
         metavar="NAME",
         help="Of USD prims to draw: render (the default), proxy or guide. Repeatable.",
     ),
+    click.option(
+        "--mesh-hulls",
+        is_flag=True,
+        help="Of MJCF files: check the convex hulls of meshes, as MuJoCo does.",
+    ),
 )
 # That pose robots.
 pose_options = _together(

@@ -14,7 +14,7 @@ InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 SDF_SUFFIXES = frozenset((".sdf", ".world"))
-ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
+ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf", ".mjcf"}
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
     **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),
@@ -38,7 +38,7 @@ def kind_of(path: str) -> InputKind:
     root, *below = _first_elements(Path(path))
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
-    return "robot" if root == "sdf" or suffix == _XACRO else "mesh"
+    return "robot" if root in ("sdf", "mujoco") or suffix == _XACRO else "mesh"
 
 
 def _first_elements(location: Path) -> list[str]:

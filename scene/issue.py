@@ -83,9 +83,9 @@ _ALL = (
     Code("no-volume", "warning", "The mesh is closed and encloses no volume: it is a sheet."),
     Code("degenerate-triangles", "warning", "Some triangles have area 0."),
     Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
-    # The robot: URDF, SRDF, SDFormat and the values of joints.
+    # The robot: URDF, SRDF, SDFormat, MJCF and the values of joints.
     Code(
-        "bad-robot", "error", "The URDF, SRDF or SDFormat file is not what its format prescribes."
+        "bad-robot", "error", "The file of a robot is not what its format prescribes."
     ),
     Code("xacro", "error", "The file has macros (xacro, ERB) and has to be expanded first."),
     Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
@@ -98,6 +98,9 @@ _ALL = (
     Code("visual-geometry", "note", "Visual geometry is checked, not collision geometry."),
     Code("half-space", "warning", "A plane is no finite body: nothing is checked against it."),
     Code("simplified-mesh", "warning", "A simulator replaces the mesh that is checked."),
+    Code("mesh-or-hull", "note", "A simulator replaces meshes by hulls: which is checked."),
+    Code("constraint-not-solved", "warning", "What connects bodies beside joints is not solved."),
+    Code("keyframe-not-read", "warning", "Keyframes of the file are no states."),
     Code("joint-not-moved", "warning", "A joint of this kind, or of a loop, is not moved."),
     Code("stored-state", "warning", "A stored state of a simulation is not applied."),
     Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
+
+from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
@@ -18,19 +20,21 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.loading.native import NATIVE_FORMATS
-from satcheck.scene.loading.nodes import Node, Nodes, load_nodes
+from satcheck.scene.loading.nodes import Node, Nodes, load_nodes, nodes_of
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
-from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.shape_file import remeshed, shape_file
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
     from satcheck.scene.known_meshes import KnownMeshes
+    from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
+MODEL_SUFFIXES = frozenset((".xml", ".mjcf"))  # of MJCF files
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
 
@@ -59,6 +63,7 @@ class MeshFiles:
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
         self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
+        self._hulls: dict[tuple[Path, str], Node | MeshFileError] = {}
         self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
 
     def _absolute(self, location: Path) -> Path:
@@ -144,10 +149,18 @@ class MeshFiles:
                 from satcheck.scene.drawing.bodies import load_shapes
 
                 return load_shapes(path, location, self._limits, self._children)
+            if location.suffix.lower() in MODEL_SUFFIXES:
+                from satcheck.scene.robot.mjcf.asking import read_own_meshes
+
+                own = read_own_meshes(path, location, self._limits, self._children)
+                return nodes_of(*own, components=components)
             return load_nodes(path, location, self._limits, self._children, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
-        """One node of the file by its path, which may end in "#" and the number of a component."""
+        """One node of the file by its path, which may end in "#" and the number of a component, or
+        in the mark of a convex hull, which may also stand alone."""
+        if part.endswith(HULL_MARK):
+            return self._hull(path, location, part)
         components = COMPONENT_MARK in part
         loaded = self.nodes(path, location, components=components)
         if isinstance(loaded, MeshFileError):
@@ -157,6 +170,22 @@ class MeshFiles:
             return by_path[part]
         message = f"there is no part {part!r} in the file{meant(part, filter(None, by_path))}"
         return MeshFileError("unknown-part", message, file=path)
+
+    def _hull(self, path: str, location: Path, part: str) -> Node | MeshFileError:
+        key = self._absolute(location), part
+        if key not in self._hulls:
+            whole = part == HULL_MARK
+            mesh = self.whole(path, location) if whole else None
+            node = Node(part, mesh) if mesh else self.part(path, location, part[: -len(HULL_MARK)])
+            self._hulls[key] = node if isinstance(node, MeshFileError) else _with_hull(node, part)
+        return self._hulls[key]
+
+    def model(self, path: str, packages: Mapping[str, str | Path] | None) -> Model:
+        """What an MJCF file says. Raises MeshFileError."""
+        from satcheck.scene.robot.mjcf.asking import read_model
+
+        with _reading(path, Path(path)):
+            return read_model(path, packages, self._limits, self._children)
 
     def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
@@ -169,6 +198,18 @@ class MeshFiles:
                 loaded = error
             self._shapes[key] = loaded
         return loaded
+
+
+def _with_hull(node: Node, part: str) -> Node:
+    """The node with the convex hull of its mesh."""
+    if isinstance(node.file, MeshFileError):
+        return node
+    try:
+        hull = node.file.mesh.convex_hull().to_mesh()
+        return replace(node, path=part, file=replace(remeshed(node.file, hull), part=part))
+    except (MeshFileError, ValueError) as error:
+        code = error.code if isinstance(error, MeshFileError) else "flat"
+        return replace(node, file=MeshFileError(code, f"convex hull: {error}", file=node.file.path))
 
 
 @contextmanager

@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path, PurePath
 
+HULL_MARK = "#hull"  # after the path of a node, or alone: the convex hull of the mesh
 COMPONENT_MARK = "#"  # between the path of a node and a component number; never in names
 
 

@@ -25,12 +25,14 @@ class ReadOptions(Struct, frozen=True):
     time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
     the first samples. geometry: collision: the colliders of a simulation are bodies; visual or
     None: what is drawn. purpose: of the prims that are drawn, beside those without a purpose; None:
-    render.
+    render. mesh_hulls: the collision meshes of MJCF files are convex hulls; the parts that bodies
+    name say so.
     """
 
     time: float | None = None
     geometry: GeometryKind | None = None
     purpose: tuple[Purpose, ...] | None = None
+    mesh_hulls: bool | None = None
 
     def stated(self, formats: Iterable[str]) -> dict[str, Any] | None:
         """The options that count for files of these formats, by name; None: no option counts."""

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 Split = Literal["nodes", "components", "none"]
 
-ROBOT_UNITS = "m"  # of every URDF and SDFormat file
+ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
 
 
 class SceneBuilder:
@@ -202,7 +202,14 @@ class SceneBuilder:
         )
 
         places = FilePlaces(path, packages, allow_outside=allow_outside)
-        robot, issues = read_robot(path, location, places, geometry)
+        robot, issues = read_robot(
+            path,
+            location,
+            places,
+            geometry,
+            compiled=lambda given: self._files.model(given, packages),
+            hulls=bool(self._reading.mesh_hulls),
+        )
         self._names.append(robot.name)
         self._only_meshes = False
         self._begin("robot", path, ROBOT_UNITS)
@@ -215,18 +222,27 @@ class SceneBuilder:
             place, shape, offset = part.file, None, part.offset
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
-                file = self._files.whole(place, part.source)
+                file = self._mesh(place, part.source, part.piece)
                 offset = self._in_metres(file, offset)
             elif isinstance(part.source, MeshFileError):
                 file = part.source
             else:
                 shape = part.source
                 file = self._files.shape(shape, place)
-            id_ = self._add(part.id, part.id, place, file, offset, own, part.static, shape)
+            id_ = self._add(
+                part.id, part.id, place, file, offset, own, part.static, shape, part.piece
+            )
             self._entries[id_] = Entry(part.file, line=part.line)
             offset = placing_mesh(file, offset) or offset
             bodies.append(RobotBody(id_, part.link, offset, part.groups))
         self._robots.append(SceneRobot(robot, tuple(bodies), groups=groups))
+
+    def _mesh(self, path: str, location: Path, piece: str | None) -> MeshFile | MeshFileError:
+        """piece: a part of the file; None: the whole."""
+        if piece is None:
+            return self._files.whole(path, location)
+        node = self._files.part(path, location, piece)
+        return node if isinstance(node, MeshFileError) else node.file
 
     def _groups_of(self, robot: str, parts: Sequence[Part]) -> dict[str, str]:
         """Groups of a robot -> their names in the check."""

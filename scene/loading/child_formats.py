@@ -69,7 +69,7 @@ def read_in_child(
         answer = msgspec.msgpack.decode(reply, type=Reply)
     except WorkerError as error:
         note_lost_reader()
-        raise refused_by_worker(error, source, megabytes) from error
+        raise refused_by_worker(error, source.format, source.path, megabytes) from error
     except msgspec.DecodeError:
         message = "the reader's answer is damaged"
         raise MeshFileError("reader-failed", message, file=source.path) from None
@@ -87,14 +87,15 @@ def _as_given(file: Path, directory: str, folder: Path) -> Path:
     return folder / file.relative_to(directory) if file.is_relative_to(directory) else file
 
 
-def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:
+def refused_by_worker(
+    error: WorkerError, file_format: str, path: str, megabytes: int
+) -> MeshFileError:
     """The error for a child that was stopped or died while it read a file."""
     code = _CODE_OF_WORKER.get(error.code, "reader-failed")
-    return MeshFileError(code, _explain(error, source, megabytes), file=source.path)
+    return MeshFileError(code, _explain(error, file_format.upper(), megabytes), file=path)
 
 
-def _explain(error: WorkerError, source: Source, megabytes: int) -> str:
-    kind = source.format.upper()
+def _explain(error: WorkerError, kind: str, megabytes: int) -> str:
     if isinstance(error, WorkerTimeout):
         limit = f"{error.seconds:g} s (raise it with --seconds-per-file)"
         return f"reading this {kind} file was stopped after {limit}"

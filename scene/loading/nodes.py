@@ -24,7 +24,7 @@ from satcheck.scene.loading import (
     read_scene,
     resolution_of,
 )
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawRule, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawRule, RawScene, Refusal
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -78,6 +78,12 @@ def load_nodes(
     """
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, children, flat=False)
+    return nodes_of(source, scene, components=components)
+
+
+def nodes_of(source: Source, scene: RawScene, *, components: bool) -> Nodes:
+    """As `load_nodes`, of a file that is read."""
+    path = source.path
     splitter = _Splitter(source, components, scene.units)
     meshes = [splitter.split(part) for part in scene.parts]
     _refuse_too_many(sum(len(meshes[node.part]) for node in scene.nodes), path)

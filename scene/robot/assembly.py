@@ -12,14 +12,22 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
-from satcheck.scene.bodies import Scene
+from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.plain_ids import HULL_MARK
 from satcheck.scene.robot.kinematics import link_poses, scaled
-from satcheck.scene.robot.model import Collision, Link, MeshReference, RefusedShape, Robot
+from satcheck.scene.robot.model import (
+    Collision,
+    Link,
+    MeshReference,
+    RefusedShape,
+    Robot,
+    State,
+)
 from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
-from satcheck.scene.robot.srdf import Srdf, State
+from satcheck.scene.robot.srdf import Srdf
 from satcheck.scene.words import listed
 
 
@@ -27,7 +35,8 @@ class Part(Struct, frozen=True):
     """One <collision> that becomes a body. offset: its geometry in the frame of the link. file,
     line: where it is stated. groups: as the robot names them.
 
-    source: the path of a mesh file, a shape, or the error if there is neither.
+    source: the path of a mesh file, a shape, or the error if there is neither. piece: the part of
+    the mesh file that is meant; None: all of it.
     """
 
     id: str
@@ -38,6 +47,7 @@ class Part(Struct, frozen=True):
     line: int
     static: bool = False
     groups: tuple[str, ...] = ()
+    piece: str | None = None
 
 
 class RobotBody(Struct, frozen=True):
@@ -59,7 +69,7 @@ class SceneRobot(Struct, frozen=True):
 
     @property
     def states(self) -> tuple[State, ...]:
-        return self.srdf.states if self.srdf else ()
+        return (*self.robot.states, *(self.srdf.states if self.srdf else ()))
 
     def bodies_of(self, link: str) -> list[str]:
         return [body.id for body in self.bodies if body.link == link]
@@ -116,6 +126,7 @@ def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
             line=collision.line,
             static=link.static,
             groups=collision.groups,
+            piece=_piece(collision),
         )
         for link, collision, number, source in collisions
     ]
@@ -219,8 +230,17 @@ def _part_id(link: Link, collision: Collision, number: int) -> str:
 
 def _offset(collision: Collision) -> Transform:
     if isinstance(collision.geometry, MeshReference):
-        return scaled(collision.origin, collision.geometry.scale)
+        placing = scaled(collision.origin, collision.geometry.scale)
+        start = collision.geometry.start
+        return placing if start == IDENTITY else compose(placing, start)
     return collision.origin
+
+
+def _piece(collision: Collision) -> str | None:
+    match collision.geometry:
+        case MeshReference(part=part, hull=hull):
+            return f"{part or ''}{HULL_MARK}" if hull else part
+    return None
 
 
 def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | MeshFileError:

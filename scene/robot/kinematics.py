@@ -20,11 +20,7 @@ from satcheck.core.transform import (
     quaternion_matrix,
 )
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot.model import Joint, Robot
-
-# The value of a joint: no number for a fixed joint, (x, y, angle) for a planar one, (x, y, z, roll,
-# pitch, yaw) for a floating one, an angle or a length for others.
-Values = tuple[float, ...]
+from satcheck.scene.robot.model import Joint, Robot, Values
 
 _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
@@ -38,7 +34,7 @@ def link_poses(robot: Robot, values: Mapping[str, Values]) -> dict[str, Transfor
     still = set(poses)
     for joint in robot.joints:
         own = values[joint.name] if joint.freedoms else ()
-        if joint.parent in still and not any(own):
+        if joint.parent in still and own == joint.neutral:
             still.add(joint.child)
         link = robot.links[joint.child]
         if link.rest is not None and joint.child in still:
@@ -65,11 +61,12 @@ def inverse(pose: Transform) -> Transform:
 
 def motion(joint: Joint, values: Sequence[float]) -> Transform:
     """The motion of the joint, which is applied after its origin."""
+    start = joint.reference[0] if joint.reference else 0.0
     match joint.kind:
         case "fixed":
             return IDENTITY
         case "prismatic":
-            x, y, z = (values[0] * c for c in joint.axis)
+            x, y, z = ((values[0] - start) * c for c in joint.axis)
             return placed(_NO_TURN, (x, y, z))
         case "planar":
             x, y, angle = values
@@ -78,7 +75,16 @@ def motion(joint: Joint, values: Sequence[float]) -> Transform:
             return placed(about(joint.axis, _cos_sin(angle)), shift)
         case "floating":
             return from_rpy((values[0], values[1], values[2]), (values[3], values[4], values[5]))
-    return placed(about(joint.axis, _cos_sin(values[0])), (0.0, 0.0, 0.0))
+        case "ball":
+            return _turned((0.0, 0.0, 0.0), values)
+        case "free":
+            return _turned((values[0], values[1], values[2]), values[3:])
+    return placed(about(joint.axis, _cos_sin(values[0] - start)), (0.0, 0.0, 0.0))
+
+
+def _turned(at: Vector, quaternion: Sequence[float]) -> Transform:
+    w, x, y, z = quaternion
+    return from_quaternion(at, (x, y, z, w))
 
 
 def scaled(pose: Transform, scale: Vector) -> Transform:

@@ -1,7 +1,7 @@
-"""A robot as its URDF or SDFormat file describes it: links with geometry, and joints that move
+"""A robot as its URDF, SDFormat or MJCF file describes it: links with geometry, and joints that move
 links.
 
-Lengths in metres, angles in radians, as both formats prescribe. A pose is a rigid row-major 4x4 for
+Lengths in metres, angles in radians, as these formats prescribe. A pose is a rigid row-major 4x4 for
 column vectors. This module reads no files and stores no values of joints.
 """
 
@@ -17,14 +17,27 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.read_options import GeometryKind
 
-JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+JointKind = UrdfJointKind | Literal["ball", "free"]
+# The value of a joint: no number for a fixed joint, (x, y, angle) for a planar one, (x, y, z, roll,
+# pitch, yaw) for a floating one, a quaternion (w, x, y, z) for a ball joint, (x, y, z, w, x, y, z)
+# for a free one, an angle or a length for others.
+Values = tuple[float, ...]
+FREEDOMS: dict[JointKind, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 4, "free": 7}
 
 
 class MeshReference(Struct, frozen=True):
-    """A mesh file by its URI as written. scale: factors of x, y, z; negative ones mirror."""
+    """A mesh file by its URI as written. scale: factors of x, y, z; negative ones mirror.
+
+    start: a rigid pose that is applied before the scale. part: of the file; None: all of it. hull:
+    its convex hull is meant.
+    """
 
     uri: str
     scale: Vector
+    start: Transform = IDENTITY
+    part: str | None = None
+    hull: bool = False
 
 
 class RefusedShape(Struct, frozen=True):
@@ -88,8 +101,9 @@ class Joint(Struct, frozen=True):
 
     origin: the pose of the joint's frame in the frame of the parent. axis: unit vector in the
     joint's frame. limits: None if there are none. child_origin: the pose of the child in the
-    joint's frame. stands_at_zero: without a value it stands at 0, even if 0 is beyond its limits,
-    because the file states the pose of the child there.
+    joint's frame. stands_at_zero: without a value it stands at 0, or at `reference`, even if that is
+    beyond its limits, because the file states the pose of the child there. reference: the value at
+    which it does not move the child; (): 0. The value of a free joint is a pose in the world.
     """
 
     name: str
@@ -102,11 +116,17 @@ class Joint(Struct, frozen=True):
     mimic: Mimic | None
     child_origin: Transform = IDENTITY
     stands_at_zero: bool = False
+    reference: Values = ()
 
     @property
     def freedoms(self) -> int:
         """How many numbers its value has."""
-        return {"fixed": 0, "planar": 3, "floating": 6}.get(self.kind, 1)
+        return FREEDOMS.get(self.kind, 1)
+
+    @property
+    def neutral(self) -> Values:
+        """The value at which it does not move the child."""
+        return self.reference or (0.0,) * self.freedoms
 
     @property
     def free(self) -> bool:
@@ -124,18 +144,32 @@ class Exemption(Struct, frozen=True):
 
 
 class Exempt(Struct, frozen=True):
-    """The exemptions of a robot: pairs of links, and pairs of groups of collisions."""
+    """The exemptions of a robot: pairs of links, and pairs of groups of collisions. checked: groups
+    that are checked nevertheless."""
 
     links: tuple[Exemption, ...] = ()
     groups: tuple[Exemption, ...] = ()
+    checked: tuple[Exemption, ...] = ()
+
+
+class State(Struct, frozen=True):
+    """A name for values of some joints: a <group_state> of an SRDF, or a keyframe of MJCF. file:
+    path as given. lines: joint -> line in the file; none of a keyframe."""
+
+    group: str
+    name: str
+    joints: dict[str, Values]
+    file: str
+    lines: dict[str, int]
 
 
 class Robot(Struct, frozen=True):
-    """Trees of links, checked. The links of an SDFormat file are one robot.
+    """Trees of links, checked. The links of an SDFormat or MJCF file are one robot.
 
     file: its path as given. roots: links that no joint carries -> their pose in the world. joints:
     each after the joint of its parent link. exempt: pairs that the format does not check; None: the
-    format says nothing about them. geometry: the elements of links that are checked.
+    format says nothing about them. geometry: the elements of links that are checked. states: those
+    that the file itself names.
     """
 
     name: str
@@ -145,6 +179,7 @@ class Robot(Struct, frozen=True):
     joints: tuple[Joint, ...]
     exempt: Exempt | None = None
     geometry: GeometryKind = "collision"
+    states: tuple[State, ...] = ()
 
     def joint(self, name: str) -> Joint | None:
         return next((joint for joint in self.joints if joint.name == name), None)

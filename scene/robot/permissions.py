@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from itertools import combinations, product
 
+from msgspec.structs import replace
+
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.assembly import SceneRobot
 from satcheck.scene.rules import Rule, Selector
@@ -47,6 +49,9 @@ def _exempted(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> list[Ru
     for e in exempt.links:
         for pair in product(bodies.get(e.a, ()), bodies.get(e.b, ())):
             rules.append(_allowed(pair, e.reason, file))
+    for e in exempt.checked:
+        pair = robot.groups[e.a], robot.groups[e.b]
+        rules.append(replace(_allowed(pair, e.reason, file, Selector.exactly_group), allowed=False))
     return rules
 
 

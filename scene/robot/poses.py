@@ -20,9 +20,7 @@ from msgspec import Struct
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.regular_file import read_whole
-from satcheck.scene.robot.kinematics import Values
-from satcheck.scene.robot.model import Joint, Robot
-from satcheck.scene.robot.srdf import State
+from satcheck.scene.robot.model import Joint, Robot, State, Values
 from satcheck.scene.words import meant
 
 Pose = Mapping[str, Values]
@@ -82,7 +80,8 @@ def state_named(name: str, states: Iterable[State]) -> State:
         choices = ", ".join(f"{state.group}/{state.name}" for state in matches)
         raise SatcheckError("bad-pose", f"several groups have a state {name!r}: {choices}")
     names = ", ".join(dict.fromkeys(state.name for state in known))
-    has = f"the states are {names}" if known else "no SRDF with a <group_state> was given"
+    none = "no SRDF with a <group_state>, and no MJCF with a <key>, was given"
+    has = f"the states are {names}" if known else none
     raise SatcheckError("bad-pose", f"no state {name!r}: {has}")
 
 
@@ -188,7 +187,7 @@ def _check_named(
 
 def _rest(joint: Joint, issues: list[Issue]) -> Values:
     if joint.limits is None or joint.stands_at_zero:
-        return (0.0,) * joint.freedoms
+        return joint.neutral
     value = min(max(0.0, joint.limits.lower), joint.limits.upper)
     if value:
         message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {value:g}"

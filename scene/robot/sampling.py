@@ -42,7 +42,8 @@ def joint_samples(
 def _range(joint: Joint) -> tuple[float, float]:
     if joint.limits is not None:
         return joint.limits.lower, joint.limits.upper
-    return (0.0, 0.0) if joint.kind == "prismatic" else (-math.pi, math.pi)
+    still = joint.neutral[0]
+    return (still, still) if joint.kind == "prismatic" else (-math.pi, math.pi)
 
 
 def _between(low: float, high: float, share: float) -> float:

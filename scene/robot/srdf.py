@@ -10,19 +10,8 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from satcheck.scene.robot.kinematics import Values
+from satcheck.scene.robot.model import State, Values
 from satcheck.scene.robot.xml_tree import Element, read_tree
-
-
-class State(Struct, frozen=True):
-    """A <group_state>: a name for values of some joints. file: path as given. lines: joint -> line
-    in the file."""
-
-    group: str
-    name: str
-    joints: dict[str, Values]
-    file: str
-    lines: dict[str, int]
 
 
 class Srdf(Struct, frozen=True):

@@ -31,11 +31,12 @@ from satcheck.scene.robot.model import (
     Mimic,
     RefusedShape,
     Robot,
+    UrdfJointKind,
 )
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
 
-_KINDS: tuple[JointKind, ...] = get_args(JointKind)
+_KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"

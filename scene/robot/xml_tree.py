@@ -19,6 +19,7 @@ from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, pars
 from satcheck.scene.words import meant
 
 SDF_ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
+MJCF_ROOT = "mujoco"
 _MAX_BYTES = 64 << 20
 # Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)

@@ -1,0 +1,7 @@
+"""MJCF (.xml, .mjcf), the models of MuJoCo -> one robot with all bodies of the file.
+
+The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html. MuJoCo itself reads the file,
+in a child process: `compiling` runs there, and its answer is one of `messages`. `includes` lists
+the files that MuJoCo may open, before it does. `reading` makes the robot of the answer, `joints`
+its joints, and `exemptions` says which pairs MuJoCo does not check.
+"""

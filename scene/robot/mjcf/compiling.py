@@ -1,0 +1,163 @@
+"""Compiles an MJCF file with MuJoCo. Runs in a child process, because MuJoCo may end its process.
+
+Only what places geometry is compiled: textures, actuators, sensors and the like may be broken. Nor
+does MuJoCo read meshes in formats that satcheck reads: a box stands for each.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.robot.mjcf.files import ModelFiles
+from satcheck.scene.robot.mjcf.messages import FileMesh, Key, Place, Request
+from satcheck.scene.robot.packages import FilePlaces
+
+_GEOM = mujoco.mjtGeom
+_READ_BY_SATCHECK = (".obj", ".stl")
+# A box whose centre and axes of inertia are those of its coordinates: MuJoCo does not move it.
+_CORNERS = [c for x in (-1, 1) for y in (-2, 2) for z in (-4, 4) for c in (x, y, z)]
+_FACES = [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1]
+_FACES += [2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3]
+# What moves no geometry at qpos0, and may need files or tools that are missing.
+_IRRELEVANT = ("actuators", "sensors", "skins", "textures", "cameras", "lights")
+_NOT_READ = {
+    _GEOM.mjGEOM_HFIELD: "a height field (hfield) is not read",
+    _GEOM.mjGEOM_SDF: "a signed distance field of a plugin (sdf) is not read",
+}
+
+
+class Compiled(NamedTuple):
+    """file_meshes, refused: the meshes that satcheck reads, and those that nobody does, by name.
+    of_geom: why a geom is not read, by its number. solved: what equality constraints connect."""
+
+    model: Any
+    name: str
+    file_meshes: dict[str, FileMesh]
+    refused: dict[str, Refusal]
+    of_geom: dict[int, Refusal]
+    lines: dict[int, int]
+    keys: tuple[Key, ...]
+    constraints: int
+    aligned: bool
+
+
+def compiled(request: Request) -> Compiled:
+    """Raises SceneFileError."""
+    path = request.path
+    places = FilePlaces(path, request.packages, allow_outside=request.allow_outside)
+    models = ModelFiles(path, places).models
+    try:
+        return _compiled(path, places, models)
+    except (ValueError, mujoco.FatalError) as error:
+        message = " ".join(str(error).removeprefix("Error: ").split())
+        code = "missing-resource" if "Error opening file" in message else "bad-robot"
+        raise SceneFileError(code, f"MuJoCo refuses it: {message}", file=path) from None
+
+
+def _compiled(path: str, places: FilePlaces, models: list[str]) -> Compiled:
+    spec = mujoco.MjSpec.from_file(path)
+    keys = [Key(key.name or f"key{k}", tuple(key.qpos)) for k, key in enumerate(spec.keys)]
+    constraints = sum(bool(equality.active) for equality in spec.equalities)
+    names = ("keys", "equalities", "tuples", *_IRRELEVANT, "tendons")
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    _delete(spec, (element for name in names for element in getattr(spec, name)))
+    _keep_all(spec)
+    refusals = _replace_geoms(spec)
+    file_meshes, refused = _replace_meshes(spec, path, places, models)
+    model = spec.compile()
+    return Compiled(
+        model,
+        spec.modelname,
+        file_meshes,
+        refused,
+        {geom.id: refusals[k] for k, geom in enumerate(spec.geoms) if k in refusals},
+        {geom.id: _line(geom.info) for geom in spec.geoms},
+        tuple(keys),
+        constraints,
+        bool(spec.compiler.alignfree) or any(joint.align == 1 for joint in spec.joints),
+    )
+
+
+def _delete(spec: Any, elements: Iterable[Any]) -> None:
+    for element in list(elements):
+        spec.delete(element)
+
+
+def _keep_all(spec: Any) -> None:
+    """Nothing is merged or left out, and no mass is refused, as none is needed."""
+    spec.compiler.fusestatic = False
+    spec.compiler.discardvisual = False
+    spec.compiler.balanceinertia = True
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1e-6
+
+
+def _replace_geoms(spec: Any) -> dict[int, Refusal]:
+    """Puts a sphere in the place of each geom that is not read. Number of the geom -> the reason"""
+    refusals = {}
+    for number, geom in enumerate(spec.geoms):
+        if geom.type in _NOT_READ:
+            refusals[number] = Refusal("unsupported-feature", _NOT_READ[geom.type])
+            geom.type, geom.size, geom.meshname, geom.hfieldname = _GEOM.mjGEOM_SPHERE, (1, 1, 1), "", ""
+    _delete(spec, spec.hfields)
+    return refusals
+
+
+def _replace_meshes(
+    spec: Any, path: str, places: FilePlaces, models: list[str]
+) -> tuple[dict[str, FileMesh], dict[str, Refusal]]:
+    """Puts a box in the place of each mesh that MuJoCo need not read, or may not."""
+    fitted = {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
+    files, refused = {}, {}
+    for mesh in spec.meshes:
+        if not mesh.file:
+            continue
+        uri = _file_of(mesh, path, places, models)
+        if isinstance(uri, Refusal):
+            refused[mesh.name] = uri
+        elif Path(uri).suffix.lower() in _READ_BY_SATCHECK:
+            turn = Place(_numbers(mesh.refpos), _numbers(mesh.refquat))
+            files[mesh.name] = FileMesh(uri, _numbers(mesh.scale), turn)
+            if mesh.name in fitted:
+                continue
+        else:
+            continue
+        mesh.file, mesh.content_type = "", ""
+        mesh.uservert, mesh.userface = np.array(_CORNERS, float), np.array(_FACES)
+        mesh.scale, mesh.refpos, mesh.refquat = (1, 1, 1), (0, 0, 0), (1, 0, 0, 0)
+    return files, refused
+
+
+def _file_of(mesh: Any, path: str, places: FilePlaces, models: list[str]) -> str | Refusal:
+    """The file of a mesh, relative to the folder of the model file."""
+    folder = Path(path).parent
+    own = os.path.join(mesh.compiler.meshdir, mesh.file)
+    uris = [os.path.normpath(os.path.join(os.path.relpath(Path(model).parent, folder), own)) for model in models]
+    found, failures = {}, []
+    for uri in dict.fromkeys(uris):
+        try:
+            found[uri] = places.of(path).locate(uri)
+        except MeshFileError as error:
+            failures.append(error)
+    if len(found) == 1:
+        return next(iter(found))
+    if found:
+        return Refusal("bad-robot", f"mesh file {own!r} is in the folders of several models")
+    return Refusal(failures[0].code, f"{own!r}: {failures[0].message}")
+
+
+def _line(info: str) -> int:
+    words = info.split()
+    return int(words[1]) if len(words) > 1 and words[0] == "line" and words[1].isdigit() else 0
+
+
+def _numbers(values: Any) -> Any:
+    return tuple(map(float, values))

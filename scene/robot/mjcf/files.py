@@ -1,0 +1,72 @@
+"""The files that an MJCF file includes or attaches, checked before MuJoCo opens them.
+
+MuJoCo looks for an included file in the folder of the model, then in that of the including file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.robot.packages import FilePlaces
+from satcheck.scene.robot.xml_tree import Element, read_tree
+
+ROOTS = ("mujoco", "mujocoinclude")
+_MOST_FILES = 10_000
+# Elements of which MuJoCo opens the file while it reads the XML.
+_OPENED = ("model", "flexcomp")
+
+
+class ModelFiles:
+    """All XML files of a model. models: the file itself and the models that it attaches.
+
+    Raises SceneFileError for a file that is missing, may not be opened, is no XML or has entities.
+    """
+
+    def __init__(self, path: str, places: FilePlaces) -> None:
+        self._places = places
+        self._read: set[tuple[str, str]] = set()
+        self.models: list[str] = []
+        self._model(path)
+
+    def _model(self, path: str) -> None:
+        if path not in self.models:
+            self.models.append(path)
+            self._file(path, path)
+
+    def _file(self, path: str, model: str) -> None:
+        """model: the file whose XML it becomes a part of."""
+        if (path, model) in self._read:
+            return
+        self._read.add((path, model))
+        root = read_tree(path, Path(path), *ROOTS, "robot")
+        if len(self._read) > _MOST_FILES:
+            root.refuse(f"more than {_MOST_FILES} files", "too-large")
+        for element in _all_below(root):
+            tag, file = element.tag.lower(), element.attributes.get("file")
+            if not file:
+                continue
+            if tag == "include":
+                self._file(self._place(element, file, model), model)
+            elif tag in _OPENED:
+                place = self._place(element, file, model)
+                if tag == "model" and Path(place).suffix.lower() in (".xml", ".mjcf"):
+                    self._model(place)
+
+    def _place(self, element: Element, file: str, model: str) -> str:
+        failures = []
+        for start in dict.fromkeys((model, element.file)):
+            try:
+                return self._places.of(start).locate(file).as_posix()
+            except MeshFileError as error:
+                if error.code == "outside-path":
+                    element.refuse(f"{file!r}: {error.message}", error.code)
+                failures.append(error)
+        element.refuse(f"{file!r}: {failures[0].message}", failures[0].code)
+
+
+def _all_below(element: Element) -> Iterator[Element]:
+    for child in element.children:
+        yield child
+        yield from _all_below(child)
