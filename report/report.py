@@ -263,7 +263,7 @@ class Exempt(Value, frozen=True):
 
 
 # The value of a planar or a floating joint.
-JointValues = Annotated[list[float], Meta(min_length=3, max_length=6)]
+JointValues = Annotated[list[float], Meta(min_length=3, max_length=7)]
 
 
 # A glob of ids, or "group:" and a glob of groups.
@@ -303,14 +303,15 @@ class Report(Value, frozen=True, kw_only=True):
 
     units: of all lengths; None: the unit of a body is unknown. pose: of the robots: joint ->
     radians, metres for a prismatic joint, [x, y, angle] for a planar one, [x, y, z, roll, pitch,
-    yaw] for a floating one, without joints that mimic others; None without robots. rules: if
-    several rules for a pair set the same key, the last one counts. findings: one for every checked
-    pair, except those that `truncated` counts, in the order of the bodies. truncated: the pairs
-    with separate boxes that are not listed, if there are more than 60 pairs; None: all pairs are
-    listed. statics: the support of bodies; absent if no rule asks. reading: options with which the
-    files were read; None: their formats leave no choice, or the defaults apply. baseline: that the
-    check was compared with; None: none. config: the options that a config file set; None: no config
-    file took effect.
+    yaw] for a floating one, [w, x, y, z] for a ball joint, [x, y, z, w, x, y, z] for a free one,
+    without joints that mimic others; None without robots. rules: if several rules for a pair set
+    the same key, the last one counts. findings: one for every checked pair, except those that
+    `truncated` counts, in the order of the bodies. truncated: the pairs with separate boxes that
+    are not listed, if there are more than 60 pairs; None: all pairs are listed. statics: the
+    support of bodies; absent if no rule asks. reading: options with which the files were read;
+    None: their formats leave no choice, or the defaults apply. baseline: that the check was
+    compared with; None: none. config: the options that a config file set; None: no config file took
+    effect.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA

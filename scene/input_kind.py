@@ -14,7 +14,7 @@ InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 SDF_SUFFIXES = frozenset((".sdf", ".world"))
-ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf", ".mjcf"}
+ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
     **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),

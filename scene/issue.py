@@ -84,9 +84,7 @@ _ALL = (
     Code("degenerate-triangles", "warning", "Some triangles have area 0."),
     Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
     # The robot: URDF, SRDF, SDFormat, MJCF and the values of joints.
-    Code(
-        "bad-robot", "error", "The file of a robot is not what its format prescribes."
-    ),
+    Code("bad-robot", "error", "The file of a robot is not what its format prescribes."),
     Code("xacro", "error", "The file has macros (xacro, ERB) and has to be expanded first."),
     Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
     Code("unknown-element", "warning", "An element unknown to the format was ignored."),

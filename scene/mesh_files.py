@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
-MODEL_SUFFIXES = frozenset((".xml", ".mjcf"))  # of MJCF files
+MODEL_SUFFIX = ".xml"  # of MJCF files
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
 
@@ -149,7 +149,7 @@ class MeshFiles:
                 from satcheck.scene.drawing.bodies import load_shapes
 
                 return load_shapes(path, location, self._limits, self._children)
-            if location.suffix.lower() in MODEL_SUFFIXES:
+            if location.suffix.lower() == MODEL_SUFFIX:
                 from satcheck.scene.robot.mjcf.asking import read_own_meshes
 
                 own = read_own_meshes(path, location, self._limits, self._children)

@@ -67,7 +67,7 @@ def _read(
             source.format, source.data, children, whole=whole, seconds=allowed.seconds
         )
     except WorkerError as error:
-        raise refused_by_worker(error, source, allowed.megabytes) from error
+        raise refused_by_worker(error, source.format, path, allowed.megabytes) from error
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from None
 

@@ -14,13 +14,13 @@ from satcheck.scene.robot.assembly import (
     posed,
     with_srdfs,
 )
-from satcheck.scene.robot.model import Joint, Link, Robot
+from satcheck.scene.robot.model import Joint, Link, Robot, State
 from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.sampling import joint_samples
-from satcheck.scene.robot.srdf import Srdf, State, read_srdf
+from satcheck.scene.robot.srdf import Srdf, read_srdf
 from satcheck.scene.robot.urdf import read_urdf
 
 __all__ = [

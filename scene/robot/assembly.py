@@ -150,8 +150,8 @@ def bare_links(robot: Robot) -> list[Issue]:
     have = "link has" if len(bare) == 1 else "links have"
     others = "visual" if robot.geometry == "collision" else "collision"
     message = (
-        f"{len(bare)} {have} {others} geometry and no <{robot.geometry}>, so no body is checked: "
-        f"{listed(bare)}"
+        f"{len(bare)} {have} {others} geometry and no {robot.geometry} geometry, so no body is "
+        f"checked: {listed(bare)}"
     )
     return [issue("no-collision-geometry", message, file=robot.file)]
 

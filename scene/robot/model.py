@@ -1,8 +1,8 @@
-"""A robot as its URDF, SDFormat or MJCF file describes it: links with geometry, and joints that move
-links.
+"""A robot as its URDF, SDFormat or MJCF file describes it: links with geometry, and joints that
+move links.
 
-Lengths in metres, angles in radians, as these formats prescribe. A pose is a rigid row-major 4x4 for
-column vectors. This module reads no files and stores no values of joints.
+Lengths in metres, angles in radians, as these formats prescribe. A pose is a rigid row-major 4x4
+for column vectors. This module reads no files and stores no values of joints.
 """
 
 from __future__ import annotations
@@ -101,9 +101,9 @@ class Joint(Struct, frozen=True):
 
     origin: the pose of the joint's frame in the frame of the parent. axis: unit vector in the
     joint's frame. limits: None if there are none. child_origin: the pose of the child in the
-    joint's frame. stands_at_zero: without a value it stands at 0, or at `reference`, even if that is
-    beyond its limits, because the file states the pose of the child there. reference: the value at
-    which it does not move the child; (): 0. The value of a free joint is a pose in the world.
+    joint's frame. stands_at_zero: without a value it stands at 0, or at `reference`, even if that
+    is beyond its limits, because the file states the pose of the child there. reference: the value
+    at which it does not move the child; (): 0. The value of a free joint is a pose in the world.
     """
 
     name: str

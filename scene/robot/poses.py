@@ -183,6 +183,8 @@ def _check_named(
         raise SatcheckError(
             "bad-pose", f"joint {name!r} ({kind}) takes {number}, not {len(values)}"
         )
+    if movable[name].kind in ("ball", "free") and not any(values[-4:]):
+        raise SatcheckError("bad-pose", f"joint {name!r}: a quaternion of length 0")
 
 
 def _rest(joint: Joint, issues: list[Issue]) -> Values:

@@ -25,6 +25,7 @@ HEAVY = {
     "lxml",
     "manifold3d",
     "matplotlib",
+    "mujoco",
     "multiprocessing",
     "networkx",
     "numpy",
@@ -57,6 +58,11 @@ def test_a_check_imports_no_large_library(form: str) -> None:
 def test_figures_import_no_large_library(option: str) -> None:
     """manifold3d and numpy work in a child process."""
     names = imported(option, "--format", "json", "box.obj", "box_pushed.stl", code=1)
+    assert names & HEAVY == set()
+
+
+def test_a_model_of_mujoco_is_read_in_a_child_process() -> None:
+    names = imported("--format", "json", "lift.xml", code=0)
     assert names & HEAVY == set()
 
 

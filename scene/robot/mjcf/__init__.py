@@ -1,4 +1,4 @@
-"""MJCF (.xml, .mjcf), the models of MuJoCo -> one robot with all bodies of the file.
+"""MJCF (.xml), the models of MuJoCo -> one robot with all bodies of the file.
 
 The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html. MuJoCo itself reads the file,
 in a child process: `compiling` runs there, and its answer is one of `messages`. `includes` lists

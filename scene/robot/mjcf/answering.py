@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
 import mujoco
 import numpy as np
 
+from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Primitive, Sphere
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.files_read import files_read
@@ -21,6 +24,7 @@ from satcheck.scene.robot.mjcf.messages import (
     Flex,
     Geom,
     Joint,
+    Key,
     Model,
     OwnMesh,
     Place,
@@ -29,6 +33,12 @@ from satcheck.scene.robot.mjcf.messages import (
 )
 
 _GEOM = mujoco.mjtGeom
+_TYPES = {
+    "body": mujoco.mjtObj.mjOBJ_BODY,
+    "geom": mujoco.mjtObj.mjOBJ_GEOM,
+    "joint": mujoco.mjtObj.mjOBJ_JOINT,
+    "flex": mujoco.mjtObj.mjOBJ_FLEX,
+}
 _KINDS = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
 _VALUES = {"free": 7, "ball": 4, "slide": 1, "hinge": 1}
 
@@ -48,7 +58,7 @@ class _Answer:
     def __init__(self, read: Compiled) -> None:
         self._read = read
         self._model = read.model
-        self._names = {kind: UniqueNames() for kind in ("body", "geom", "joint", "flex")}
+        self._names = {kind: UniqueNames() for kind in _TYPES}
 
     def model(self) -> Model:
         m, read = self._model, self._read
@@ -63,21 +73,24 @@ class _Answer:
             ),
             excludes=tuple((int(s) >> 16, int(s) & 0xFFFF) for s in m.exclude_signature),
             pairs=tuple(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True)),
-            keys=tuple(key for key in read.keys if len(key.qpos) in (0, m.nq) and not read.aligned),
+            keys=tuple(key for key in read.keys if self._is_read(key) and not read.aligned),
             parents_pass=not m.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT,
             notes=tuple(self._notes()),
         )
 
     def _name(self, kind: str, number: int) -> str:
         """As in MuJoCo, with the number for a name that is missing."""
-        given = getattr(self._model, kind)(number).name
+        given = mujoco.mj_id2name(self._model, _TYPES[kind], number)
         return self._names[kind].unique(given or f"{kind}{number}")
 
     def _body(self, k: int) -> Body:
         m = self._model
-        place = _place(m.body_pos[k], m.body_quat[k])
         return Body(
-            self._name("body", k), int(m.body_parentid[k]), int(m.body_weldid[k]), place
+            name=self._name("body", k),
+            parent=int(m.body_parentid[k]),
+            weld=int(m.body_weldid[k]),
+            static=bool(m.body_treeid[k] < 0),
+            place=_place(m.body_pos[k], m.body_quat[k]),
         )
 
     def _geom(self, k: int) -> Geom:
@@ -103,7 +116,7 @@ class _Answer:
             return Plane(), place
         if kind != _GEOM.mjGEOM_MESH:
             try:
-                return _primitive(kind, m.geom_size[k].tolist()), place
+                return _primitive(kind, _vector(m.geom_size[k])), place
             except ValueError as error:
                 return Refusal("bad-robot", str(error)), place
         mesh = m.geom_dataid[k]
@@ -111,6 +124,8 @@ class _Answer:
         if name in read.refused:
             return read.refused[name], place
         if name in read.file_meshes:
+            if 0.0 in read.file_meshes[name].scale:
+                return Refusal("singular-transform", "scale 0 flattens the mesh"), place
             return read.file_meshes[name], _uncentred(place, m.mesh_pos[mesh], m.mesh_quat[mesh])
         return OwnMesh(_part_name(m, mesh)), place
 
@@ -118,7 +133,7 @@ class _Answer:
         m = self._model
         kind = _KINDS[int(m.jnt_type[k])]
         first = int(m.jnt_qposadr[k])
-        low, high = m.jnt_range[k].tolist()
+        low, high = _vector(m.jnt_range[k])
         return Joint(
             name=self._name("joint", k),
             kind=kind,  # type: ignore[arg-type]
@@ -127,10 +142,10 @@ class _Answer:
             axis=_vector(m.jnt_axis[k]),
             limits=(low, high) if m.jnt_limited[k] and kind in ("hinge", "slide") else None,
             first=first,
-            rest=tuple(m.qpos0[first : first + _VALUES[kind]].tolist()),
+            rest=_vector(m.qpos0[first : first + _VALUES[kind]]),
         )
 
-    def _notes(self):
+    def _notes(self) -> Iterator[tuple[str, str]]:
         read = self._read
         if read.constraints:
             what = "constraint is" if read.constraints == 1 else "constraints are"
@@ -139,16 +154,23 @@ class _Answer:
                 f"{read.constraints} equality {what} not solved: joints stand where the pose says",
             )
         if read.aligned and read.keys:
-            yield "keyframe-not-read", "keyframes are not read, because alignfree moves their frames"
-        wrong = [key.name for key in read.keys if len(key.qpos) not in (0, self._model.nq)]
+            why = "alignfree moves the frames of their values"
+            yield "keyframe-not-read", f"keyframes are no states, because {why}"
+        wrong = [key.name for key in read.keys if not self._is_read(key)]
         if wrong:
-            yield "keyframe-not-read", f"keyframes with a wrong number of values: {', '.join(wrong)}"
+            names = ", ".join(wrong)
+            yield "keyframe-not-read", f"keyframes without a value for each joint: {names}"
+
+    def _is_read(self, key: Key) -> bool:
+        """Not if it lacks values, or has values that are not numbers."""
+        return len(key.qpos) in (0, self._model.nq) and all(map(math.isfinite, key.qpos))
 
 
 def _own_meshes(read: Compiled) -> RawScene | Refusal:
     """The meshes that only MuJoCo reads, in the coordinates of the compiled model."""
     m = read.model
-    parts, nodes = [], []
+    parts: list[RawPart] = []
+    nodes: list[RawNode] = []
     for k in range(m.nmesh):
         name = m.mesh(k).name
         if name in read.refused or name in read.file_meshes:
@@ -169,7 +191,7 @@ def _part_name(model: Any, mesh: int) -> str:
     return f"mesh{mesh}" if COMPONENT_MARK in name else name
 
 
-def _primitive(kind: int, size: list[float]) -> Primitive:
+def _primitive(kind: int, size: Vector) -> Primitive:
     """MuJoCo states half sizes."""
     a, b, c = size
     match kind:
@@ -198,8 +220,11 @@ def _uncentred(place: Place, centre: Any, turn: Any) -> Place:
 
 
 def _place(at: Any, turn: Any) -> Place:
-    return Place(_vector(at), tuple(map(float, turn)))  # type: ignore[arg-type]
+    return Place(_vector(at), _vector(turn))
 
 
 def _vector(values: Any) -> Any:
-    return tuple(map(float, values))
+    vector = tuple(map(float, values))
+    if not all(map(math.isfinite, vector)):
+        raise SceneFileError("non-finite", "a number of the file is not finite")
+    return vector

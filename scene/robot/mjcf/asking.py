@@ -18,7 +18,7 @@ from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.robot.mjcf.messages import Answer, Model, Request
 
-MODEL_FORMATS = {".xml": "mjcf", ".mjcf": "mjcf"}
+MODEL_FORMATS = {".xml": "mjcf"}
 _CHILD = "satcheck.scene.robot.mjcf.answering"
 _MISSING = "MJCF files are read by mujoco: pip install 'satcheck[mjcf]'"
 
@@ -30,6 +30,9 @@ def read_model(
     children: ReadingChildren,
 ) -> Model:
     """The model of a file, in its pose qpos0. Raises MeshFileError."""
+    if Path(path).suffix.lower() not in MODEL_FORMATS:
+        message = "MuJoCo reads files that end in .xml: rename it"
+        raise MeshFileError("unsupported-format", message, file=path)
     given = {name: str(place) for name, place in (packages or {}).items()}
     request = Request(path, given, allowed.allow_outside)
     content = _asked(request, allowed, children)
@@ -54,9 +57,7 @@ def read_own_meshes(
     return source, content
 
 
-def _asked(
-    request: Request, allowed: ReadLimits, children: ReadingChildren
-) -> Model | RawScene:
+def _asked(request: Request, allowed: ReadLimits, children: ReadingChildren) -> Model | RawScene:
     file = request.path
     try:
         reply = children.ask(_CHILD, msgspec.msgpack.encode(request), seconds=allowed.seconds)

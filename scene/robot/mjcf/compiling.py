@@ -20,6 +20,8 @@ from satcheck.scene.robot.mjcf.files import ModelFiles
 from satcheck.scene.robot.mjcf.messages import FileMesh, Key, Place, Request
 from satcheck.scene.robot.packages import FilePlaces
 
+# Else MuJoCo writes its warnings into a file of the working directory.
+mujoco.set_mju_user_warning(lambda _: None)
 _GEOM = mujoco.mjtGeom
 _READ_BY_SATCHECK = (".obj", ".stl")
 # A box whose centre and axes of inertia are those of its coordinates: MuJoCo does not move it.
@@ -106,7 +108,8 @@ def _replace_geoms(spec: Any) -> dict[int, Refusal]:
     for number, geom in enumerate(spec.geoms):
         if geom.type in _NOT_READ:
             refusals[number] = Refusal("unsupported-feature", _NOT_READ[geom.type])
-            geom.type, geom.size, geom.meshname, geom.hfieldname = _GEOM.mjGEOM_SPHERE, (1, 1, 1), "", ""
+            geom.type, geom.size = _GEOM.mjGEOM_SPHERE, (1, 1, 1)
+            geom.meshname = geom.hfieldname = ""
     _delete(spec, spec.hfields)
     return refusals
 
@@ -116,11 +119,12 @@ def _replace_meshes(
 ) -> tuple[dict[str, FileMesh], dict[str, Refusal]]:
     """Puts a box in the place of each mesh that MuJoCo need not read, or may not."""
     fitted = {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
-    files, refused = {}, {}
+    files: dict[str, FileMesh] = {}
+    refused: dict[str, Refusal] = {}
     for mesh in spec.meshes:
         if not mesh.file:
             continue
-        uri = _file_of(mesh, path, places, models)
+        uri = _file_of(mesh, path, places, models, stripped=bool(spec.strippath))
         if isinstance(uri, Refusal):
             refused[mesh.name] = uri
         elif Path(uri).suffix.lower() in _READ_BY_SATCHECK:
@@ -136,22 +140,31 @@ def _replace_meshes(
     return files, refused
 
 
-def _file_of(mesh: Any, path: str, places: FilePlaces, models: list[str]) -> str | Refusal:
-    """The file of a mesh, relative to the folder of the model file."""
-    folder = Path(path).parent
-    own = os.path.join(mesh.compiler.meshdir, mesh.file)
-    uris = [os.path.normpath(os.path.join(os.path.relpath(Path(model).parent, folder), own)) for model in models]
-    found, failures = {}, []
-    for uri in dict.fromkeys(uris):
+def _file_of(
+    mesh: Any, path: str, places: FilePlaces, models: list[str], *, stripped: bool
+) -> str | Refusal:
+    """The file of a mesh, relative to the folder of the model file. MuJoCo does not say which of
+    the models that it attaches names the mesh, so the file must be at one place only."""
+    start = Path(path).parent
+    own = Path(mesh.compiler.meshdir, Path(mesh.file).name if stripped else mesh.file)
+    folders = dict.fromkeys(os.path.relpath(Path(model).parent, start) for model in models)
+    found: list[str] = []
+    failures: list[MeshFileError] = []
+    uris = [os.path.normpath(folder / own) for folder in folders]
+    readable = own.suffix.lower() in _READ_BY_SATCHECK
+    if readable and len(uris) == 1:
+        return uris[0]  # whoever reads it reports what is wrong with it
+    for uri in uris:
         try:
-            found[uri] = places.of(path).locate(uri)
+            places.of(path).locate(uri)
+            found.append(uri)
         except MeshFileError as error:
             failures.append(error)
     if len(found) == 1:
-        return next(iter(found))
+        return found[0]
     if found:
-        return Refusal("bad-robot", f"mesh file {own!r} is in the folders of several models")
-    return Refusal(failures[0].code, f"{own!r}: {failures[0].message}")
+        return Refusal("bad-robot", f"mesh file {str(own)!r} lies beside several attached models")
+    return uris[0] if readable else Refusal(failures[0].code, f"{own}: {failures[0].message}")
 
 
 def _line(info: str) -> int:

@@ -1,9 +1,10 @@
-"""The pairs that MuJoCo does not check: bodies that are welded together, a body and its parent,
-excluded bodies, and geoms whose bits do not match; and the pairs of geoms that it always checks."""
+"""The pairs that MuJoCo does not check: static bodies, bodies that are welded together, a body and
+its parent, excluded bodies, and geoms whose bits do not match; and the pairs of geoms that it
+always checks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations_with_replacement, product
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from satcheck.scene.robot.mjcf.messages import Body, Model
 from satcheck.scene.robot.model import Exempt, Exemption
 
 _WORLD = 0
+_STATIC = "static"
 
 
 class Mask(NamedTuple):
@@ -47,7 +49,9 @@ class Exemptions:
     def groups(self, body: Body | None, mask: Mask, geom: int | None = None) -> tuple[str, ...]:
         """Of a geom. body: None for a flex, which moves on its own. geom: its number."""
         groups = []
-        if body is not None and len(self._welded[body.weld]) > 1:
+        if body is not None and body.static:
+            groups.append(_STATIC)
+        elif body is not None and len(self._welded[body.weld]) > 1:
             groups.append(self._weld(body.weld))
         if str(mask) in self._told_apart:
             groups.append(str(mask))
@@ -60,10 +64,11 @@ class Exemptions:
         return Exempt((*self._by_parent(), *self._excluded()), tuple(groups), tuple(self._pairs()))
 
     def _by_weld(self) -> Iterator[Exemption]:
+        yield Exemption(_STATIC, _STATIC, "MJCF: both static")
         for weld, names in self._welded.items():
-            if len(names) > 1:
-                why = "both static" if weld == _WORLD else "welded together, no joint between"
-                yield Exemption(self._weld(weld), self._weld(weld), f"MJCF: {why}")
+            if len(names) > 1 and not self._model.bodies[weld].static:
+                group = self._weld(weld)
+                yield Exemption(group, group, "MJCF: welded together, no joint between")
 
     def _by_masks(self) -> Iterator[Exemption]:
         for a, b in self._apart:
@@ -89,7 +94,7 @@ class Exemptions:
             yield Exemption(self._geom(a), self._geom(b), "MJCF: pair")
 
     def _weld(self, weld: int) -> str:
-        return "static" if weld == _WORLD else f"welded to {self._model.bodies[weld].name}"
+        return f"welded to {self._model.bodies[weld].name}"
 
     def _geom(self, number: int | None) -> str:
         return f"geom {self._model.geoms[number or 0].name}"

@@ -51,19 +51,20 @@ class ModelFiles:
                 self._file(self._place(element, file, model), model)
             elif tag in _OPENED:
                 place = self._place(element, file, model)
-                if tag == "model" and Path(place).suffix.lower() in (".xml", ".mjcf"):
+                if tag == "model" and Path(place).suffix.lower() == ".xml":
                     self._model(place)
 
     def _place(self, element: Element, file: str, model: str) -> str:
-        failures = []
+        first: MeshFileError | None = None
         for start in dict.fromkeys((model, element.file)):
             try:
                 return self._places.of(start).locate(file).as_posix()
             except MeshFileError as error:
+                first = first or error
                 if error.code == "outside-path":
-                    element.refuse(f"{file!r}: {error.message}", error.code)
-                failures.append(error)
-        element.refuse(f"{file!r}: {failures[0].message}", failures[0].code)
+                    break
+        assert first is not None
+        return element.refuse(f"{file!r}: {first.message}", first.code)
 
 
 def _all_below(element: Element) -> Iterator[Element]:

@@ -1,5 +1,5 @@
-"""The joints of MJCF. A body has several joints, one after another, or none: then it is fixed to its
-parent. Bodies without geometry stand between the joints of one body."""
+"""The joints of MJCF. A body has several joints, one after another; a body without joints is fixed
+to its parent. Bodies without geometry stand between the joints of one body."""
 
 from __future__ import annotations
 
@@ -92,7 +92,9 @@ def _free(wanted: str, taken: set[str]) -> str:
     return name
 
 
-def values_of(key: messages.Key, joints: Sequence[messages.Joint]) -> Iterator[tuple[str, tuple[float, ...]]]:
+def values_of(
+    key: messages.Key, joints: Sequence[messages.Joint]
+) -> Iterator[tuple[str, tuple[float, ...]]]:
     """The values of the joints in a keyframe; one without values stands for qpos0."""
     for joint in joints:
         values = key.qpos[joint.first : joint.first + len(joint.rest)]

@@ -34,11 +34,12 @@ class Place(Struct, frozen=True):
 
 class Body(Struct, frozen=True):
     """place: in the frame of the parent, at qpos0. weld: the first of the bodies that no joint
-    moves against this one; 0: the world."""
+    moves against this one; 0: the world. static: no joint moves it; a mocap body is static."""
 
     name: str
     parent: int
     weld: int
+    static: bool
     place: Place
 
 

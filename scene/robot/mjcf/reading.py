@@ -58,8 +58,8 @@ class _Reader:
         self._flexes = [
             flex for flex in model.flexes if geometry == "visual" or _mask(flex).collides
         ]
-        moving = [*(geom for _, geom in self._checked), *self._flexes]
-        masks = [_mask(one) for one in moving] if geometry == "collision" else []
+        solid: list[Geom | Flex] = [*(geom for _, geom in self._checked), *self._flexes]
+        masks = [_mask(one) for one in solid] if geometry == "collision" else []
         self._exemptions = Exemptions(model, masks)
 
     def read(self) -> tuple[Robot, tuple[Issue, ...]]:
@@ -99,7 +99,7 @@ class _Reader:
                 name=body.name,
                 collisions=tuple(of_body.get(number, ())),
                 unused=number in others,
-                static=body.weld == 0,
+                static=body.static,
                 rest=rest[number],
             )
 
