@@ -7,7 +7,7 @@ from pathlib import Path
 
 import msgspec
 
-from satcheck.core.worker import WorkerError, WorkerFailed
+from satcheck.core.worker import WorkerError
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.issue import CODES
@@ -19,8 +19,7 @@ from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.robot.mjcf.messages import Answer, Model, Request
 
 MODEL_FORMATS = {".xml": "mjcf"}
-_CHILD = "satcheck.scene.robot.mjcf.answering"
-_MISSING = "MJCF files are read by mujoco: pip install 'satcheck[mjcf]'"
+_CHILD = "satcheck.scene.robot.mjcf.child"
 
 
 def read_model(
@@ -64,8 +63,6 @@ def _asked(request: Request, allowed: ReadLimits, children: ReadingChildren) -> 
         answer = msgspec.msgpack.decode(reply, type=Answer)
     except WorkerError as error:
         note_lost_reader()
-        if isinstance(error, WorkerFailed) and error.exception_type == "ModuleNotFoundError":
-            raise MeshFileError("missing-extra", _MISSING, file=file) from None
         raise refused_by_worker(error, "mjcf", file, allowed.megabytes) from error
     except msgspec.DecodeError:
         raise MeshFileError("reader-failed", "the reader's answer is damaged", file=file) from None

@@ -1,4 +1,4 @@
-"""Answers requests about MJCF files, in a child process."""
+"""What a compiled MJCF file contains, as messages. Runs in a child process."""
 
 from __future__ import annotations
 
@@ -6,19 +6,16 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-import msgspec
 import mujoco
 import numpy as np
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Primitive, Sphere
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.files_read import files_read
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.robot.mjcf.compiling import Compiled, compiled
+from satcheck.scene.robot.mjcf.compiling import Compiled
 from satcheck.scene.robot.mjcf.messages import (
-    Answer,
     Body,
     FileMesh,
     Flex,
@@ -29,7 +26,6 @@ from satcheck.scene.robot.mjcf.messages import (
     OwnMesh,
     Place,
     Plane,
-    Request,
 )
 
 _GEOM = mujoco.mjtGeom
@@ -43,18 +39,12 @@ _KINDS = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
 _VALUES = {"free": 7, "ball": 4, "slide": 1, "hinge": 1}
 
 
-def serve(message: bytes) -> bytes:
-    request = msgspec.msgpack.decode(message, type=Request)
-    with files_read() as files:
-        try:
-            read = compiled(request)
-            content = _own_meshes(read) if request.only_meshes else _Answer(read).model()
-        except SceneFileError as error:
-            content = Refusal(error.code, error.message)
-    return msgspec.msgpack.encode(Answer(content, tuple(files)))
+def model_of(read: Compiled) -> Model:
+    """Raises SceneFileError if a number is not finite."""
+    return _Contents(read).model()
 
 
-class _Answer:
+class _Contents:
     def __init__(self, read: Compiled) -> None:
         self._read = read
         self._model = read.model
@@ -166,7 +156,7 @@ class _Answer:
         return len(key.qpos) in (0, self._model.nq) and all(map(math.isfinite, key.qpos))
 
 
-def _own_meshes(read: Compiled) -> RawScene | Refusal:
+def own_meshes_of(read: Compiled) -> RawScene | Refusal:
     """The meshes that only MuJoCo reads, in the coordinates of the compiled model."""
     m = read.model
     parts: list[RawPart] = []
