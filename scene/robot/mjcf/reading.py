@@ -11,9 +11,9 @@ from pathlib import Path
 
 from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.input_kind import GeometryKind
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.mjcf.exemptions import Exemptions, Mask
 from satcheck.scene.robot.mjcf.joints import joints_of, pose_of, rest_poses, values_of

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Sphere
 from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene.loading import extras
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.robot.mjcf.child import serve
+from satcheck.scene.robot.mjcf.messages import Answer, Request
 from tests.scene.robot.mjcf.files import (
     TETRAHEDRON,
     body,
@@ -223,3 +228,15 @@ def test_a_file_of_another_ending_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SceneFileError) as caught:
         load_scene([path])
     assert caught.value.code == "unsupported-format"
+
+
+def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(name: str) -> None:
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    monkeypatch.setattr(extras, "import_module", missing)
+    request = Request("m.xml", {}, allow_outside=False)
+    answer = msgspec.msgpack.decode(serve(msgspec.msgpack.encode(request)), type=Answer)
+    assert isinstance(answer.content, Refusal)
+    assert answer.content.code == "missing-extra"
+    assert "pip install 'satcheck[mjcf]'" in answer.content.message
