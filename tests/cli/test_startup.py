@@ -62,8 +62,7 @@ def test_figures_import_no_large_library(option: str) -> None:
 
 
 def test_a_model_of_mujoco_is_read_in_a_child_process() -> None:
-    names = imported("--format", "json", "lift.xml", code=0)
-    assert names & HEAVY == set()
+    assert "mujoco" not in imported("--format", "json", "lift.xml", code=0)
 
 
 @pytest.mark.parametrize("arguments", [("--help",), ("--version",), ("schema",)])
