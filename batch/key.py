@@ -9,6 +9,7 @@ import stat
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 from msgspec import to_builtins
 from msgspec.structs import replace
@@ -48,40 +49,59 @@ def digest(name: str) -> str | None:
         return _sha256(f"error {error.errno}")
 
 
+class _Known(NamedTuple):
+    """place: where the file really lies."""
+
+    at: Signature
+    digest: str | None
+    place: str
+
+
 class Digests:
-    """The digests of files that did not change since they were made."""
+    """The digests and places of files that did not change since they were made."""
 
     def __init__(self) -> None:
-        self._known: OrderedDict[str, tuple[Signature, str | None]] = OrderedDict()
+        self._known: OrderedDict[str, _Known] = OrderedDict()
 
     def digest(self, files: FilesRead, name: str) -> str | None:
         """files: the name is one of them."""
         at = files.signature(name)
         known = self._known.pop(name, None)
-        made = digest(name) if known is None or known[0] != at else known[1]
+        if known is None or known.at != at:
+            known = _Known(at, digest(name), real_path(name))
         if files.is_settled(name):
-            self._known[name] = at, made
+            self._known[name] = known
             if len(self._known) > _MOST_DIGESTS:
                 self._known.popitem(last=False)
-        return made
+        return known.digest
+
+    def real_path(self, name: str) -> str:
+        """After `digest`. A file that is not there has nothing that would show a change."""
+        known = self._known.get(name)
+        return real_path(name) if known is None or known.at is None else known.place
 
 
 def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:
     return tuple(InputFile(name, digest(name)) for name in sorted(names))
 
 
-def key_of(world: World, terms: str, inputs: tuple[InputFile, ...]) -> str:
-    """terms: of the options, see `terms_of`. Where a file really lies counts: the names of packages
-    and bodies, and what a scene may read, depend on it."""
-    files = [(each.path, _real_path(each.path), each.sha256) for each in inputs]
-    return _sha256(json.dumps([terms, world, files]))
-
-
-def _real_path(name: str) -> str:
+def real_path(name: str) -> str:
     try:
         return name if urls.is_url(name) else os.path.realpath(name)
     except ValueError:  # a NUL: no file has this name
         return name
+
+
+def key_of(
+    world: World,
+    terms: str,
+    inputs: tuple[InputFile, ...],
+    real_path: Callable[[str], str] = real_path,
+) -> str:
+    """terms: of the options, see `terms_of`. Where a file really lies counts: the names of packages
+    and bodies, and what a scene may read, depend on it."""
+    files = [(each.path, real_path(each.path), each.sha256) for each in inputs]
+    return _sha256(json.dumps([terms, world, files]))
 
 
 def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:

@@ -114,7 +114,7 @@ def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | No
         return _remote_answer(world, options, terms, copy=copy)
     checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
-    key = key_of(world, terms, inputs) if files.are_certain() else None
+    key = key_of(world, terms, inputs, _digests.real_path) if files.are_certain() else None
     return answer(_result(world, checked, inputs, key))
 
 
@@ -124,7 +124,7 @@ def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) 
     except SatcheckError as error:  # of the fetch: the next run tries again
         return answer(_result(world, unreadable_asset(world[0], error), (), None))
     inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
-    key = key_of(world, terms, inputs) if files.are_certain() else None
+    key = key_of(world, terms, inputs, _digests.real_path) if files.are_certain() else None
     made = answer(_result(world, checked, inputs, key))
     return replace(made, line=copy.with_urls(made.line))
 

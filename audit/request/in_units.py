@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 from satcheck.audit.request.settings import Settings
 from satcheck.scene import Scene
 from satcheck.scene.units import Length, unit_of
+
+# The scenes of a batch have the same settings.
+_settings = lru_cache(maxsize=8, typed=True)(Settings)
 
 
 def settings_in_units(
@@ -24,7 +28,7 @@ def settings_in_units(
     if len(scene.bodies) + len(scene.unreadable) > 1 or unit_of(scene.units):
         for name, value in lengths.items():
             plain[name] = length_in_units(value, scene.units, names[name])
-    return Settings(**plain)
+    return _settings(**plain)
 
 
 def length_in_units(value: Length, declared: str | None, name: str) -> float:
