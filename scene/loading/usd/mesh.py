@@ -10,9 +10,15 @@ from pxr import UsdGeom
 
 from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
 
 Ints = NDArray[np.int64]
+Points = NDArray[np.floating[Any]]
+_FORMATS: dict[str, NumberFormat] = {
+    "float16": "float16",
+    "float32": "float32",
+    "float64": "float64",
+}
 
 
 def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
@@ -42,7 +48,8 @@ def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
     points = _points(mesh, time)
     faces = mesh.GetSurfaceFaceVertexIndicesAttr().Get(time)
     if not faces:
-        _refuse_indices(_ints(mesh.GetTetVertexIndicesAttr(), time), len(points))
+        tetrahedra = np.asarray(mesh.GetTetVertexIndicesAttr().Get(time) or (), np.int64)
+        _refuse_indices(tetrahedra.ravel(), len(points))
         faces = UsdGeom.TetMesh.ComputeSurfaceFaces(mesh, time)
     if not faces:
         raise MeshFileError(NO_SURFACE, "the mesh has no tetrahedra")
@@ -51,17 +58,24 @@ def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
     return _raw(points, _outward(mesh, triangles, time), unit, ())
 
 
-def _points(mesh: Any, time: Any) -> NDArray[np.float64]:
+def _points(mesh: Any, time: Any) -> Points:
+    """In the precision of the file."""
     value = mesh.GetPointsAttr().Get(time)
-    points = np.asarray(() if value is None else value, np.float64).reshape(-1, 3)
+    if not value:
+        return np.zeros((0, 3))
+    points = np.asarray(value)
+    if points.ndim != 2 or points.shape[1] != 3 or points.dtype.name not in _FORMATS:
+        raise MeshFileError("bad-record", "the points are no list of x, y, z")
     if not np.isfinite(points).all():
         raise MeshFileError("non-finite", "non-finite coordinates")
     return points
 
 
 def _ints(attribute: Any, time: Any) -> Ints:
-    value = attribute.Get(time)
-    return np.asarray(() if value is None else value, np.int64).ravel()
+    values = np.asarray(attribute.Get(time) or ())
+    if len(values) and (values.ndim != 1 or values.dtype.kind != "i"):
+        raise MeshFileError("bad-record", f"{attribute.GetName()} is no list of integers")
+    return values.astype(np.int64)
 
 
 def _refuse_indices(corners: Ints, count: int) -> None:
@@ -90,7 +104,7 @@ def _solid_faces(
     return corners, lengths, tuple(warnings)
 
 
-def _triangles(points: NDArray[np.float64], corners: Ints, lengths: Ints) -> Ints:
+def _triangles(points: Points, corners: Ints, lengths: Ints) -> Ints:
     if (lengths == 3).all():
         return corners.reshape(-1, 3)
     cut = cut_polygons(
@@ -109,7 +123,7 @@ def _outward(mesh: Any, triangles: Ints, time: Any) -> Ints:
 
 
 def _raw(
-    points: NDArray[np.float64],
+    points: Points,
     triangles: Ints,
     unit: str,
     warnings: tuple[tuple[str, str], ...],
@@ -117,7 +131,7 @@ def _raw(
     return RawMesh(
         vertices=points.astype("<f8").tobytes(),
         triangles=triangles.astype("<u4").tobytes(),
-        number_format="float32",
+        number_format=_FORMATS[points.dtype.name],
         units=unit,
         warnings=warnings,
     )

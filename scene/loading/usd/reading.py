@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Gf, Usd, UsdGeom, UsdPhysics
+from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
 
 from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
@@ -24,8 +24,8 @@ from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
 from satcheck.scene.loading.usd.shapes import flat_faces, placed_shape, shape_of
-from satcheck.scene.loading.usd.stage import Stage
-from satcheck.scene.loading.usd.walk import WORLD, Found, Walk
+from satcheck.scene.loading.usd.stage import Stage, said
+from satcheck.scene.loading.usd.walk import WORLD, Found, Walk, type_of
 from satcheck.scene.read_options import ReadOptions
 
 _NO_SURFACE = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points", "Volume"))
@@ -79,17 +79,17 @@ class _Reading:
             self._said.add("not-a-body", reason, name)
         elif refusal is not None:
             self._add(found, refusal, None)
-        elif prim.GetTypeName() in _NO_SURFACE:
-            words = f"of type {prim.GetTypeName()}, without a surface of triangles"
+        elif type_of(prim) in _NO_SURFACE:
+            words = f"of type {type_of(prim)}, without a surface of triangles"
             self._said.add("ignored-geometry", words, name)
-        elif prim.GetTypeName() == "Plane" and self._choice.colliders:
+        elif type_of(prim) == "Plane" and self._choice.colliders:
             self._said.add("half-space", "a half space, nothing is checked against it", name)
         else:
             self._place(found)
 
     def _look_at_other(self, prim: Any, name: str) -> None:
         kind = prim.GetTypeName()
-        if kind and not Usd.SchemaRegistry().FindConcretePrimDefinition(kind):
+        if kind and not type_of(prim):
             words = f"of type {kind}, which is not known"
             self._said.add("unknown-element", words, name)
         elif self._choice.colliders and prim.HasAPI(UsdPhysics.CollisionAPI):
@@ -132,6 +132,8 @@ class _Reading:
                 return read_tetrahedra(prim, time, unit), _NOT_TURNED
         except MeshFileError as error:
             return Refusal(error.code, error.message), _NOT_TURNED
+        except Tf.ErrorException as error:
+            return Refusal("bad-record", said(error)), _NOT_TURNED
         message = f"geometry of the type {prim.GetTypeName()} is not read: convert it to a Mesh"
         return Refusal("unsupported-feature", message), _NOT_TURNED
 

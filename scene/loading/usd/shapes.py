@@ -15,6 +15,7 @@ from satcheck.core.tolerances import ORTHOGONALITY
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.usd.walk import type_of
 
 # Many programs write rotations and scales as float32. A placement this close to one of a shape is
 # one; a share of the size of the shape.
@@ -35,10 +36,10 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
     """
 
     def size(name: str) -> float:
-        return float(prim.GetAttribute(name).Get(time))
+        return _number(prim, name, time)
 
     try:
-        match prim.GetTypeName():
+        match type_of(prim):
             case "Sphere":
                 return Sphere(size("radius")), _TURNS["Z"]
             case "Cylinder":
@@ -52,12 +53,12 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
             case _:
                 return None
     except ValueError as error:
-        raise MeshFileError("bad-record", f"{prim.GetTypeName()}: {error}") from None
+        raise MeshFileError("bad-record", f"{type_of(prim)}: {error}") from None
     return shape, _TURNS[str(prim.GetAttribute("axis").Get(time))]
 
 
 def _of_two_radii(prim: Any, size: Any) -> Primitive:
-    form = Cylinder if prim.GetTypeName() == "Cylinder_1" else Capsule
+    form = Cylinder if type_of(prim) == "Cylinder_1" else Capsule
     bottom, top = size("radiusBottom"), size("radiusTop")
     if bottom == top:
         return form(bottom, size("height"))
@@ -72,10 +73,10 @@ def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
 
     Their triangles are exact. Their precision is that of float32, in which most files scale them.
     """
-    match prim.GetTypeName():
+    match type_of(prim):
         case "Cube":
             try:
-                box = Box((float(prim.GetAttribute("size").Get(time)),) * 3)
+                box = Box((_number(prim, "size", time),) * 3)
             except ValueError as error:
                 raise MeshFileError("bad-record", f"Cube: {error}") from None
             vertices, triangles = mesh_of(box).to_bytes()
@@ -88,12 +89,19 @@ def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
 
 def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
     """The extents along the axes follow the schema of UsdGeomPlane."""
-    half = plane.GetWidthAttr().Get(time) / 2, plane.GetLengthAttr().Get(time) / 2
+    half = [_number(plane.GetPrim(), name, time) / 2 for name in ("width", "length")]
     along = {"X": (2, 1), "Y": (0, 2), "Z": (0, 1)}[str(plane.GetAxisAttr().Get(time))]
     corners = np.zeros((4, 3), "<f8")
     for axis, extent, signs in zip(along, half, ((-1, 1, 1, -1), (-1, -1, 1, 1)), strict=True):
         corners[:, axis] = np.multiply(signs, extent)
     return corners.tobytes(), np.array([0, 1, 2, 0, 2, 3], "<u4").tobytes()
+
+
+def _number(prim: Any, name: str, time: Any) -> float:
+    value = prim.GetAttribute(name).Get(time)
+    if not isinstance(value, float | int):
+        raise MeshFileError("bad-record", f"{type_of(prim)}: {name} is no number")
+    return float(value)
 
 
 def placed_shape(shape: Primitive, matrix: Transform) -> Transform:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,12 +12,14 @@ from msgspec import Struct
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
-from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.path_kind import followed
 from satcheck.scene.units import unit_of
 
 _METRE = "m"
+_DIGITS = 7  # that float32 keeps
+# What a reference to such a file lacks is no body.
+_ONLY_MATERIALS = re.compile(r"@[^@]*\.mtlx(\?[^@]*)?@")
 # Composition errors that concern single opinions. All others may hide a part of the scene.
 _OF_OPINIONS = ("Target", "Inconsistent", "Property", "Opinion", "VariableExpression")
 _OF_LAYERS = ("Sublayer",)
@@ -42,14 +44,11 @@ class Stage(Struct, frozen=True):
 
 
 def open_stage(location: Path, *, allow_outside: bool) -> Stage:
-    """Raises MeshFileError. allow_outside: layers may lie outside of the folder of the file."""
-    os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
-    usd = imported("pxr.Usd", "usd", "USD files")
-    tf = imported("pxr.Tf", "usd", "USD files")
-    try:
-        stage = usd.Stage.Open(str(location))
-    except tf.ErrorException as error:
-        raise MeshFileError("bad-record", _plain(str(error))) from None
+    """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError, and
+    what the library raises."""
+    from pxr import Usd, UsdGeom
+
+    stage = Usd.Stage.Open(str(location))
     layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
     _note_files(layers)
     if not allow_outside:
@@ -57,16 +56,16 @@ def open_stage(location: Path, *, allow_outside: bool) -> Stage:
     lost, warnings = _composition_errors(stage)
     lost |= _lost_clips(stage)
     unit, scale = _unit(stage, warnings)
-    geom = imported("pxr.UsdGeom", "usd", "USD files")
-    y_up = geom.GetStageUpAxis(stage) == geom.Tokens.y
+    y_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y
     return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
 
 
-def _plain(message: str) -> str:
+def said(error: Exception) -> str:
     """What an error of the library says, without the places in its source code."""
+    message = str(error)
     quoted = [line.partition(" : '")[2] for line in message.splitlines() if " : '" in line]
     text = next(filter(None, quoted), message).strip().rstrip("'")
-    return f"not a valid USD file: {' '.join(text.split())}"
+    return " ".join(text.split())
 
 
 def _note_files(layers: list[Any]) -> None:
@@ -100,7 +99,7 @@ def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str,
         code = _CODES.get(kind, "missing-resource")
         if any(word in kind for word in _OF_LAYERS):
             raise MeshFileError(code, message)
-        if any(word in kind for word in _OF_OPINIONS):
+        if any(word in kind for word in _OF_OPINIONS) or _ONLY_MATERIALS.search(message):
             ignored.append(message)
             continue
         path = error.rootSite.path.GetPrimPath()
@@ -142,13 +141,13 @@ def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
     """(unit, factor from stage units to it). Only the root layer's value counts."""
     from pxr import UsdGeom
 
-    metres = UsdGeom.GetStageMetersPerUnit(stage)
-    if not (math.isfinite(metres) and metres > 0):
-        raise MeshFileError("bad-record", f"metersPerUnit is {metres:g}")
+    metres = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)  # some files store it as float32
+    if not (isinstance(metres, float) and math.isfinite(metres) and metres > 0):
+        raise MeshFileError("bad-record", f"metersPerUnit is {metres}")
     if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
         message = f"the file has no metersPerUnit: {metres:g} counts, the default of USD"
         warnings.append(("assumed-units", message))
-    unit = unit_of(f"{metres!r} * meters")
+    unit = unit_of(f"{metres:.{_DIGITS}g} * meters")
     return (_METRE, metres) if unit is None else (unit, 1.0)
 
 

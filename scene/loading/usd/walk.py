@@ -104,58 +104,79 @@ class Walk:
         return Found(name, prim, frame, inner * frame.matrix)
 
     def _instances(self, prim: Any, frame: Frame) -> Iterator[Found]:
-        """The prims below each prototype, once for each instance."""
+        """The point instancer, then the prims below each prototype, once for each instance."""
         own = self._found(prim, frame)
-        instancer = UsdGeom.PointInstancer(prim)
         yield own
         if own.refusal is not None:
             return
         try:
-            roots = [
-                self._prototype(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()
-            ]
-            numbers = _value(instancer.GetProtoIndicesAttr(), self._time)
-            if numbers and not 0 <= min(numbers) <= max(numbers) < len(roots):
-                raise MeshFileError("index-out-of-range", f"a prototype of {len(roots)} is missing")
-            time = self._time_of(instancer)
-            placed = instancer.ComputeInstanceTransformsAtTime(
+            placed = self._placed(prim, frame)
+        except MeshFileError as error:
+            reason = Refusal(error.code, f"{own.name}: point instancer: {error.message}")
+            yield Found(own.name, prim, frame, None, reason)
+            return
+        for index, root, matrix in placed:
+            name = f"{own.name}[{index}]:{root.GetName()}"
+            inside = Frame(root, matrix * own.matrix, name, (prim, frame))
+            yield from self._below(Usd.PrimRange(root, _OF_PROTOTYPES), inside)
+
+    def _placed(self, prim: Any, frame: Frame) -> list[tuple[int, Any, Any]]:
+        """(number, prototype, placement in the space of the instancer) of each instance that is not
+        masked. Raises MeshFileError."""
+        if prim in _instancers(frame):
+            raise MeshFileError("reference-cycle", "a prototype holds it: a cycle")
+        instancer, time = UsdGeom.PointInstancer(prim), self._time
+        numbers = instancer.GetProtoIndicesAttr().Get(time) or ()
+        paths = instancer.GetPrototypesRel().GetForwardedTargets()
+        used = sorted(set(numbers))
+        if used and not 0 <= used[0] <= used[-1] < len(paths):
+            wrong = used[0] if used[0] < 0 else used[-1]
+            message = f"it places prototype {wrong} of {len(paths)}"
+            raise MeshFileError("index-out-of-range", message)
+        roots = {number: self._prototype(paths[number]) for number in used}
+        samples = instancer.GetPositionsAttr().GetTimeSamples()
+        if samples and time == Usd.TimeCode.EarliestTime():
+            time = Usd.TimeCode(samples[0])  # velocities count from there
+        matrices = (
+            instancer.ComputeInstanceTransformsAtTime(
                 time,
                 time,
                 UsdGeom.PointInstancer.IncludeProtoXform,
                 UsdGeom.PointInstancer.IgnoreMask,
             )
-            if len(placed or ()) != len(numbers):
-                raise MeshFileError(
-                    "count-mismatch", f"{len(numbers)} indices, {len(placed or ())} placements"
-                )
-        except MeshFileError as error:
-            reason = Refusal(error.code, f"{own.name}: point instancer: {error.message}")
-            yield Found(own.name, prim, frame, None, reason)
-            return
-        mask = instancer.ComputeMaskAtTime(time)
-        for index, number in enumerate(numbers):
-            if not mask or mask[index]:
-                root = roots[number]
-                name = f"{own.name}[{index}]:{root.GetName()}"
-                inside = Frame(root, placed[index] * own.matrix, name, (prim, frame))
-                yield from self._below(Usd.PrimRange(root, _WITH_INSTANCES), inside)
+            or ()
+        )
+        if len(matrices) != len(numbers):
+            message = f"{len(numbers)} indices, {len(matrices)} placements"
+            raise MeshFileError("count-mismatch", message)
+        mask = instancer.ComputeMaskAtTime(time) or [True] * len(numbers)
+        return [
+            (index, roots[number], matrices[index])
+            for index, number in enumerate(numbers)
+            if mask[index]
+        ]
 
     def _prototype(self, path: Any) -> Any:
         prim = self._stage.GetPrimAtPath(path)
-        if not prim:
+        if not prim or prim.IsAbstract():
             raise MeshFileError("missing-resource", f"there is no prototype {path}")
         return prim
 
-    def _time_of(self, instancer: Any) -> Any:
-        """A time code with a number where there are samples: velocities count from there."""
-        samples = instancer.GetPositionsAttr().GetTimeSamples()
-        earliest = self._time == Usd.TimeCode.EarliestTime()
-        return Usd.TimeCode(samples[0]) if earliest and samples else self._time
+
+def _instancers(frame: Frame) -> Iterator[Any]:
+    """The point instancers around the frame."""
+    while frame.instancer is not None:
+        prim, frame = frame.instancer
+        yield prim
 
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
+# Prototypes may be below an `over`, so that they are not drawn by themselves.
+_OF_PROTOTYPES = Usd.TraverseInstanceProxies(
+    Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
+)
 
 
-def _value(attribute: Any, time: Any) -> Any:
-    value = attribute.Get(time)
-    return () if value is None else value
+def type_of(prim: Any) -> str:
+    """The type whose schema counts, perhaps a fallback that the file names; "": none is known."""
+    return str(prim.GetPrimTypeInfo().GetSchemaTypeName())

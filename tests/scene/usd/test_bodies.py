@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from pxr import Usd, UsdGeom
 
+from satcheck.core.shapes import Sphere
 from satcheck.scene import load_scene
 from satcheck.scene.read_options import Purpose
 from tests.scene.usd.files import at, bounds_of, cube, load, said, stage
@@ -140,6 +141,28 @@ def test_a_broken_point_instancer_is_a_body_that_is_not_read(
     assert [(body.id, body.issue.code) for body in scene.unreadable] == [("/P", code)]
 
 
+def test_a_point_instancer_inside_itself_is_a_cycle(tmp_path: Path) -> None:
+    scene = load(tmp_path, INSTANCER.replace("</P/Protos/Pair>", "</P>"))
+    assert [body.id for body in scene.bodies] == ["/P[0]:Box"]
+    assert [(body.id, body.issue.code) for body in scene.unreadable] == [
+        ("/P[1]:P", "reference-cycle")
+    ]
+
+
+def test_a_prototype_may_be_below_an_over_and_an_unused_one_may_be_missing(tmp_path: Path) -> None:
+    text = INSTANCER.replace('def Scope "Protos"', 'over "Protos"')
+    assert len(load(tmp_path, text).bodies) == 3
+    text = INSTANCER.replace("[0, 1, 0]", "[0, 0, 0]").replace("Protos/Pair", "Protos/Gone")
+    assert [body.id for body in load(tmp_path, text).bodies] == ["/P[0]:Box", "/P[1]:Box"]
+
+
+def test_the_purpose_and_visibility_of_a_point_instancer_count(tmp_path: Path) -> None:
+    for hidden in ('uniform token purpose = "guide"', 'token visibility = "invisible"'):
+        text = INSTANCER.replace("int[] protoIndices", f"{hidden}\n int[] protoIndices")
+        scene = load(tmp_path, text + cube("A"))
+        assert [body.id for body in scene.bodies] == ["/A"]
+
+
 MOVING = stage(
     'def Xform "Slider" {\n double3 xformOp:translate.timeSamples = {\n 2: (0,0,0),\n 4: (8,0,0)\n'
     ' }\n uniform token[] xformOpOrder = ["xformOp:translate"]\n' + cube("Geom") + "}",
@@ -174,6 +197,15 @@ def test_a_surface_that_is_not_read_is_a_body_that_is_not_read(tmp_path: Path) -
 def test_a_type_that_nobody_knows_is_named(tmp_path: Path) -> None:
     scene = load(tmp_path, stage(cube("A"), 'def Gadget "Strange" {\n}'))
     assert "/Strange" in said(scene)["unknown-element"]
+
+
+def test_a_fallback_type_counts(tmp_path: Path) -> None:
+    head = """metersPerUnit = 1
+        fallbackPrimTypes = {
+            token[] Gadget = ["Sphere"]
+        }"""
+    (body,) = load(tmp_path, stage('def Gadget "Ball" {\n double radius = 2\n}', head=head)).bodies
+    assert body.shape == Sphere(2.0)
 
 
 def test_a_stage_without_bodies_is_refused(tmp_path: Path) -> None:

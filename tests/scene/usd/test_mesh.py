@@ -63,6 +63,8 @@ def test_a_skinned_mesh_is_named(tmp_path: Path) -> None:
         ("1,5,7,3]", "1,5,7,-3]", "index-out-of-range"),
         ("1,5,7,3]", "1,5,7]", "count-mismatch"),
         ("(1,1,1)]", "(1,1,inf)]", "non-finite"),
+        ("point3f[] points = [", "int[] points = [1, 2, 3]\npoint3f[] others = [", "bad-record"),
+        ("int[] faceVertexCounts", "float[] faceVertexCounts", "bad-record"),
         ("[4, 4, 4, 4, 4, 4]", "[4, 4, 4, 4, 4, -4]", "count-mismatch"),
     ],
 )

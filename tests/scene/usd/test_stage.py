@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 
 import pytest
-from pxr import Usd, UsdUtils
+from pxr import Sdf, Usd, UsdUtils
 
 from satcheck.scene import load_scene
 from satcheck.scene.files_read import files_read
@@ -65,6 +66,23 @@ def test_a_material_may_be_missing(tmp_path: Path) -> None:
     scene = load(tmp_path, stage(cube("A"), material))
     assert not scene.unreadable
     assert "gone.usda" in said(scene)["ignored-opinion"]
+
+
+def test_a_missing_materialx_file_hides_no_body(tmp_path: Path) -> None:
+    text = stage(cube("A"), referring("Looks", "references = @gone.mtlx@</MaterialX>"))
+    scene = load(tmp_path, text)
+    assert not scene.unreadable
+    assert "gone.mtlx" in said(scene)["ignored-opinion"]
+
+
+def test_a_unit_may_be_stored_as_float32(tmp_path: Path) -> None:
+    """The text form stores a double."""
+    path = tmp_path / "a.usdc"
+    (tmp_path / "stage.usda").write_text(stage(cube("A")))
+    layer = Sdf.Layer.FindOrOpen(str(tmp_path / "stage.usda"))
+    layer.pseudoRoot.SetInfo("metersPerUnit", float(struct.unpack("f", struct.pack("f", 0.01))[0]))
+    assert layer.Export(str(path))
+    assert load_scene([path]).units == "cm"
 
 
 def test_layers_stay_in_the_folder_of_the_file(tmp_path: Path) -> None:
