@@ -28,6 +28,8 @@ from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import GeometryKind, Purpose, ReadOptions
 from satcheck.scene.scene_builder import Split
 
+_HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD file
+
 
 class Inputs(Struct, frozen=True):
     """The values of options, each under the name of its option."""
@@ -145,6 +147,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
+    if inputs.time is not None and not any(kind_of(path) in _HOLD_USD for path in paths):
+        raise click.UsageError("--time is about USD files")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed)

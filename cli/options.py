@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_args
@@ -171,7 +172,7 @@ units_option = click.option(
     "--units",
     type=click.Choice(tuple(MICROMETRES)),
     metavar="UNIT",
-    help=f"The unit of files that state none, such as OBJ and STL: {', '.join(MICROMETRES)}.",
+    help=f"Of files that state none: {', '.join(MICROMETRES)}.",
 )
 tolerance_option = click.option(
     "--tolerance",
@@ -275,7 +276,7 @@ debug_option = click.option(
 merge_option = click.option(
     "--merge",
     is_flag=True,
-    help="Put several scene files into one world, instead of checking each by itself.",
+    help="Put several scene files into one world.",
 )
 rules_option = click.option(
     "--rules",
@@ -293,6 +294,14 @@ package_option = click.option(
     callback=_packages,
     help="The folder of a package or model, or of a folder in it (arm/meshes). Repeatable.",
 )
+
+
+def _time(_: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    if value is not None and not math.isfinite(value):
+        raise click.BadParameter("a finite number", param=parameter)
+    return value
+
+
 # That choose between the geometries of a file.
 geometry_options = _together(
     click.option(
@@ -309,9 +318,16 @@ geometry_options = _together(
         help="Of USD prims to draw: render (the default), proxy or guide. Repeatable.",
     ),
     click.option(
+        "--time",
+        type=float,
+        metavar="CODE",
+        callback=_time,
+        help="Time code of animated USD.  [default: the first]",
+    ),
+    click.option(
         "--mesh-hulls",
         is_flag=True,
-        help="Of MJCF files: check the convex hulls of meshes, as MuJoCo does.",
+        help="Of MJCF: check hulls of meshes, as MuJoCo does.",
     ),
 )
 # That pose robots.
@@ -327,7 +343,7 @@ pose_options = _together(
         "--state",
         multiple=True,
         metavar="NAME",
-        help="A state of the SRDF. Several are combined; --pose overrides them.",
+        help="A state of the SRDF; --pose overrides it. Repeatable.",
     ),
     click.option(
         "--sample",

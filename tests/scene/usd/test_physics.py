@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import combinations
 from pathlib import Path
 
@@ -126,6 +127,29 @@ def test_a_plane_is_a_half_space_to_a_simulator(tmp_path: Path) -> None:
     scene = load(tmp_path, stage(plane, A), geometry="collision")
     assert list(bounds_of(scene)) == ["/A/Box"]
     assert "/Floor" in said(scene)["half-space"]
+
+
+def test_the_options_of_the_command_reach_the_reader(tmp_path: Path) -> None:
+    path = tmp_path / "a.usda"
+    moves = (
+        "double3 xformOp:translate.timeSamples = {\n 0: (5,0,0),\n 9: (0,0,0)\n }\n"
+        'uniform token[] xformOpOrder = ["xformOp:translate"]'
+    )
+    proxy = cube("Proxy", 'uniform token purpose = "proxy"')
+    path.write_text(stage(cube("A"), cube("B", moves), proxy))
+    for options, code, bodies in (
+        ((), 0, 2),
+        (("--time", "9"), 1, 2),
+        (("--purpose", "proxy"), 1, 3),
+    ):
+        ran = satcheck("--format", "json", *options, str(path))
+        assert (ran.code, len(json.loads(ran.out)["bodies"])) == (code, bodies)
+
+
+def test_a_time_without_an_animated_format_is_refused() -> None:
+    ran = satcheck("--time", "9", "box.obj", "cube.off")
+    assert ran.code == 2
+    assert "--time" in ran.err
 
 
 def test_the_certificates_of_colliders_are_accepted(tmp_path: Path) -> None:
