@@ -18,12 +18,12 @@ SECTIONS = {
     "allow_open package packages geometry purpose time mesh_hulls pose state sample seed root "
     "allow_outside",
     "What to compute": "depth contacts components volume tolerances never cross_check certificate",
-    "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
-    "exit_zero pins",
+    "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
+    "angular_tolerance rules baseline fail_on exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
-    "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
+    "max_motion iterations repeat samples budget seconds seconds_per_file megabytes_per_file "
     "scene_seconds scene_megabytes engine scheduler jobs cache",
 }
 

@@ -25,7 +25,13 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.read_options import GeometryKind, Purpose, ReadOptions
+from satcheck.scene.read_options import (
+    ANGULAR_TOLERANCE,
+    CHORD_TOLERANCE,
+    GeometryKind,
+    Purpose,
+    ReadOptions,
+)
 from satcheck.scene.scene_builder import Split
 
 _HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD file
@@ -48,6 +54,8 @@ class Inputs(Struct, frozen=True):
     time: float | None = None
     purpose: tuple[Purpose, ...] = ()
     mesh_hulls: bool = False
+    chord_tolerance: float = CHORD_TOLERANCE
+    angular_tolerance: float = ANGULAR_TOLERANCE
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -72,6 +80,8 @@ class Inputs(Struct, frozen=True):
             time=self.time,
             purpose=self.purpose or None,
             mesh_hulls=self.mesh_hulls or None,
+            chord_tolerance=self.chord_tolerance,
+            angular_tolerance=self.angular_tolerance,
         )
 
     @property

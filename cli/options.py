@@ -13,10 +13,15 @@ from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
-from satcheck.cli.lengths import length
+from satcheck.cli.lengths import length, millimetres
 from satcheck.core.conventions import PLANES
 from satcheck.scene.path_kind import is_folder
-from satcheck.scene.read_options import GeometryKind, Purpose
+from satcheck.scene.read_options import (
+    ANGULAR_TOLERANCE,
+    CHORD_TOLERANCE,
+    GeometryKind,
+    Purpose,
+)
 from satcheck.scene.units import MICROMETRES
 
 SPLITS = ("nodes", "components", "none")
@@ -91,7 +96,7 @@ picture_options = _together(
         "--glb",
         type=click.Path(dir_okay=False, path_type=Path),
         metavar="FILE",
-        help="Also write a 3-D model of bodies, overlaps and ways out, for any viewer.",
+        help="Also write a 3-D model of bodies and overlaps.",
     ),
 )
 
@@ -153,13 +158,29 @@ reading_options = _together(
         show_default=True,
         help="The most memory for reading a mesh file; the file may be a quarter as large.",
     ),
+    click.option(
+        "--chord-tolerance",
+        type=millimetres,
+        metavar="LENGTH",
+        default=f"{CHORD_TOLERANCE:g}mm",
+        show_default=True,
+        help="How far facets of curved STEP faces may be off: their surface tolerance.",
+    ),
+    click.option(
+        "--angular-tolerance",
+        type=click.FloatRange(0, math.pi, min_open=True),
+        metavar="RADIANS",
+        default=ANGULAR_TOLERANCE,
+        show_default=True,
+        help="The most angle between such facets.",
+    ),
 )
 split_option = click.option(
     "--split",
     type=click.Choice(SPLITS),
     metavar="HOW",
-    help="A body is a node of a file (nodes), a connected piece (components) or a whole file "
-    "(none).  [default: nodes for one file alone, otherwise none]",
+    help="A body is a node (nodes, the default for one file alone), a connected piece (components) "
+    "or a file (none).",
 )
 planar_option = click.option(
     "--planar",

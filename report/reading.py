@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.report.values import Value
+from satcheck.report.values import Size, Value
 
 
 class StatedReading(Value, frozen=True, kw_only=True):
@@ -12,9 +12,12 @@ class StatedReading(Value, frozen=True, kw_only=True):
 
     time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
     the first samples. geometry: of USD, "collision" or "visual". purpose: of the prims of USD that
-    are drawn, beside those without a purpose.
+    are drawn, beside those without a purpose. chord_tolerance: of the facets of curved faces in
+    STEP files, in millimetres. angular_tolerance: of the same, in radians.
     """
 
     time: float | None = None
     geometry: Literal["collision", "visual"] | None = None
     purpose: tuple[Literal["render", "proxy", "guide"], ...] | None = None
+    chord_tolerance: Size | None = None
+    angular_tolerance: Size | None = None

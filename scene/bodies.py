@@ -42,8 +42,9 @@ class MeshFile(Struct, frozen=True):
     a share of the world coordinates. deviation: the largest distance between a curve and the
     polygon that replaces it, in file units; the resolution includes it. inscribed: these polygons
     lie within the curves; else they may reach beyond them by the deviation. exponent: mesh,
-    resolution and deviation times 2**exponent are in file units; 0 unless the numbers of the file
-    are beyond the range of the core.
+    resolution, deviation and surface_tolerance times 2**exponent are in file units; 0 unless the
+    numbers of the file are beyond the range of the core. surface_tolerance: how far its facets may
+    be off the curved surfaces of the file, because the reader made them; 0: the file has facets.
     """
 
     path: str
@@ -61,6 +62,7 @@ class MeshFile(Struct, frozen=True):
     deviation: float = 0.0
     inscribed: bool = False
     exponent: int = 0
+    surface_tolerance: float = 0.0
 
 
 class Body(Struct, frozen=True):
@@ -103,6 +105,15 @@ class Body(Struct, frozen=True):
         plus the precision of the placement."""
         low, high = self.file.mesh.bounds
         return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
+
+    @property
+    def facet_tolerance(self) -> float:
+        """How far facets that a reader made may be off the surfaces of the file, world units."""
+        given = self.as_given or self
+        off = given.file.surface_tolerance
+        if not off or given.transform is None:
+            return off
+        return off * largest_stretch(given.transform)
 
 
 class Unreadable(Struct, frozen=True):

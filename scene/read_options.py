@@ -15,7 +15,11 @@ OPTIONS_OF: dict[str, tuple[str, ...]] = {
     "glb": ("time",),
     "gltf": ("time",),
     "usd": ("time", "geometry", "purpose"),
+    "step": ("chord_tolerance", "angular_tolerance"),
 }
+# Press fits of 0.02 mm are common. Facets hide overlaps up to twice their tolerance.
+CHORD_TOLERANCE = 0.005  # mm
+ANGULAR_TOLERANCE = 0.5  # radians
 
 
 class ReadOptions(Struct, frozen=True):
@@ -26,13 +30,17 @@ class ReadOptions(Struct, frozen=True):
     the first samples. geometry: collision: the colliders of a simulation are bodies; visual or
     None: what is drawn. purpose: of the prims that are drawn, beside those without a purpose; None:
     render. mesh_hulls: the collision meshes of MJCF files are convex hulls; the parts that bodies
-    name say so.
+    name say so. chord_tolerance: how far facets may be off a curved face for which a reader makes
+    them, in millimetres. angular_tolerance: the largest angle between neighbouring facets of such a
+    face, in radians.
     """
 
     time: float | None = None
     geometry: GeometryKind | None = None
     purpose: tuple[Purpose, ...] | None = None
     mesh_hulls: bool | None = None
+    chord_tolerance: float = CHORD_TOLERANCE
+    angular_tolerance: float = ANGULAR_TOLERANCE
 
     def stated(self, formats: Iterable[str]) -> dict[str, Any] | None:
         """The options that count for files of these formats, by name; None: no option counts."""

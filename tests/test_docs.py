@@ -55,6 +55,8 @@ WITH_CALLS = [page for page in PAGES if any(map(SHELL_LINE.search, blocks(page, 
 def root(tmp_path: Path) -> Path:
     """A copy of what the pages name, so that reports can be written beside it."""
     shutil.copytree(ROOT / "sample_meshes", tmp_path / "sample_meshes")
+    (tmp_path / "docs").mkdir()
+    shutil.copy(ROOT / "docs" / "rig.step", tmp_path / "docs")
     return tmp_path
 
 

@@ -134,8 +134,10 @@ class SharedMesh:
 
 
 def _surface_tolerance(body: Body, setting: float | None) -> float:
-    """That of the scene, or else of the check."""
-    return (setting or 0.0) if body.surface_tolerance is None else body.surface_tolerance
+    """That of the scene, or else of the check, or else of the facets that a reader made."""
+    if body.surface_tolerance is not None:
+        return body.surface_tolerance
+    return body.facet_tolerance if setting is None else setting
 
 
 def _curved(body: Body) -> CurvedShape | None:

@@ -54,7 +54,7 @@ class Settings(Struct, frozen=True):
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     surface_tolerance: how far surfaces may be off, for bodies whose scene does not state it; None:
-    0.
+    0, or the chord tolerance of facets that a reader made.
     accuracy: the highest rung of the ladder that is allowed.
     method: for convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster one. It
     changes no relation, and of a depth only the last digits.

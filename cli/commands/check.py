@@ -135,7 +135,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show the steps of each pair: what each tested, what it proved, its time.",
+    help="Show the steps of each pair: what each proved, its time.",
 )
 @top_option
 @click.option(
@@ -159,14 +159,14 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--clearance",
     type=length,
-    help="Pairs with a gap smaller than this fail; shows the gap.",
+    help="Pairs with a smaller gap fail; shows the gap.",
 )
 @tolerance_option
 @click.option(
     "--surface-tolerance",
     type=length,
     help="How far surfaces of closed bodies may be off: overlaps that this explains count as "
-    "touching.  [default: as the scene says, otherwise 0]",
+    "touching.  [default: of the scene, else 0]",
 )
 @click.option(
     "--accuracy",
@@ -211,8 +211,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SEVERITY",
     default=DEFAULTS.fail_on,
     show_default=True,
-    help="Findings of this severity fail: error, warning or note. Without rules an overlap is an "
-    "error, a touch a note.",
+    help="Findings of this severity fail: error (without rules overlaps), warning or note "
+    "(touches).",
 )
 @click.option(
     "--baseline",
@@ -274,11 +274,11 @@ def command(
 ) -> int:
     """Do these meshes collide? How deep, and which way out?
 
-    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), scenes (TOML,
-    JSON, IFC, USD), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body is a
-    file; of one GLB, glTF, 3MF or 3DXML file alone it is a node. Every pair of bodies is checked,
-    in the coordinates of the files. A body inside another collides with it. A LENGTH is in units of
-    the files, or has its own where these are known: 2mm.
+    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML, STEP), scenes
+    (TOML, JSON, IFC, USD), robots (URDF, SRDF, SDF) or, with --planar, drawings (SVG, DXF). A body
+    is a file; of one GLB, glTF, 3MF, 3DXML or STEP file alone a node. Every pair of bodies is
+    checked, in the coordinates of the files. A body inside another collides with it. A LENGTH is in
+    units of the files, or has its own where these are known: 2mm.
 
     \b
       satcheck a.stl b.stl                   do they collide?

@@ -171,6 +171,7 @@ def mesh_file(
         part=part,
         placement_step=placement_step(raw, by_file=placed),
         exponent=raw.exponent,
+        surface_tolerance=math.ldexp(raw.surface_tolerance, -raw.exponent),
     )
 
 

@@ -1,4 +1,4 @@
-"""Reads 3MF, DAE, 3DXML, XAML, ZAE, USD and some glTF files in a child process.
+"""Reads 3MF, DAE, 3DXML, XAML, ZAE, STEP, USD and some glTF files in a child process.
 
 Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
 `serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
@@ -166,6 +166,10 @@ def _read(request: Request) -> RawScene:
 
             place = Path(request.directory, request.name)
             return read_usd(place, request.options, allow_outside=request.allow_outside)
+        case "step":
+            from satcheck.scene.loading.step.assembly import read_step
+
+            return read_step(data, request.options)
     from satcheck.scene.loading.gltf import read_gltf
 
     return read_gltf(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Sequence
 
-from satcheck.core import Mesh
+from satcheck.core import Mesh, largest_stretch
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -59,7 +59,12 @@ def flattened(scene: RawScene) -> RawMesh:
         significant=max(mesh.significant for mesh in meshes),
         units=meshes[0].units,
         warnings=tuple(warnings.items()),
+        surface_tolerance=max(mesh.surface_tolerance * _stretch(matrix) for mesh, matrix in placed),
     )
+
+
+def _stretch(matrix: Transform | None) -> float:
+    return 1.0 if matrix is None else largest_stretch(matrix)
 
 
 def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:

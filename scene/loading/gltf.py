@@ -266,14 +266,7 @@ class _Scene:
         return tidy_name(self._meshes.name(number), f"mesh{number}")
 
     def _matrix(self, number: int) -> Transform | None:
-        node = member(self._nodes, number, "node")
-        if "matrix" in node:
-            return _from_columns(_numbers(node, "matrix", 16, number), f"node {number}")
-        translation, rotation, scale = (
-            _numbers(node, key, count, number) if key in node else None
-            for key, count in (("translation", 3), ("rotation", 4), ("scale", 3))
-        )
-        return _placement(translation, rotation, scale)
+        return placement_of(member(self._nodes, number, "node"), number)
 
     def _mesh_of(self, number: int) -> int:
         """The number of a node's mesh, -1 for none."""
@@ -281,6 +274,17 @@ class _Scene:
         if mesh >= 0:
             self._meshes.name(mesh)  # raises if there is no such mesh
         return mesh
+
+
+def placement_of(node: dict[str, Any], number: int) -> Transform | None:
+    """The placement of a node in its parent; None: the identity."""
+    if "matrix" in node:
+        return _from_columns(_numbers(node, "matrix", 16, number), f"node {number}")
+    translation, rotation, scale = (
+        _numbers(node, key, count, number) if key in node else None
+        for key, count in (("translation", 3), ("rotation", 4), ("scale", 3))
+    )
+    return _placement(translation, rotation, scale)
 
 
 def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[float]:

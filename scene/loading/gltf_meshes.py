@@ -19,7 +19,7 @@ from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
 DRACO = "KHR_draco_mesh_compression"
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
-_NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
+NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 
 
 class Shape(Struct, frozen=True):
@@ -91,7 +91,7 @@ class Meshes:
     ) -> tuple[array[float], array[int]] | None:
         """x, y, z of each vertex and the corners of each triangle; None without triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
-        if mode in _NO_TRIANGLES:
+        if mode in NO_TRIANGLES:
             warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
             return None
         attributes = primitive.get("attributes")

@@ -28,8 +28,9 @@ class RawMesh(Struct, frozen=True, tag=True):
     numbers, three a triangle. exponent: vertices times 2**exponent are in file units; 0 unless they
     are beyond the range of the core. decimals: the largest number of digits after the point in a
     coordinate without exponent. significant: the largest number of significant digits in a
-    coordinate with an exponent. units: as the file declares them, or None. warnings: (code,
-    message).
+    coordinate with an exponent. units: as the file declares them, or None. surface_tolerance:
+    how far facets may be off the surfaces for which a reader made them, in file units. warnings:
+    (code, message).
     """
 
     vertices: Block
@@ -40,6 +41,7 @@ class RawMesh(Struct, frozen=True, tag=True):
     units: str | None = None
     warnings: tuple[tuple[str, str], ...] = ()
     exponent: int = 0
+    surface_tolerance: float = 0.0
 
 
 class Refusal(Struct, frozen=True, tag=True):

@@ -138,6 +138,14 @@ def test_two_convex_meshes_import_nothing_heavy(tmp_path):
         "[name for name in sys.modules if name.startswith('satcheck.decompose')])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    for name in ("numpy", "trimesh", "coacd", "concurrent", "multiprocessing", "asyncio"):
+    for name in (
+        "numpy",
+        "trimesh",
+        "coacd",
+        "concurrent",
+        "multiprocessing",
+        "asyncio",
+        "cascadio",
+    ):
         assert f"'{name}'" not in done.stdout
     assert done.stdout.rstrip().endswith("[]")

@@ -1,0 +1,127 @@
+"""The text of a STEP file: whether it is whole, and the few records that decide what is read.
+
+OpenCascade reads what it can and is silent about the rest, so the text is looked at first.
+Source: ISO 10303-21, clear text encoding of the exchange structure.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+
+from msgspec import Struct
+
+from satcheck.scene.errors import MeshFileError
+
+_BEGIN, _END = "ISO-10303-21", "END-ISO-10303-21"
+_TEXT = rb"'((?:[^']|'')*)'"
+_NEXT = rb"\s*,\s*"
+_TEXT_OR_NONE = rb"(?:" + _TEXT + rb"|\$)"
+_COMMENT_OR_TEXT = re.compile(rb"/\*.*?\*/|'(?:[^']|'')*'", re.DOTALL)
+_RECORD = re.compile(rb"(#\d+)\s*=\s*(?:([A-Za-z_]\w*)\s*)?\(")
+_REFERENCE = re.compile(rb"#\d+")
+_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*" + _TEXT)
+_DOCUMENT = re.compile(rb"=\s*DOCUMENT_FILE\s*\(\s*" + _TEXT)
+_PRODUCT = re.compile(rb"(#\d+)\s*=\s*PRODUCT\s*\(\s*" + _TEXT + _NEXT + _TEXT_OR_NONE)
+_DEFINITION = re.compile(
+    rb"(#\d+)\s*=\s*PRODUCT_DEFINITION(?:_FORMATION|_WITH)?\w*\s*\(\s*"
+    + (_TEXT_OR_NONE + _NEXT) * 2
+    + rb"(#\d+)"
+)
+_OCCURRENCE = re.compile(
+    rb"=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*"
+    + (_TEXT_OR_NONE + _NEXT) * 3
+    + rb"#\d+"
+    + _NEXT
+    + rb"(#\d+)"
+)
+_WIDE = re.compile(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\")
+_NARROW = re.compile(r"\\X\\([0-9A-F]{2})")
+# Solids that OpenCascade does not make from a STEP file.
+_UNREAD_SOLIDS = frozenset(
+    {
+        "CSG_SOLID",
+        "BOOLEAN_RESULT",
+        "BLOCK",
+        "RIGHT_ANGULAR_WEDGE",
+        "RIGHT_CIRCULAR_CONE",
+        "RIGHT_CIRCULAR_CYLINDER",
+        "SPHERE",
+        "TORUS",
+        "EXTRUDED_AREA_SOLID",
+        "REVOLVED_AREA_SOLID",
+        "EXTRUDED_FACE_SOLID",
+        "REVOLVED_FACE_SOLID",
+        "SWEPT_DISK_SOLID",
+        "HALF_SPACE_SOLID",
+        "BOXED_HALF_SPACE",
+        "SOLID_REPLICA",
+    }
+)
+
+
+class Exchange(Struct, frozen=True):
+    """kinds: how many records of each kind there are. products: occurrences without a name of
+    their own, by their identifiers -> the names of their products. documents: the other files that
+    the file names."""
+
+    kinds: Mapping[str, int]
+    products: Mapping[str, str]
+    documents: tuple[str, ...]
+
+
+def read_exchange(data: bytes) -> Exchange:
+    """Raises MeshFileError for a file that is cut off, that names records which it lacks, or that
+    has solids which are not read."""
+    if not data.lstrip().startswith(_BEGIN.encode()):
+        raise MeshFileError("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
+    schema = _SCHEMA.search(data)
+    if schema is not None and schema[1].upper().startswith(b"IFC"):
+        raise MeshFileError("format-mismatch", "its content is an IFC model: name the file .ifc")
+    bare = _COMMENT_OR_TEXT.sub(b"", data)
+    if _END.encode() not in bare or b"'" in bare:
+        message = f"the file ends before {_END}, or within a text"
+        raise MeshFileError("truncated", message)
+    kinds = _kinds(bare)
+    unread = sorted(_UNREAD_SOLIDS & kinds.keys())
+    if unread:
+        message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
+        raise MeshFileError("unsupported-feature", message)
+    documents = dict.fromkeys(_decoded(match[1]) for match in _DOCUMENT.finditer(data))
+    return Exchange(kinds, _unnamed(data), tuple(filter(None, documents)))
+
+
+def _kinds(bare: bytes) -> Counter[str]:
+    """The kinds of records of a text without comments and texts."""
+    kinds: Counter[str] = Counter()
+    defined: set[bytes] = set()
+    for match in _RECORD.finditer(bare):
+        defined.add(match[1])
+        kinds[(match[2] or b"").decode("ascii").upper()] += 1
+    missing = {match[0] for match in _REFERENCE.finditer(bare)} - defined
+    if missing:
+        first = min(missing, key=lambda name: (len(name), name)).decode()
+        message = f"the file names {len(missing)} records that it lacks, such as {first}"
+        raise MeshFileError("index-out-of-range", message)
+    return kinds
+
+
+def _unnamed(data: bytes) -> dict[str, str]:
+    """The occurrences without a name, by their identifiers -> the names of their products."""
+    products = {m[1]: _decoded(m[3] or b"") or _decoded(m[2]) for m in _PRODUCT.finditer(data)}
+    owners = {match[1]: match[4] for match in _DEFINITION.finditer(data)}
+    names: dict[str, str] = {}
+    for match in _OCCURRENCE.finditer(data):
+        formation = owners.get(match[4], b"")
+        product = products.get(owners.get(formation, b""), "")
+        if not (match[2] or b"").strip() and product:
+            names[_decoded(match[1] or b"")] = product
+    return names
+
+
+def _decoded(text: bytes) -> str:
+    """A text without the escapes of the format."""
+    plain = text.decode("utf-8", "replace").replace("''", "'")
+    plain = _WIDE.sub(lambda m: bytes.fromhex(m[1]).decode("utf-16-be", "replace"), plain)
+    return _NARROW.sub(lambda m: chr(int(m[1], 16)), plain).replace("\\\\", "\\").strip()
