@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from msgspec import Meta
+from msgspec import UNSET, Meta, UnsetType
 
+from satcheck.report.statics import Question, State
 from satcheck.report.values import Count, Tool, Value
 
 Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
@@ -35,6 +36,16 @@ class Checked(Value, frozen=True):
     left: tuple[str, ...] = ()
 
 
+class CheckedSupport(Value, frozen=True):
+    """One answer about the support of a body. reason: why it is not accepted."""
+
+    body: str
+    question: Question
+    answer: State
+    outcome: Outcome
+    reason: str | None = None
+
+
 class Uncovered(Value, frozen=True):
     """A field of the report with a value that is not proven.
 
@@ -58,7 +69,8 @@ class VerificationReport(Value, frozen=True, kw_only=True):
     of the report, in its order. faults: errors of the report as a whole. not_certified: claims
     without a certificate, because of which the report is not accepted. pruned: unlisted pairs whose
     boxes are apart. exempt: unlisted pairs that the scene exempts or allows. missing: missing
-    files; claims about their bodies are not checked.
+    files; claims about their bodies are not checked. support: the answers about the support of
+    bodies; absent if no rule asks.
     """
 
     schema: Literal["satcheck.verification/1"] = "satcheck.verification/1"
@@ -70,4 +82,5 @@ class VerificationReport(Value, frozen=True, kw_only=True):
     pruned: Count
     exempt: Count
     missing: tuple[str, ...]
+    support: tuple[CheckedSupport, ...] | UnsetType = UNSET
     not_covered: tuple[Uncovered, ...]

@@ -12,7 +12,7 @@ from msgspec import to_builtins
 
 from satcheck.report.report import OVERLAPS, Finding, Report
 from satcheck.report.settings import StatedSettings
-from satcheck.report.verification import Checked, Outcome, Uncovered
+from satcheck.report.verification import Checked, CheckedSupport, Outcome, Uncovered
 from satcheck.scene.read_options import as_stated
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.boxes import boxes_apart
@@ -44,17 +44,20 @@ class Verification:
     exempt: int
     requested: bool
     missing: tuple[str, ...] = ()
+    support: tuple[CheckedSupport, ...] = ()
     uncovered: tuple[Uncovered, ...] = ()
 
     @property
     def accepted(self) -> bool:
         settled = all(f.outcome in ("accepted", "open") for f in self.findings)
+        settled = settled and all(f.outcome in ("accepted", "open") for f in self.support)
         return settled and not (self.faults or self.beyond or self.missing)
 
     @property
     def rejected(self) -> bool:
         """Whether a checked claim is false."""
-        return bool(self.faults) or any(f.outcome == "rejected" for f in self.findings)
+        outcomes = [f.outcome for f in self.findings] + [f.outcome for f in self.support]
+        return bool(self.faults) or "rejected" in outcomes
 
     @property
     def certified(self) -> bool:
@@ -87,6 +90,7 @@ def verify(
         if progress is not None:
             progress(done, count)
     faults = list(report.faults)
+    support = report.check_support(faults)
     pruned = exempt = 0
     if not report.missing:
         pruned, exempt, left_open = report.check_unlisted(faults)
@@ -102,6 +106,7 @@ def verify(
         exempt,
         requested=_asks_for_certificates(report.report),
         missing=report.missing,
+        support=support,
         uncovered=uncovered(document, (field for finding in checked for field in finding.left)),
     )
 
@@ -146,8 +151,6 @@ class _Report:
         self.faults += _faults_of_issues(report, self.bodies)
         if report.motions:
             self.beyond.append("bodies move: what happens on the way is not certified")
-        if report.support is not None:
-            self.beyond.append("the support of bodies is not certified")
         if report.summary.accepted and report.summary.verdict != "fail":
             self.beyond.append("a baseline accepts findings: without it the verdict is 'fail'")
 
@@ -234,6 +237,21 @@ class _Report:
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
         return pruned, exempted, left_open
+
+    def check_support(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
+        """The answers about the support of bodies; none if a file is missing."""
+        statics = self.report.support
+        if statics is None or self.missing:
+            return ()
+        from satcheck.verify.statics.claims import Claims
+
+        try:
+            return tuple(Claims(statics, self.bodies).judged())
+        except Rejected as why:
+            faults.append(f"support: {why}")
+        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+            faults.append(f"support cannot be checked: {type(error).__name__}: {error}")
+        return ()
 
     def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the

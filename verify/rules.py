@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from itertools import combinations
@@ -134,6 +134,11 @@ class Rules:
 
 def _ignored(first: Kind, second: Kind) -> bool:
     return bool(first[1] & second[1]) or (first[2] and second[2])
+
+
+def selected_by(bodies: Mapping[str, Placed]) -> Callable[[str], frozenset[str]]:
+    """The function from a selector to the ids that it selects."""
+    return _Selected(bodies).by
 
 
 class _Selected:

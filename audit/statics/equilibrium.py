@@ -24,6 +24,8 @@ CONE_ROUNDING = 1e-7
 FOUND = 1e-5
 # Forces balance if they miss no more than this share of the weight of any body.
 BALANCED = 1e-9
+# A body that moves less than one of these shares of the fastest is taken to rest, if it may.
+RESTS = (1e-3, 1e-5, 1e-7, 1e-9, 0.0)
 # A motion is a proof if no forces below this many times the weight of the island prevent it.
 LEAST_FACTOR = 1e6
 
@@ -127,7 +129,8 @@ class _Programme:
             if np.abs(rest).max() <= BALANCED and self._within(x):
                 forces = np.einsum("cij,cj->ci", self.frame, x) * self.unit
                 return Answer(True, forces=forces, missing=float(np.abs(rest).max()))
-        if motion is not None and self._proves(motion):
+        motion = None if motion is None else self._least_motion(motion)
+        if motion is not None:
             velocity = motion.copy()
             velocity[:, 3:] /= self.island.sizes[:, None]
             velocity /= self.island.weights[:, None] / self.unit
@@ -202,6 +205,16 @@ class _Programme:
                 break
             x = x + step.reshape(-1, 3)
         return x
+
+    def _least_motion(self, motion: Floats) -> Floats | None:
+        """The motion, without that of bodies that move little, as long as it is a proof; None: it
+        is none."""
+        speed = np.abs(motion).max(axis=1, keepdims=True)
+        for share in RESTS:
+            least = np.where(speed > share * speed.max(), motion, 0.0)
+            if self._proves(least):
+                return least
+        return None
 
     def _proves(self, motion: Floats) -> bool:
         """Whether no forces below LEAST_FACTOR weights prevent the motion."""

@@ -14,9 +14,6 @@ from satcheck.audit.statics.terms import Terms
 from satcheck.audit.statics.touching import Contact
 from satcheck.report.statics import State
 
-# A body moves if its virtual velocity is at least this share of the fastest one.
-MOVES = 1e-6
-
 
 class Weighed(Struct, frozen=True):
     """An island as the solver sees it. rows: (contact, point) of each of its contact points.
@@ -147,10 +144,7 @@ def _forces(rows: Sequence[tuple[int, int]], answer: Answer) -> dict[tuple[int, 
 
 def _motions(members: Sequence[int], answer: Answer) -> dict[int, Floats]:
     assert answer.motion is not None
-    speed = np.abs(answer.motion).max(axis=1)
-    fastest = speed.max()
+    fastest = np.abs(answer.motion).max()
     return {
-        body: answer.motion[k] / fastest
-        for k, body in enumerate(members)
-        if speed[k] > MOVES * fastest
+        body: answer.motion[k] / fastest for k, body in enumerate(members) if answer.motion[k].any()
     }

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec import UNSET
 
 from satcheck._version import __version__
 from satcheck.cli import exit_codes
@@ -27,7 +28,7 @@ from satcheck.cli.report_file import MOST_BYTES
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool
-from satcheck.report.verification import Outcome, VerificationReport
+from satcheck.report.verification import CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.verify import Checked, Rejected, Verification, parse, verify
 
@@ -112,6 +113,7 @@ def _report(result: Verification) -> VerificationReport:
         pruned=result.pruned,
         exempt=result.exempt,
         missing=result.missing,
+        support=result.support or UNSET,
         not_covered=result.uncovered,
     )
 
@@ -130,6 +132,7 @@ def _table(result: Verification) -> str:
     """What was not accepted, line by line, and a sentence about all."""
     unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
     lines = [_line(finding) for finding in result.findings if finding.outcome not in unsaid]
+    lines += [_support_line(answer) for answer in result.support if answer.outcome != "accepted"]
     lines += [f"rejected: {fault}" for fault in result.faults]
     lines += [f"not certified: {what}" for what in result.beyond]
     lines.append(_summary(result))
@@ -156,12 +159,20 @@ def _line(finding: Checked) -> str:
     return f"{finding.outcome}: {finding.a} and {finding.b}, {finding.relation}: {finding.reason}"
 
 
+def _support_line(answer: CheckedSupport) -> str:
+    said = f"{answer.body}, {answer.question}: {answer.answer}"
+    return f"{answer.outcome}: {said}: {answer.reason}"
+
+
 def _summary(result: Verification) -> str:
     accepted = [f for f in result.findings if f.outcome == "accepted"]
     parts = [f"{counted(len(accepted), 'verdict')} accepted"]
     for outcome, called in _CALLED.items():
         if count := sum(f.outcome == outcome for f in result.findings):
             parts.append(f"{count:,} {called}")
+    if result.support:
+        held = sum(answer.outcome == "accepted" for answer in result.support)
+        parts.append(f"{held:,} of {counted(len(result.support), 'answer')} about support accepted")
     if result.faults:
         parts.append(f"{counted(len(result.faults), 'fault')} in the rest of the report")
     if result.pruned:

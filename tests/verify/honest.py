@@ -99,6 +99,24 @@ CONVERTED = placed(
     {"id": "bracket", "mesh": "part.obj", "units": "cm"}, body("base", BOX, 0.0), settings={}
 )
 
+# Of the bricks one stands, one tips over it, one hangs and one floats.
+SUPPORTED = placed(
+    body("floor", {"type": "box", "size": [9.0, 9.0, 1.0]}, 0.0, 0.0, -1.0, static=True),
+    body("base", BOX, 0.0),
+    body("tips", BOX, 0.75, 0.0, 1.0),
+    body("stands", BOX, -2.0),
+    body("ball", {"type": "sphere", "radius": 0.5}, -2.0, 0.0, 1.0),
+    body("hangs", BOX, 0.0, 3.0, 2.0),
+    body("floats", BOX, 0.0, -3.0, 2.0),
+    statics={"gravity": [0, 0, -1], "friction": 0.5, "tolerance": 0.001},
+    rules=[
+        {"bodies": "*", "supported": True, "stable": True, "reason": "all"},
+        {"bodies": "hangs", "mounted": True},
+        {"bodies": "s*", "density": 2.0, "friction": 0.25, "severity": "warning"},
+        {"bodies": "floats", "mass": 3.0, "severity": "error"},
+    ],
+)
+
 HONEST: dict[str, Callable[[Path], Json]] = {
     "convex": meshes(unit_box(), unit_box(0.5, 0.25, 0.125), depth=True, volume=True),
     "concave": meshes(
@@ -128,6 +146,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "moving": MOVING,
     "converted": CONVERTED,
     "robot": lambda _: document([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"]),
+    "supported": SUPPORTED,
 }
 
 

@@ -30,6 +30,13 @@ WORDS = {
     "undecided": ("relation", "inside", "limit", "motion", "cross-check"),
     "verdict": ("pass", "fail", "incomplete"),
     "mtv_moves": ("b",),
+    "answer": ("yes", "no", "open"),
+    "question": ("supported", "stable"),
+    "fixed": ("static", "mounted"),
+    "touch": ("touching", "overlapping", "unknown"),
+    "tolerant": ("yes", "no", "open"),
+    "strict": ("yes", "no", "open"),
+    "floating": ("yes", "no", "open"),
 }
 # What of a large scene is forged once more.
 JUDGED = ("severity", "undecided", "rule", "relation", "verdict", "findings")

@@ -1,0 +1,203 @@
+"""Forged answers about support are rejected; honest ones of many scenes are accepted."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from satcheck.verify import Verification, verify
+from tests.audit.statics.scenes import about_y, ball, box, floor, on_slope, report_of, tower
+
+Json = dict[str, Any]
+ANGLE = math.degrees(math.atan(0.5))
+
+
+def document(folder: Path, bodies: list[Json], *rest: Any, **statics: Any) -> Json:
+    made: Json = json.loads(json.dumps(report_of(folder, bodies, *rest, **statics).to_dict()))
+    return made
+
+
+def judged(document: Json) -> Verification:
+    return verify(document, Path())
+
+
+def outcomes(document: Json) -> set[str]:
+    found = judged(document)
+    assert not any("support" in fault for fault in found.faults), found.faults
+    return {answer.outcome for answer in found.support}
+
+
+def of_body(document: Json, id_: str) -> Json:
+    (body,) = (body for body in document["statics"]["bodies"] if body["id"] == id_)
+    return body
+
+
+def with_answer(document: Json, id_: str, answer: str) -> Json:
+    """The same report with other answers about this body, and what follows from them."""
+    severities = {"yes": "none", "no": "error", "open": "warning"}
+    for finding in document["statics"]["findings"]:
+        if finding["body"] == id_:
+            finding.update(answer=answer, severity=severities[answer], reason=None)
+    return document
+
+
+STANDING = {
+    "a tower": tower(0.45),
+    "a slope": on_slope(ANGLE - 0.5),
+    "a ball": [floor(), ball("ball", 0.3, [0, 0, 0.3])],
+    "a pyramid of balls": [
+        floor(),
+        *(box(f"stop {x}", [0.1, 1, 0.2], [x, 0, 0.1], static=True) for x in (-0.45, 0.45)),
+        ball("left", 0.2, [-0.2, 0, 0.2]),
+        ball("right", 0.2, [0.2, 0, 0.2]),
+    ],
+    "a turned box": [
+        floor(),
+        box("cube", [0.3, 0.3, 0.3], [0, 0, 0.15], quaternion=[math.cos(0.3), 0, 0, math.sin(0.3)]),
+    ],
+}
+FALLING = {
+    "a tower": tower(0.55),
+    "a slope": on_slope(ANGLE + 0.5),
+    "beside a wall": [
+        box("wall", [0.2, 2, 2], [-0.1, 0, 1], static=True),
+        box("picture", [0.1, 1, 1], [0.05, 0, 1]),
+    ],
+    "a ball on a slope": [
+        box(
+            "plate",
+            [3, 3, 0.2],
+            [-0.1 * math.sin(0.2), 0, -0.1 * math.cos(0.2)],
+            quaternion=about_y(math.degrees(0.2)),
+            static=True,
+        ),
+        ball("ball", 0.2, [0.2 * math.sin(0.2), 0, 0.2 * math.cos(0.2)]),
+    ],
+    "in the air": [floor(), box("shelf", [1, 1, 1], [0, 0, 2]), ball("ball", 0.1, [0, 0, 2.6])],
+}
+
+
+@pytest.mark.parametrize("name", STANDING)
+def test_what_stands_is_accepted(tmp_path, name):
+    made = document(tmp_path, STANDING[name])
+    assert made["summary"]["verdict"] == "pass"
+    assert outcomes(made) == {"accepted"}
+
+
+@pytest.mark.parametrize("name", FALLING)
+def test_what_falls_is_accepted(tmp_path, name):
+    made = document(tmp_path, FALLING[name])
+    assert made["summary"]["verdict"] == "fail"
+    assert outcomes(made) <= {"accepted", "open"}
+    assert "accepted" in outcomes(made)
+
+
+def pulled(statics: Json) -> None:
+    for contact in statics["contacts"]:
+        for point in contact["points"]:
+            point["force"] = [-c for c in point["force"]]
+
+
+def heavier(statics: Json) -> None:
+    statics["contacts"][0]["points"][0]["force"][2] *= 1.001
+
+
+def sideways(statics: Json) -> None:
+    """Forces that add up, but lie outside of their cones."""
+    for point, sign in zip(statics["contacts"][0]["points"], (1, -1, 1, -1), strict=False):
+        point["force"][0] += sign * 10.0
+
+
+def moved(statics: Json) -> None:
+    """Forces under the middle, where no contact is: a patch is stated by its corners."""
+    for contact in statics["contacts"]:
+        for point in contact["points"]:
+            point["at"][0] *= 0.5
+
+
+def nothing(statics: Json) -> None:
+    for contact in statics["contacts"]:
+        contact["points"] = []
+
+
+@pytest.mark.parametrize("forge", [pulled, heavier, sideways, moved, nothing])
+def test_forged_forces_are_rejected(tmp_path: Path, forge: Callable[[Json], None]) -> None:
+    made = document(tmp_path, tower(0.3))
+    forge(made["statics"])
+    found = judged(made)
+    assert not found.accepted
+    assert found.rejected
+
+
+def test_forces_of_another_scene_do_not_hold_this_one(tmp_path):
+    """A tower that stands, with the bodies of one that tips."""
+    made, tipping = document(tmp_path, tower(0.45)), document(tmp_path, tower(0.55))
+    made["bodies"] = tipping["bodies"]
+    found = judged(made)
+    assert found.rejected
+    forged = copy.deepcopy(tipping)
+    for key in ("contacts", "islands"):
+        forged["statics"][key] = made["statics"][key]
+    forged["statics"]["bodies"] = tipping["statics"]["bodies"]
+    for id_ in ("base", "top"):
+        with_answer(forged, id_, "yes")
+    forged["summary"]["verdict"] = "pass"
+    assert judged(forged).rejected
+
+
+def test_a_force_that_needs_the_tolerance_is_not_stable(tmp_path):
+    """`supported` claims less than `stable`: the same forces prove only one of them."""
+    lean = 0.0005
+    turn = about_y(-math.degrees(lean))
+    centre = [math.cos(lean) / 2 - math.sin(lean) / 2, 0.0, math.cos(lean) / 2 + math.sin(lean) / 2]
+    made = document(tmp_path, [floor(), box("cube", [1, 1, 1], centre, quaternion=turn)])
+    assert outcomes(made) == {"accepted", "open"}
+    with_answer(made, "cube", "yes")
+    made["summary"]["verdict"] = "pass"
+    found = {answer.question: answer for answer in judged(made).support if answer.body == "cube"}
+    assert found["supported"].outcome == "accepted"
+    assert found["stable"].outcome == "rejected"
+    assert "tolerance" in str(found["stable"].reason)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 0.0])
+def test_a_motion_up_or_at_rest_proves_no_fall(tmp_path, sign):
+    made = document(tmp_path, tower(0.55))
+    motion = of_body(made, "top")["motion"]
+    for key in ("velocity", "angular"):
+        motion[key] = [sign * c for c in motion[key]]
+    assert "rejected" in outcomes(made)
+
+
+def test_a_motion_through_the_floor_proves_no_fall(tmp_path):
+    made = with_answer(document(tmp_path, tower(0.3)), "base", "no")
+    of_body(made, "base")["motion"] = {"velocity": [0, 0, -1], "angular": [0, 0, 0]}
+    made["summary"]["verdict"] = "fail"
+    (why,) = {a.reason for a in judged(made).support if a.outcome == "rejected"}
+    assert why == "a contact resists the motion"
+
+
+def test_what_stands_on_the_floor_does_not_float(tmp_path):
+    made = with_answer(document(tmp_path, tower(0.3)), "base", "no")
+    of_body(made, "base")["floating"] = "yes"
+    made["summary"]["verdict"] = "fail"
+    assert "rejected" in outcomes(made)
+
+
+def test_a_question_may_not_be_left_out(tmp_path):
+    made = document(tmp_path, tower(0.55))
+    made["statics"]["findings"] = made["statics"]["findings"][:-2]
+    assert any("questions" in fault for fault in judged(made).faults)
+
+
+def test_a_static_body_may_not_be_made_up(tmp_path):
+    made = document(tmp_path, tower(0.55))
+    of_body(made, "top").update(fixed="static", island=None, motion=None)
+    with_answer(made, "top", "yes")
+    assert any("fixed" in fault for fault in judged(made).faults)

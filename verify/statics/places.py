@@ -1,0 +1,223 @@
+"""The contacts of two meshes, found again from all pairs of near triangles.
+
+The definition is that of docs/support.md: a vertex over a face, or an edge across an edge, within
+the tolerance, with a normal that separates the two bodies there. Directions are computed in
+float64; every comparison has a slack of SLACK of the tolerance in favour of a contact, so that none
+is missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from satcheck.verify.exact import Floats
+from satcheck.verify.surfaces import near_pairs
+from satcheck.verify.world import Exact, Indices, World
+
+SLACK = 1e-6
+# Edges whose directions differ by less than this sine are parallel: their ends decide.
+PARALLEL = 1e-6
+# With more pairs of near triangles a check would take too long.
+MOST_NEAR = 2_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """at: world. normal: unit, from B to A. height: of A over B along it. exact: no tolerance bends
+    the normal or widens the place, up to rounding."""
+
+    at: Floats
+    normal: Floats
+    height: float
+    exact: bool
+
+
+class Surface:
+    """A mesh in the world, with the neighbours of its vertices and the faces of its edges. A sheet
+    has a face on either side."""
+
+    def __init__(self, world: World) -> None:
+        triangles = world.triangles
+        if not world.solid:
+            triangles = np.concatenate([triangles, triangles[:, ::-1]])
+        corners = world.vertices[triangles]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        size = np.linalg.norm(across, axis=1)
+        sound = size > 0
+        self.triangles: Indices = triangles[sound]
+        self.normals: Floats = across[sound] / size[sound, None]
+        self.points = world.vertices
+        self.exact = Exact(World(world.vertices, self.triangles, solid=False), 0)
+
+    @cached_property
+    def around(self) -> dict[int, tuple[Indices, Indices]]:
+        """vertex -> (its neighbours, its faces)."""
+        faces: dict[int, list[int]] = {}
+        for t, corners in enumerate(self.triangles.tolist()):
+            for v in corners:
+                faces.setdefault(v, []).append(t)
+        return {
+            v: (np.setdiff1d(self.triangles[own], [v]), np.array(own)) for v, own in faces.items()
+        }
+
+    @cached_property
+    def edges(self) -> dict[tuple[int, int], list[tuple[int, int]]]:
+        """(u, v), u < v -> (face, its third vertex) of each face at the edge."""
+        edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
+        for t, (i, j, k) in enumerate(self.triangles.tolist()):
+            for u, v, w in ((i, j, k), (j, k, i), (k, i, j)):
+                edges.setdefault((min(u, v), max(u, v)), []).append((t, w))
+        return edges
+
+
+def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list[Place]:
+    """All contacts of A and B."""
+    near = tolerance * (1 + SLACK)
+    found: list[Place] = []
+    vertices: set[tuple[int, int, bool]] = set()
+    edges: set[tuple[tuple[int, int], tuple[int, int]]] = set()
+    for s, t in near_pairs(a.exact, b.exact, near, MOST_NEAR):
+        for i, j in zip(s.tolist(), t.tolist(), strict=True):
+            of_a, of_b = a.triangles[i].tolist(), b.triangles[j].tolist()
+            vertices |= {(v, j, True) for v in of_a} | {(v, i, False) for v in of_b}
+            edges |= {(p, q) for p in _sides(of_a) for q in _sides(of_b)}
+    for v, face, first in sorted(vertices):
+        found += _on_face(*((a, b) if first else (b, a)), v, face, near, rounding, first)
+    for p, q in sorted(edges):
+        found += _across(a, b, p, q, near, rounding)
+    return found
+
+
+def _sides(corners: list[int]) -> list[tuple[int, int]]:
+    i, j, k = corners
+    return [(min(u, v), max(u, v)) for u, v in ((i, j), (j, k), (k, i))]
+
+
+def _on_face(
+    a: Surface, b: Surface, v: int, face: int, near: float, rounding: float, first: bool
+) -> Iterator[Place]:
+    """A vertex of a over a face of b. first: a is A."""
+    n, p = b.normals[face], a.points[v]
+    foot = foot_on(p, b.points[b.triangles[face]])
+    step = p - foot
+    if step @ step > near * near:
+        return
+    neighbours, faces = a.around[v]
+    lowest = float(((a.points[neighbours] - p) @ n).min())
+    if lowest < -2 * near or (a.normals[faces] @ n).min() >= SLACK:
+        return
+    height = float(step @ n)
+    aside = float(np.linalg.norm(step - height * n))
+    exact = lowest >= -2 * rounding and aside <= rounding
+    yield Place(foot, n if first else -n, height, exact)
+
+
+def _across(
+    a: Surface,
+    b: Surface,
+    p: tuple[int, int],
+    q: tuple[int, int],
+    near: float,
+    rounding: float,
+) -> Iterator[Place]:
+    """An edge of A across an edge of B; the normal may have either sign."""
+    p0, p1, q0, q1 = (*a.points[list(p)], *b.points[list(q)])
+    u, v = p1 - p0, q1 - q0
+    n = np.cross(u, v)
+    length, sine = np.linalg.norm(u) * np.linalg.norm(v), np.linalg.norm(n)
+    if sine <= PARALLEL * length:
+        return
+    n = n / sine
+    on_a, on_b = _nearest(p0, u, q0, v)
+    step = on_a - on_b
+    if step @ step > near * near:
+        return
+    for normal in (n, -n):
+        low, out_a = _below(a, p, p0, normal)
+        high, out_b = _below(b, q, q0, -normal)
+        if min(low, high) < -2 * near or out_a >= SLACK or out_b >= SLACK:
+            continue
+        height = float(step @ normal)
+        aside = float(np.linalg.norm(step - height * normal))
+        exact = min(low, high) >= -2 * rounding and aside <= rounding
+        yield Place(0.5 * (on_a + on_b), normal, height, exact)
+
+
+def _below(s: Surface, edge: tuple[int, int], at: Floats, n: Floats) -> tuple[float, float]:
+    """How far the faces of an edge reach below it along n, and the least n . normal of them."""
+    faces = s.edges[edge]
+    wings = s.points[[w for _, w in faces]]
+    return float(((wings - at) @ n).min()), float((s.normals[[t for t, _ in faces]] @ n).min())
+
+
+def _nearest(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """The nearest points of two lines that are not parallel, moved to the ends of the segments."""
+    w = p - q
+    uu, uv, vv, uw, vw = (float(x @ y) for x, y in ((u, u), (u, v), (v, v), (u, w), (v, w)))
+    n = np.cross(u, v)
+    area = float(n @ n)
+    s = min(max((uv * vw - vv * uw) / area, 0.0), 1.0)
+    t = min(max((uu * vw - uv * uw) / area, 0.0), 1.0)
+    return p + s * u, q + t * v
+
+
+def foot_on(p: Floats, corners: Floats) -> Floats:
+    """The nearest point of a triangle that has an area."""
+    a, b, c = corners
+    n = np.cross(b - a, c - a)
+    foot = p - n * ((p - a) @ n) / (n @ n)
+    edges = ((a, b), (b, c), (c, a))
+    if all(np.cross(y - x, foot - x) @ n >= 0 for x, y in edges):
+        return np.asarray(foot)
+    nearest = [_on_segment(p, x, y) for x, y in edges]
+    return min(nearest, key=lambda x: float((p - x) @ (p - x)))
+
+
+def _on_segment(p: Floats, x: Floats, y: Floats) -> Floats:
+    along = y - x
+    share = float((p - x) @ along) / float(along @ along)
+    return np.asarray(x + along * min(max(share, 0.0), 1.0))
+
+
+def places_of_ball(
+    centre: Floats, radius: float, mesh: Surface, tolerance: float, rounding: float
+) -> list[Place]:
+    """Of a ball (A), whose centre is outside of the mesh (B)."""
+    near = tolerance * (1 + SLACK)
+    corners = mesh.points[mesh.triangles]
+    reach = radius + near
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    close = np.flatnonzero(((low <= centre + reach) & (high >= centre - reach)).all(axis=1))
+    feet = [foot_on(centre, corners[t]) for t in close]
+    found = []
+    for t, foot in zip(close.tolist(), feet, strict=True):
+        step = centre - foot
+        distance = float(np.linalg.norm(step))
+        if abs(distance - radius) > near or step @ mesh.normals[t] <= 0:
+            continue
+        n = step / distance
+        beside = [
+            corners[u]
+            for u, x in zip(close, feet, strict=True)
+            if np.linalg.norm(x - foot) <= rounding
+        ]
+        if all(float(((c - foot) @ n).max()) <= 4 * rounding for c in beside):
+            found.append(Place(foot, n, distance - radius, True))
+    return found
+
+
+def place_of_balls(
+    centre: Floats, radius: float, other: Floats, other_radius: float, tolerance: float
+) -> list[Place]:
+    """Of two balls, A first."""
+    step = centre - other
+    distance = float(np.linalg.norm(step))
+    height = distance - radius - other_radius
+    if abs(height) > tolerance * (1 + SLACK) or distance == 0:
+        return []
+    n = step / distance
+    return [Place(other + n * (other_radius + 0.5 * height), n, height, True)]
