@@ -100,6 +100,8 @@ def _check_scaled(
 ) -> Report | None:
     """The check of a scene with bodies beyond the number range of the core. None: scaling would not
     bring more bodies than the `placed` ones into the range."""
+    if asks_for_support(scene):
+        return None  # the bodies beyond the range stay unusable, and the answers open
     from satcheck.audit.scaled_check import Scaling
     from satcheck.scene.scaled_scene import exponent_for, scaled_scene
 
@@ -193,10 +195,15 @@ def _movers(scene: Scene) -> Movers | None:
     return Movers(scene.motions)
 
 
+def asks_for_support(scene: Scene) -> bool:
+    """Whether a rule asks if bodies are held."""
+    return any(rule.supported or rule.stable for rule in scene.body_rules)
+
+
 def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
     """None: no rule asks about support. Raises SatcheckError if the question cannot be answered at
     all."""
-    if not any(rule.supported or rule.stable for rule in scene.body_rules):
+    if not asks_for_support(scene):
         return None
     from satcheck.audit.statics.support import Support
 

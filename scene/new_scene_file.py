@@ -59,9 +59,15 @@ def new_scene_file(
         head["check_static"] = True
     if scene.ignore_within_groups:
         head["ignore_within_groups"] = sorted(scene.ignore_within_groups)
+    rules = list(map(_rule, scene.rules))
+    if scene.body_rules or scene.statics:
+        from satcheck.scene.statics import body_rule_values, terms_values
+
+        head["statics"] = terms_values(scene)
+        rules += map(body_rule_values, scene.body_rules)
     lists = {
         "bodies": entries,
-        "rules": list(map(_rule, scene.rules)),
+        "rules": rules,
         "motion": list(map(_motion, scene.motions)),
     }
     return (_toml if is_toml(output) else _json)(head, lists)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -17,10 +17,17 @@ from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.rules import SEVERITIES, Selectable, Selector, Severity
 
+if TYPE_CHECKING:
+    from satcheck.scene.bodies import Scene
+
 # What a body rule asks of a body, and what it states about a body.
 QUESTIONS: tuple[Literal["supported", "stable"], ...] = ("supported", "stable")
 FACTS = ("mounted", "density", "mass", "friction")
 KEYS = (*QUESTIONS, *FACTS, "severity")
+
+_DOWN_Z: Vector = (0.0, 0.0, -1.0)
+_DOWN_Y: Vector = (0.0, -1.0, 0.0)
+_Y_UP = frozenset(("glb", "gltf"))  # "+Y is up": the glTF 2.0 specification, 3.4
 
 FRICTION = 0.5  # an assumption, for scenes that state none; reports show it
 
@@ -130,6 +137,31 @@ def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:
             if values.setdefault(key, value) != value:
                 raise _refused(f"two inputs state another {key} in [statics]: state it once")
     return StaticsTerms(**values)
+
+
+def down_of(scene: Scene) -> Vector:
+    """The direction of gravity of a scene that states none: along the up axis of the format if all
+    bodies are nodes of files that have one, else -z."""
+    formats = {body.file.format for body in scene.bodies}
+    return _DOWN_Y if formats and formats <= _Y_UP and not scene.entries else _DOWN_Z
+
+
+def terms_values(scene: Scene) -> dict[str, Any]:
+    """The terms as a scene file states them. Gravity is stated in any case: in a scene file, the
+    format of a mesh does not say where down is."""
+    stated = scene.statics or StaticsTerms()
+    gravity = stated.gravity or down_of(scene)
+    values = {key: getattr(stated, key) for key in ("friction", "tolerance")}
+    known = {key: value for key, value in values.items() if value is not None}
+    return {"gravity": list(gravity), **known}
+
+
+def body_rule_values(rule: BodyRule) -> dict[str, Any]:
+    """The rule as a scene file states it."""
+    values = {key: getattr(rule, key) for key in KEYS}
+    entry: dict[str, Any] = {"bodies": rule.bodies.text}
+    entry |= {key: value for key, value in values.items() if value is not None}
+    return entry | {"reason": rule.reason} if rule.reason else entry
 
 
 def _refused(message: str) -> SatcheckError:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from msgspec import Struct
 
 from satcheck.core.conventions import Vector
-from satcheck.scene.statics import FRICTION, BodyTerms, StaticsTerms
+from satcheck.scene.statics import FRICTION, BodyTerms, StaticsTerms, down_of
 from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
@@ -20,10 +20,6 @@ TOLERANCE_MICROMETRES = 1000  # 1 mm, if the unit of length is known
 TOLERANCE_SHARE = 1e-3  # of the smallest free body, if it is not
 
 Stated = Literal["gravity", "friction", "tolerance"]
-
-_DOWN_Z: Vector = (0.0, 0.0, -1.0)
-_DOWN_Y: Vector = (0.0, -1.0, 0.0)
-_Y_UP = frozenset(("glb", "gltf"))  # "The scene's up is +Y": the glTF 2.0 specification, 3.4
 
 
 class Terms(Struct, frozen=True):
@@ -43,7 +39,7 @@ class Terms(Struct, frozen=True):
 def terms_for(scene: Scene, free: Sequence[PlacedBody]) -> Terms:
     """free: the bodies that may fall."""
     stated = scene.statics or StaticsTerms()
-    gravity = stated.gravity or _down(scene)
+    gravity = stated.gravity or down_of(scene)
     size = math.hypot(*gravity)
     x, y, z = (c / size for c in gravity)
     tolerance = stated.tolerance
@@ -56,12 +52,6 @@ def terms_for(scene: Scene, free: Sequence[PlacedBody]) -> Terms:
         tolerance,
         tuple(name for name in names if getattr(stated, name) is not None),
     )
-
-
-def _down(scene: Scene) -> Vector:
-    """Along the up axis of the format if the bodies are nodes of files that state one."""
-    formats = {body.file.format for body in scene.bodies}
-    return _DOWN_Y if formats and formats <= _Y_UP and not scene.entries else _DOWN_Z
 
 
 def _tolerance(scene: Scene, free: Sequence[PlacedBody]) -> float:

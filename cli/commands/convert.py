@@ -91,7 +91,8 @@ def _write_scene(output: Path, scene: Scene, inputs: Inputs) -> Told:
     write_file(output, new_scene_file(output, scene, inputs.mesh_files()))
     lost = left_out_of(scene)
     stated = len(scene.bodies) + len(scene.unreadable) - len(lost)
-    lines = [f"{output}: {counted(stated, 'body', 'bodies')}, {counted(len(scene.rules), 'rule')}"]
+    rules = len(scene.rules) + len(scene.body_rules)
+    lines = [f"{output}: {counted(stated, 'body', 'bodies')}, {counted(rules, 'rule')}"]
     if (stray := stray_mesh(None, output, scene)) is not None:
         lines.append(f"note: to read {output} give --allow-outside, because of {stray}")
     if scene.robots:
@@ -114,7 +115,7 @@ def _write_glb(output: Path, scene: Scene, inputs: Inputs) -> Told:
     if curved:
         shapes = counted(curved, "curved shape is", "curved shapes are")
         lines.append(f"note: {shapes} written as facets that lie within")
-    if scene.rules or scene.motions:
+    if scene.rules or scene.body_rules or scene.motions:
         lines.append("note: GLB has no rules and no motions: they are not written")
     return lines, [body.id for body in scene.unreadable]
 

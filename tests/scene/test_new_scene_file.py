@@ -23,6 +23,7 @@ schema = "satcheck.scene/1"
 units = "mm"
 check_static = true
 ignore_within_groups = ["bolts"]
+statics = { gravity = [0, 0, -9.81], friction = 0.25, tolerance = 0.5 }
 
 [[bodies]]
 id = "a [*]"
@@ -64,6 +65,12 @@ b = "ball"
 clearance = 0.5
 max_volume = 2
 severity = "note"
+
+[[rules]]
+bodies = "group:*"
+stable = true
+density = 2.5
+reason = "it stands"
 
 [[motion]]
 bodies = "swing"
@@ -144,6 +151,10 @@ def assert_alike(made: Scene, scene: Scene) -> None:
     assert [replace(rule, **nowhere) for rule in made.rules] == [
         replace(rule, **nowhere) for rule in scene.rules
     ]
+    assert [replace(rule, **nowhere) for rule in made.body_rules] == [
+        replace(rule, **nowhere) for rule in scene.body_rules
+    ]
+    assert made.statics == scene.statics
     for new, old in zip(made.bodies, scene.bodies, strict=True):
         assert new.world_mesh().to_bytes() == old.world_mesh().to_bytes(), new.id
 
