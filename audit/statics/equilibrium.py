@@ -75,13 +75,13 @@ class Answer(Struct, frozen=True):
 
 
 def require_solver() -> None:
-    """Raises SatcheckError (`no-solver`) if the solver is not installed."""
+    """Raises SatcheckError (`missing-extra`) if the solver is not installed."""
     try:
         import clarabel  # noqa: F401
         import scipy.sparse  # noqa: F401
     except ImportError:
         message = "rules of support need clarabel and scipy: pip install 'satcheck[statics]'"
-        raise SatcheckError("no-solver", message) from None
+        raise SatcheckError("missing-extra", message) from None
 
 
 def solve(island: Island) -> Answer:

@@ -45,7 +45,7 @@ class Support:
     """What was found about the bodies of a scene. unusable: id -> why a body cannot be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, settings: Settings) -> None:
-        """Raises SatcheckError: `no-solver`; `units-unknown` if bodies have no common unit."""
+        """Raises SatcheckError: `missing-extra`; `units-unknown` if bodies have no common unit."""
         if settings.planar is not None:
             raise SatcheckError("planar-only", "rules of support need bodies in space: no --planar")
         require_solver()

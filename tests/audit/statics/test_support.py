@@ -195,4 +195,4 @@ def test_without_a_solver_the_error_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "clarabel", None)
     with pytest.raises(SatcheckError, match="satcheck\\[statics\\]") as caught:
         report_of(tmp_path, tower(0.4))
-    assert caught.value.code == "no-solver"
+    assert caught.value.code == "missing-extra"
