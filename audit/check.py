@@ -218,7 +218,6 @@ def _examine_all(
     queue: PairQueue,
     progress: Progress | None,
 ) -> list[CheckedPair]:
-    done: dict[int, CheckedPair] = {}
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
     with ExitStack() as stack:
@@ -238,10 +237,18 @@ def _examine_all(
             )
             for (i, j), request in zip(close, requests, strict=True)
         ]
-        for k, checked in queue.each(pairs, _steps()):
-            done[k] = checked
-            if progress is not None:
-                progress(len(done), len(pairs))
+        return examine_pairs(pairs, queue, progress)
+
+
+def examine_pairs(
+    pairs: Sequence[Pair], queue: PairQueue, progress: Progress | None = None
+) -> list[CheckedPair]:
+    """The findings of pairs with the same settings, in their order."""
+    done: dict[int, CheckedPair] = {}
+    for k, checked in queue.each(pairs, _steps()):
+        done[k] = checked
+        if progress is not None:
+            progress(len(done), len(pairs))
     return [done[k] for k in range(len(pairs))]
 
 

@@ -20,14 +20,14 @@ def doubtful_sizes(
 ) -> Iterator[Issue]:
     """Bodies smaller than the tolerance of one of their pairs, and bodies of very different
     sizes."""
-    sizes = {bodies.ids[k]: _size(body, plane) for k, body in bodies.placed.items()}
+    sizes = {bodies.ids[k]: size_of(body, plane) for k, body in bodies.placed.items()}
     yield from _tolerances(sizes, findings)
     for unit in dict.fromkeys(bodies.units.values()):
         alike = {bodies.ids[k]: sizes[bodies.ids[k]] for k, u in bodies.units.items() if u == unit}
         yield from _unlike(alike)
 
 
-def _size(body: PlacedBody, plane: Plane | None) -> float:
+def size_of(body: PlacedBody, plane: Plane | None) -> float:
     """The longest side of its own box, world units: the same in every pose."""
     low, high = body.body.file.mesh.bounds
     axes = (0, 1, 2) if plane is None else axes_of(plane)

@@ -24,7 +24,7 @@ from satcheck.report.suggestions import (
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
-    from satcheck.audit.samples import PairTally, Samples
+    from satcheck.audit.sampled import PairTally, Samples
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
 
@@ -115,17 +115,15 @@ def suggest(
 
 def _undecided(report: Report, samples: Samples | None) -> tuple[Undecided, ...]:
     """As placed, then in the poses."""
-    findings = list(report.findings)
-    if samples:
-        open_in_poses = {(pair.a, pair.b) for pair in samples.pairs if pair.undecided}
-        of_poses = (finding for sample in samples.samples for finding in sample.findings)
-        findings += [f for f in of_poses if (f.a, f.b) in open_in_poses]
     first: dict[Names, Undecided] = {}
-    for finding in findings:
+    for finding in report.findings:
         if finding.undecided is not None:
             swept = finding.motion and finding.motion.reason
             reason = finding.reason or swept or "undecided"
             first.setdefault((finding.a, finding.b), Undecided(finding.a, finding.b, reason))
+    undecided = [pair for pair in samples.pairs if pair.undecided] if samples else []
+    for pair in sorted(undecided, key=lambda pair: pair.first_undecided or 0):
+        first.setdefault((pair.a, pair.b), Undecided(pair.a, pair.b, pair.reason or "undecided"))
     return tuple(first.values())
 
 
@@ -186,7 +184,7 @@ def _why(
 ) -> Why | None:
     if adjacent:
         return "adjacent"
-    if tally and samples and tally.contacts == len(samples.samples):
+    if tally and samples and tally.contacts == samples.number:
         return "always"
     if finding is not None and _in_contact(finding):
         return "contact"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from satcheck.audit.samples import Samples
+from satcheck.audit.sampled import Samples
 from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
 from satcheck.cli.output import write_file
 

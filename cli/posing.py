@@ -5,15 +5,17 @@ Apart from `cli.inputs`, because it imports the readers of robots, and these num
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import click
 
 from satcheck.cli.inputs import Inputs
 from satcheck.scene import Scene
-from satcheck.scene.robot import Pose, joint_samples, pose_of_states, posed, read_poses
+from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed, read_poses
 
 
-def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
-    """A pose, or a list of poses where several or random ones are given, even if it has only one.
+def poses_of(scene: Scene, inputs: Inputs) -> Sequence[Pose] | Pose:
+    """A pose, or a sequence of poses where several or random ones are given, even if only one.
 
     UsageError for a combination that makes no sense; what is wrong with a pose is a SatcheckError.
     """
@@ -30,7 +32,7 @@ def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
             )
         held = {**base, **(given[0] if given and not isinstance(given[0], list) else {})}
         robots = [robot.robot for robot in scene.robots]
-        return joint_samples(robots, inputs.sample, inputs.random_seed or 0, held)
+        return RandomPoses(robots, inputs.sample, inputs.random_seed or 0, held)
     if len(given) == 1 and not isinstance(given[0], list):
         return {**base, **given[0]}
     listed = [pose for poses in given for pose in (poses if isinstance(poses, list) else [poses])]
@@ -40,6 +42,6 @@ def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
 def posed_once(scene: Scene, inputs: Inputs, several: str) -> Scene:
     """The scene in the one pose of the options. several: the UsageError where they give more."""
     pose = poses_of(scene, inputs)
-    if isinstance(pose, list):
+    if not isinstance(pose, Mapping):
         raise click.UsageError(several)
     return posed(scene, pose)

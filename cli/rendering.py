@@ -8,7 +8,7 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.audit import Report
-from satcheck.audit.samples import Samples
+from satcheck.audit.sampled import Samples
 from satcheck.cli.forms import PICTURES
 from satcheck.cli.output import Page, talk
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS

@@ -32,6 +32,7 @@ from satcheck._native.core import (
     PlacedGeometry,
     PolygonResult,
     Polytope,
+    PosedBody,
     Shape,
     Sphere,
     Surface,
@@ -67,6 +68,7 @@ from satcheck._native.core import (
     safe_time,
     search_depth,
     search_thickness,
+    sift,
     surface_intersection,
     with_cracks_closed,
 )
@@ -104,6 +106,7 @@ __all__ = [
     "PlacedGeometry",
     "PolygonResult",
     "Polytope",
+    "PosedBody",
     "Shape",
     "Sphere",
     "Surface",
@@ -143,6 +146,7 @@ __all__ = [
     "sat_polygons",
     "search_depth",
     "search_thickness",
+    "sift",
     "surface_intersection",
     "with_cracks_closed",
 ]

@@ -74,12 +74,20 @@ class SamplesSummary(Value, frozen=True):
     pairs: SampledPairCounts
 
 
+class SamplesTruncated(Value, frozen=True):
+    """The number of samples that `samples` leaves out, and the reason."""
+
+    samples: Number
+    reason: str
+
+
 class SamplesReport(Value, frozen=True, kw_only=True):
     """The same bodies in many poses of their robots. World frame, right-handed; lengths in the
     units of the files. A figure that was not computed is None, never 0.
 
     seed: of the random poses; None: they are not random. pairs: those that are not separated in
     all samples. issues: those that are not about the pose of one sample. config: as in a report.
+    truncated: None: all samples are listed. Summary and pairs count all of them.
     """
 
     schema: Literal["satcheck.samples/1"] = "satcheck.samples/1"
@@ -91,7 +99,8 @@ class SamplesReport(Value, frozen=True, kw_only=True):
     bodies: tuple[SampledBody, ...]
     exempt: Exempt
     rules: tuple[RuleReport, ...]
-    samples: Annotated[tuple[SampledPose, ...], Meta(min_length=1)]
+    samples: tuple[SampledPose, ...]
     pairs: tuple[SampledPair, ...]
     issues: tuple[Issue, ...]
+    truncated: SamplesTruncated | None = None
     config: StatedConfig | None = None

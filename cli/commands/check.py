@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,7 +15,8 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.baseline_file import names_in_baseline, read_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
-from satcheck.audit.samples import Samples, check_poses
+from satcheck.audit.sampled import Samples
+from satcheck.audit.samples import check_poses
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -360,7 +361,7 @@ def _collect_garbage(scene: Scene) -> None:
         gc.set_threshold(COLLECT_AFTER)
 
 
-def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, list[Pose] | None]:
+def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, Sequence[Pose] | None]:
     """The scene in the pose of the options, or the poses to check where there are several."""
     if not inputs.has_poses:
         return scene, None
@@ -369,7 +370,7 @@ def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, list[Pose] | None]:
     from satcheck.scene.robot import posed
 
     poses = poses_of(scene, inputs)
-    return (scene, poses) if isinstance(poses, list) else (posed(scene, poses), None)
+    return (posed(scene, poses), None) if isinstance(poses, Mapping) else (scene, poses)
 
 
 def _check(scene: Scene, settings: Settings) -> Report:

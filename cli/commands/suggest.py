@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -153,15 +154,15 @@ def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestio
         return suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
 
 
-def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, list[Pose]]:
+def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, Sequence[Pose]]:
     """(as the robots are placed, the other poses to look at). The pose that --sample starts from
     places them too; a list of poses does not."""
     if not inputs.has_poses:
         return {}, []
     poses = poses_of(scene, inputs)
-    if not isinstance(poses, list):
+    if isinstance(poses, Mapping):
         return poses, []
     fixed = replace(inputs, pose=inputs.pose if inputs.sample else (), sample=None, seed=None)
     placed = poses_of(scene, fixed)
-    assert not isinstance(placed, list)  # --sample takes no list
+    assert isinstance(placed, Mapping)  # --sample takes no list
     return placed, poses

@@ -19,7 +19,7 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.samples import PairTally, Sample, Samples
+    from satcheck.audit.sampled import PairTally, Sample, Samples, StatedPose
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding
 
@@ -41,7 +41,7 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
     top: how many poses or pairs at most, the worst first; all count in the summary.
     """
     console = Canvas(page)
-    if len(result.samples) <= FEW_POSES:
+    if result.number <= FEW_POSES:
         poses = result.samples if top is None else _worst(result.samples)[:top]
         console.print(_poses(poses, unit_of(result.units), unicode=page.unicode))
         if more := len(result.samples) - len(poses):
@@ -53,7 +53,7 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
         )
         rows = met[: top or ROWS]
         if rows:
-            console.print(_pairs(rows, result.samples, unicode=page.unicode))
+            console.print(_pairs(rows, result.number, unicode=page.unicode))
         if more := len(met) - len(rows):
             why = f"not shown (--top {top})" if top else "not shown: JSON has all"
             console.print(f"{counted(more, 'more pair')} {why}")
@@ -112,7 +112,7 @@ def _depth(finding: Finding, unit: str | None) -> str:
     return f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
 
 
-def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bool) -> Table:
+def _pairs(pairs: Sequence[PairTally], samples: int, *, unicode: bool) -> Table:
     table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
     table.add_column("A", overflow="fold")
     table.add_column("B", overflow="fold")
@@ -123,12 +123,12 @@ def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bo
     if "overlaps" in shown:
         table.add_column("the first overlap", overflow="fold")
     for pair in pairs:
-        first = pair.first_overlap
+        first = pair.first_pose
         table.add_row(
             pair.a,
             pair.b,
-            *(_share(getattr(pair, name), len(samples)) for name in shown),
-            *([] if first is None else [_pose(samples[first - 1])]),
+            *(_share(getattr(pair, name), samples) for name in shown),
+            *([] if first is None else [_as_text(first)]),
         )
     return table
 
@@ -144,8 +144,12 @@ def _share(count: int, total: int) -> str:
 
 
 def _pose(sample: Sample) -> str:
+    return _as_text(sample.posture.pose())
+
+
+def _as_text(pose: StatedPose) -> str:
     """As --pose takes it."""
-    return json.dumps(sample.posture.pose(), ensure_ascii=False)
+    return json.dumps(pose, ensure_ascii=False)
 
 
 def _remarks(samples: Sequence[Sample]) -> list[str]:

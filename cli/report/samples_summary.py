@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import fails
 from satcheck.cli.report.summary import doubts, nothing_checked
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
-    from satcheck.audit.samples import Samples
+    from satcheck.audit.sampled import Samples
 
 # Failing pairs that are named, the most frequent first.
 NAMED = 3
@@ -20,16 +18,15 @@ def samples_counts(result: Samples) -> str:
     """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail.`"""
     kind = "pose" if result.seed is None else "random pose"
     seed = "" if result.seed is None else f" (seed {result.seed})"
-    verdicts = Counter(sample.verdict for sample in result.samples)
     singular = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
     plural = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
     parts = [
         f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
         for verdict in ("pass", "fail", "incomplete")
-        if (count := verdicts[verdict])
+        if (count := result.by_verdict[verdict])
     ]
     line = (
-        f"{counted(len(result.samples), kind)}{seed}, "
+        f"{counted(result.number, kind)}{seed}, "
         f"{counted(len(result.bodies), 'body', 'bodies')}, "
         f"{counted(result.counts.total, 'pair')}"
         f"{f', {result.counts.allowed:,} allowed' if result.counts.allowed else ''}"
@@ -52,13 +49,9 @@ def samples_verdict(result: Samples) -> str:
 
 
 def _failed(result: Samples) -> str:
-    poses = Counter(
-        (finding.a, finding.b)
-        for sample in result.samples
-        for finding in sample.findings
-        if fails(finding, result.settings.fail_on)
-    )
-    named = [f"{a} and {b} in {counted(n, 'pose')}" for (a, b), n in poses.most_common(NAMED)]
-    more = f", and {len(poses) - len(named):,} more" if len(poses) > len(named) else ""
-    verb = "fails" if len(poses) == 1 else "fail"
-    return f"{counted(len(poses), 'pair')} {verb}: {', '.join(named)}{more}"
+    failed = [pair for pair in result.pairs if pair.fails]
+    failed.sort(key=lambda pair: (-pair.fails, pair.first_overlap or 0))
+    named = [f"{p.a} and {p.b} in {counted(p.fails, 'pose')}" for p in failed[:NAMED]]
+    more = f", and {len(failed) - len(named):,} more" if len(failed) > len(named) else ""
+    verb = "fails" if len(failed) == 1 else "fail"
+    return f"{counted(len(failed), 'pair')} {verb}: {', '.join(named)}{more}"

@@ -19,7 +19,7 @@ from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 from satcheck.scene.robot.reading import read_robot
-from satcheck.scene.robot.sampling import joint_samples
+from satcheck.scene.robot.sampling import RandomPoses, joint_samples
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 from satcheck.scene.robot.urdf import read_urdf
 
@@ -31,6 +31,7 @@ __all__ = [
     "Part",
     "Pose",
     "Posture",
+    "RandomPoses",
     "Robot",
     "RobotBody",
     "SceneRobot",

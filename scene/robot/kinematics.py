@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import (
@@ -28,20 +29,33 @@ _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 def link_poses(robot: Robot, values: Mapping[str, Values]) -> dict[str, Transform]:
     """World pose of each link. values: of every joint that moves.
 
+    The numbers of a value may be arrays with an entry for each of many poses. The entries of the
+    link poses that depend on them are then arrays, too, with the same bits as for single poses.
+
     A link with a pose at rest has exactly this pose while no joint above it has moved.
     """
     poses = dict(robot.roots)
-    still = set(poses)
+    still: dict[str, Any] = dict.fromkeys(poses, True)
     for joint in robot.joints:
         own = values[joint.name] if joint.freedoms else ()
-        if joint.parent in still and own == joint.neutral:
-            still.add(joint.child)
-        link = robot.links[joint.child]
-        if link.rest is not None and joint.child in still:
-            poses[joint.child] = link.rest
-        else:
-            poses[joint.child] = _carried(joint, poses[joint.parent], own)
+        stays = still[joint.parent]
+        for number, neutral in zip(own, joint.neutral, strict=True):
+            stays = stays & (number == neutral)
+        still[joint.child] = stays
+        poses[joint.child] = _carried(joint, poses[joint.parent], own)
+        rest = robot.links[joint.child].rest
+        if rest is not None:
+            poses[joint.child] = _chosen(stays, rest, poses[joint.child])
     return poses
+
+
+def _chosen(rests: Any, rest: Transform, moved: Transform) -> Transform:
+    if isinstance(rests, bool):
+        return rest if rests else moved
+    import numpy as np
+
+    entries: list[Any] = [np.where(rests, *both) for both in zip(rest, moved, strict=True)]
+    return tuple(entries)
 
 
 def _carried(joint: Joint, parent: Transform, values: Values) -> Transform:
@@ -84,7 +98,14 @@ def motion(joint: Joint, values: Sequence[float]) -> Transform:
 
 def _turned(at: Vector, quaternion: Sequence[float]) -> Transform:
     w, x, y, z = quaternion
-    return from_quaternion(at, (x, y, z, w))
+    if isinstance(w, float | int):
+        return from_quaternion(at, (x, y, z, w))
+    import numpy as np
+
+    turns = [
+        quaternion_matrix(*row) for row in zip(*(n.tolist() for n in (x, y, z, w)), strict=True)
+    ]
+    return placed([*np.array(turns).T], at)
 
 
 def scaled(pose: Transform, scale: Vector) -> Transform:
@@ -103,8 +124,14 @@ def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) 
     return placed(quaternion_matrix(*quaternion), xyz)
 
 
-def _cos_sin(radians: float) -> tuple[float, float]:
-    return math.cos(radians), math.sin(radians)
+def _cos_sin(radians: Any) -> tuple[Any, Any]:
+    if isinstance(radians, float | int):
+        return math.cos(radians), math.sin(radians)
+    # numpy's own cosine may differ in the last bit, and between processors.
+    import numpy as np
+
+    turns = radians.tolist()
+    return np.array([*map(math.cos, turns)]), np.array([*map(math.sin, turns)])
 
 
 def _plane(normal: Vector) -> tuple[Vector, Vector]:

@@ -102,9 +102,8 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
     Raises SatcheckError (`bad-pose`) if a joint is unknown, is fixed, exists in two robots, or has
     a wrong count of numbers. A value beyond the limits is kept, with a warning.
     """
+    check_names(robots, pose)
     movable = _movable(robots)
-    for name, values in pose.items():
-        _check_named(name, values, robots, movable)
     issues: list[Issue] = []
     joints: dict[str, Values] = {}
     for joint in movable.values():
@@ -120,6 +119,28 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
         mimics=frozenset(name for name, joint in movable.items() if joint.mimic),
         issues=tuple(issues),
     )
+
+
+def complete(robots: Sequence[Robot], named: Mapping[str, Any]) -> dict[str, Any]:
+    """The values of all joints that move, where these are named. The numbers may be arrays over
+    many poses; those of joints that no pose names are single ones."""
+    movable = _movable(robots)
+    joints = {
+        joint.name: named[joint.name] if joint.name in named else _rest(joint, [])
+        for joint in movable.values()
+        if joint.free
+    }
+    for joint in movable.values():
+        if joint.mimic is not None:
+            joints[joint.name] = (_mimicked(joint, movable, joints),)
+    return {name: joints[name] for name in movable}
+
+
+def check_names(robots: Sequence[Robot], pose: Pose) -> None:
+    """Raises what `settle` raises."""
+    movable = _movable(robots)
+    for name, values in pose.items():
+        _check_named(name, values, robots, movable)
 
 
 def _movable(robots: Sequence[Robot]) -> dict[str, Joint]:

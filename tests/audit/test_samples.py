@@ -12,7 +12,8 @@ import jsonschema
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.samples import Samples, check_poses
+from satcheck.audit.sampled import Samples
+from satcheck.audit.samples import check_poses
 from satcheck.audit.suggest import suggest
 from satcheck.cli.output import PLAIN_PAGE
 from satcheck.cli.report.samples import render

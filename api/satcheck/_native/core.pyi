@@ -354,6 +354,21 @@ class PlacedGeometry:
     def hull_shape(self) -> Shape: ...
     def release(self) -> None: ...
 
+class PosedBody:
+    @overload
+    def __init__(self, geometry: Geometry) -> None: ...
+    @overload
+    def __init__(
+        self, corners: Sequence[Point], margin: float, inner: Sequence[tuple[Point, float]]
+    ) -> None: ...
+
+def sift(
+    bodies: Sequence[PosedBody],
+    pairs: Sequence[tuple[int, int, float, float]],
+    matrices: NDArray[float64],
+    threads: int = 0,
+) -> NDArray[uint8]: ...
+
 Rung = Literal["aabb", "obb", "hull", "triangles"]
 # a, b, asked_gap, tolerance, wants_distance
 Question = tuple[PlacedGeometry, PlacedGeometry, float, float, float, float, bool]

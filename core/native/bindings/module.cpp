@@ -31,6 +31,7 @@ void bind_thickness(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 void bind_pairs(nb::module_& m);
+void bind_poses(nb::module_& m);
 void bind_core(nb::module_& m);
 }
 
@@ -175,6 +176,7 @@ void satcheck::bind_core(nb::module_& m) {
   bind_pairs(m);
   bind_polygons(m);
   bind_climb(m);
+  bind_poses(m);
   m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one query and ends: freed memory is kept for later allocations, if the allocator can do
 that.)");
 }

@@ -1,0 +1,140 @@
+"""The pairs of a scene whose robots take many poses: which of them are plainly apart, which overlap
+deeply, and which have to climb the ladder.
+
+The core sorts them without placing a body (`core/native/poses/sift.hpp`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from satcheck import core
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.bodies.placed_body import PlacedBody, world_bounds
+from satcheck.audit.request.planner import Planner, Request
+from satcheck.audit.severity import Judgement, by_rule
+from satcheck.core.risky_steps import is_careful
+from satcheck.report.report import SEVERITIES
+from satcheck.scene.bodies import IDENTITY
+
+if TYPE_CHECKING:
+    from satcheck.audit.request.settings import Settings
+    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.scene import Body, Scene
+
+# How the core sorts a pair.
+OPEN, APART, DEEP = 0, 1, 2
+# The stretch of the placement of a link differs from pose to pose by less than this factor.
+_TURNED = 1 + 1e-9
+_LAST_ROW = (0.0, 0.0, 0.0, 1.0)
+
+Numbers = NDArray[np.float64]
+Codes = NDArray[np.uint8]
+
+
+class PosedPair(Struct, frozen=True):
+    """A pair of bodies, by their numbers among the placed bodies, and its request."""
+
+    i: int
+    j: int
+    request: Request
+
+
+class PosedPairs:
+    """The pairs of a scene that are checked, sorted. names: their ids. bodies: as placed in any of
+    the poses."""
+
+    def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
+        self._settings = planner.settings
+        number = {id_: k for k, id_ in enumerate(bodies.ids)}
+        numbers = [number[body.id] for body in scene.bodies]
+        self._bodies = [bodies.placed[k] for k in numbers]
+        self._posed = [_posed(body) for body in self._bodies]
+        place = {k: row for row, k in enumerate(numbers)}
+        checked = sorted(bodies.book.checked_pairs())
+        self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
+        self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
+        self._places = [(place[i], place[j]) for i, j in checked]
+
+    def deep_fails(self, number: int) -> bool:
+        """Whether a deep overlap of the pair is a failure."""
+        severity = by_rule(Judgement("error"), self.pairs[number].request).severity
+        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
+
+    def sift(self, matrices: Numbers) -> Codes:
+        """Shape (poses, pairs): OPEN, APART or DEEP. matrices: those of `PoseBatch`."""
+        resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
+        bounds = []
+        for pair, (a, b) in zip(self.pairs, self._places, strict=True):
+            tolerance = pair.request.tolerance
+            if tolerance is None:
+                deviations = (self._bodies[k].body.file.deviation for k in (a, b))
+                tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
+            off = max(self._bodies[k].surface_tolerance for k in (a, b))
+            gap_limit = max(pair.request.clearance or 0.0, tolerance)
+            depth = float("inf") if pair.request.limited else max(0.5 * tolerance, off)
+            bounds.append((a, b, gap_limit, depth))
+        codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs)
+        return codes
+
+    def _resolution(self, k: int, matrices: Numbers) -> float:
+        """An upper bound of the precision of the coordinates of a body in all of these poses."""
+        body = self._bodies[k]
+        stretch = body.largest_stretch * _TURNED
+        farthest = float(np.abs(matrices[:, k, 3::4]).max())
+        file = body.body.file
+        step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
+        return file.resolution * stretch + step
+
+    def at(
+        self,
+        matrices: Numbers,
+        row: int,
+        numbers: Collection[int],
+        meter: VolumeMeter | None = None,
+    ) -> list[Pair]:
+        """These pairs in one of the poses. Raises ValueError or OverflowError if a body cannot be
+        placed there."""
+        needed = sorted({k for number in numbers for k in self._places[number]})
+        moved = [_moved(self._bodies[k].body, matrices[row, k]) for k in needed]
+        bounds = world_bounds(moved, 1)
+        placed = {
+            k: PlacedBody(body, self._bodies[k].shared, box)
+            for k, body, box in zip(needed, moved, bounds, strict=True)
+        }
+        settings, pairs = self._settings, self.pairs
+        return [
+            Pair(placed[a], placed[b], settings, pairs[n].request, meter)
+            for n, (a, b) in ((n, self._places[n]) for n in numbers)
+        ]
+
+
+def _posed(body: PlacedBody) -> core.PosedBody:
+    shape = body.body.shape
+    if body.curved is None or shape is None:
+        return core.PosedBody(body.shared.geometry)
+    from satcheck.core.shape_bounds import shape_bounds
+
+    around = shape_bounds(shape)
+    return core.PosedBody(around.corners, around.margin, around.inner)
+
+
+def _moved(body: Body, rows: Numbers) -> Body:
+    transform = (*rows.tolist(), *_LAST_ROW)
+    return body if transform == (body.transform or IDENTITY) else replace(body, transform=transform)
+
+
+def same_way(scene: Scene, settings: Settings, bodies: PlacedBodies) -> bool:
+    """Whether every pose asks the same question of every pair: nothing moves while it is checked,
+    nothing is projected, and every body can be used and compared."""
+    everywhere = not (bodies.unusable or scene.motions) and settings.planar is None
+    extras = settings.certificate or settings.cross_check
+    alike = len(set(bodies.units.values())) == 1
+    return everywhere and alike and settings.accuracy == "exact" and not (extras or is_careful())

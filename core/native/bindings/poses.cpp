@@ -1,0 +1,76 @@
+// The Python face of pairs in many poses. Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "poses/sift.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+using Corner = std::array<double, 3>;
+using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
+using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double>;
+using Sifting = std::vector<Sifted>;
+
+Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
+
+nb::object sift_all(const std::vector<PosedBody*>& bodies, const std::vector<PairTuple>& pairs, const Matrices& matrices,
+                    unsigned threads) {
+  if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
+  std::vector<SiftedPair> sifted;
+  for (const auto& [a, b, gap_limit, depth] : pairs) {
+    if (a >= bodies.size() || b >= bodies.size()) throw std::invalid_argument("the number of a body is out of range");
+    sifted.push_back({a, b, gap_limit, depth});
+  }
+  Sifting results;
+  {
+    const nb::gil_scoped_release release;
+    results = sift(bodies, sifted, matrices.data(), matrices.shape(0), threads);
+  }
+  auto kept = std::make_unique<Sifting>(std::move(results));
+  const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
+  const auto* values = reinterpret_cast<const std::uint8_t*>(kept.release()->data());
+  return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(values, {matrices.shape(0), pairs.size()}, owner));
+}
+
+}  // namespace
+
+void bind_poses(nb::module_& m) {
+  nb::class_<PosedBody>(m, "PosedBody", R"(A body that takes many poses, in the coordinates of its file: PosedBody(geometry) for one with a mesh.
+
+PosedBody(corners, margin, inner) for any other: it lies in the hull of the corners, grown by the margin, and the balls
+`inner`, ((x, y, z), radius), lie in it.)")
+      .def(nb::init<std::shared_ptr<Geometry>>(), "geometry"_a, nb::call_guard<nb::gil_scoped_release>())
+      .def("__init__",
+           [](PosedBody* self, const std::vector<Corner>& corners, double margin,
+              const std::vector<std::pair<Corner, double>>& inner) {
+             if (corners.empty()) throw std::invalid_argument("a body needs a corner");
+             std::vector<Vec3> points;
+             for (const Corner& c : corners) points.push_back(to_vec(c));
+             std::vector<Ball> balls;
+             for (const auto& [centre, radius] : inner) balls.push_back({to_vec(centre), radius});
+             new (self) PosedBody(points, margin, std::move(balls));
+           },
+           "corners"_a, "margin"_a, "inner"_a);
+  m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0,
+        R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
+gap limit of the pair; 2: a point lies deeper in both than its depth; 0: neither is proven.
+
+pairs: (i, j, gap_limit, depth) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
+upper three rows of each placement. The proofs hold for the vertices in the world, each coordinate rounded once. The
+result does not depend on the number of threads (0: one a core).)");
+}
+
+}  // namespace satcheck

@@ -1,0 +1,160 @@
+// Separating axes: GJK on the difference of the two hulls (E. G. Gilbert, D. W. Johnson, S. S. Keerthi, 1988), from the
+// axis that separated the pair in the pose before. Every axis on the way may be the proof, so most pairs take one step.
+#include "poses/sift.hpp"
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "base/tolerances.hpp"
+#include "convex/closest_point.hpp"
+
+namespace satcheck {
+namespace {
+
+// The computed height of the difference of two placed hulls along a unit axis is off by at most this, times the sum of
+// both reaches. The choice of the corners: 3 roundings of the direction and 3 of the height, for the chosen and for the
+// true corner, 12. The chosen corners in the world: 6. Difference, length of the axis and product: 7. The vertices in
+// the world: 2. Rounded up.
+constexpr double kPosedRounding = 64 * kUnitRoundoff;
+
+// The poses that one thread takes at a time. Neighbours in a list of poses are often close to each other, and the axis
+// of a pair starts anew with each block, so that threads do not change the result.
+constexpr std::size_t kBlock = 64;
+constexpr int kMostSteps = 32;
+
+// A body in the pose at hand.
+struct Place {
+  PosedPlace at;
+  std::vector<Ball> inner;  // in the world
+  bool has_inner = false;
+};
+
+struct Corner {
+  Vec3 point;
+  std::uint32_t index;
+};
+
+SATCHECK_INLINE Corner support(const PosedBody& body, const PosedPlace& at, Vec3 direction) {
+  const VertexLanes& corners = body.corners();
+  const std::uint32_t i = support_index(corners, transpose_times(at.linear, direction));
+  return {at.linear * Vec3{corners.x[i], corners.y[i], corners.z[i]} + at.offset, i};
+}
+
+struct Search {
+  bool apart = false;
+  Vec3 axis;  // the last one, from B to A
+};
+
+// axis: the first one to try, of any length except 0. enough: a height that exceeds all rounding and the gap limit.
+SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const PosedBody& b, const PosedPlace& at_b,
+                               Vec3 axis, double enough) {
+  Vec3 point[4];
+  std::array<std::uint32_t, 2> seen[4];
+  int count = 0;
+  double nearest = INFINITY;
+  axis = axis * (1 / norm(axis));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Corner on_a = support(a, at_a, -axis), on_b = support(b, at_b, axis);
+    const Vec3 w = on_a.point - on_b.point;
+    const double height = dot(axis, w);
+    if (height > enough) return {true, axis};
+    const std::array<std::uint32_t, 2> corners{on_a.index, on_b.index};
+    for (int i = 0; i < count; ++i) {
+      if (seen[i] == corners) return {false, axis};
+    }
+    point[count] = w;
+    seen[count++] = corners;
+    const ClosestPoint closest = closest_point<true>(point[0], point[1], point[2], point[3], count);
+    const double distance = std::sqrt(closest.distance_squared);
+    if (!(distance < nearest) || !(distance > 0)) return {false, axis};
+    nearest = distance;
+    if (nearest < enough) return {false, axis};  // the hulls are nearer than the gap limit
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+      point[kept] = point[i];
+      seen[kept] = seen[i];
+      kept += closest.carriers >> i & 1;
+    }
+    count = kept;
+    axis = closest.v * (1 / distance);
+  }
+  return {false, axis};
+}
+
+class PoseSifter {
+ public:
+  PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs)
+      : bodies_(bodies), pairs_(pairs), places_(bodies.size()), axes_(pairs.size()) {}
+
+  void take(const double* matrices, Sifted* results) {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      places_[k].at = place_at(*bodies_[k], matrices + 12 * k);
+      places_[k].has_inner = false;
+    }
+    for (std::size_t k = 0; k < pairs_.size(); ++k) results[k] = sifted(pairs_[k], axes_[k]);
+  }
+
+ private:
+  Sifted sifted(const SiftedPair& pair, Vec3& axis) {
+    PosedBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
+    Place &place_a = places_[pair.a], &place_b = places_[pair.b];
+    const PosedPlace &at_a = place_a.at, &at_b = place_b.at;
+    const double rounding = kPosedRounding * (at_a.reach + at_b.reach);
+    const double limit = pair.gap_limit * (1 + 4 * kUnitRoundoff) + rounding;
+    const Vec3 between = at_a.around.centre - at_b.around.centre;
+    const double centres = norm(between);
+    if (centres - at_a.around.radius - at_b.around.radius > limit) return Sifted::apart;
+    if (!(centres > 0) && axis == Vec3{}) axis = {1, 0, 0};
+    const double grown = a.margin() * at_a.stretch.most + b.margin() * at_b.stretch.most;
+    const Search search = seek_axis(a, at_a, b, at_b, axis == Vec3{} ? between : axis, limit + grown);
+    axis = search.axis;
+    if (search.apart) return Sifted::apart;
+    return have_deep_point(a, place_a, b, place_b, pair.depth + rounding) ? Sifted::deep : Sifted::open;
+  }
+
+  const std::vector<Ball>& inner(PosedBody& body, Place& place) {
+    if (!place.has_inner) {
+      place.has_inner = true;
+      place.inner.clear();
+      const PosedPlace& at = place.at;
+      for (const Ball& ball : body.inner()) {
+        place.inner.push_back({at.linear * ball.centre + at.offset, at.stretch.least * ball.radius});
+      }
+    }
+    return place.inner;
+  }
+
+  // Whether two inner balls have a ball with a radius of more than `depth` in common. Its centre is that deep in both.
+  bool have_deep_point(PosedBody& a, Place& place_a, PosedBody& b, Place& place_b, double depth) {
+    const std::vector<Ball>&of_a = inner(a, place_a), &of_b = inner(b, place_b);
+    for (const Ball& p : of_a) {
+      if (!(p.radius > depth)) continue;
+      for (const Ball& q : of_b) {
+        const double most = p.radius + q.radius - 2 * depth;
+        if (q.radius > depth && norm_squared(p.centre - q.centre) < most * most * (1 - 16 * kUnitRoundoff)) return true;
+      }
+    }
+    return false;
+  }
+
+  const std::vector<PosedBody*>& bodies_;
+  const std::vector<SiftedPair>& pairs_;
+  std::vector<Place> places_;
+  std::vector<Vec3> axes_;  // where the search starts, for each pair; 0: between the centres
+};
+
+}  // namespace
+
+std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
+                         const double* matrices, std::size_t poses, unsigned threads) {
+  std::vector<Sifted> results(poses * pairs.size());
+  parallel_for((poses + kBlock - 1) / kBlock, threads, [&](std::size_t block) {
+    PoseSifter sifter(bodies, pairs);
+    for (std::size_t pose = kBlock * block; pose < std::min(poses, kBlock * (block + 1)); ++pose) {
+      sifter.take(matrices + 12 * bodies.size() * pose, results.data() + pairs.size() * pose);
+    }
+  });
+  return results;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,33 @@
+// Sorts the pairs of many poses: those that are proven apart, those that are proven to overlap deeply, and the others,
+// which climb the ladder. Bodies are not placed: directions are taken into their frames.
+//
+// Every proof holds for the vertices in the world after each coordinate is rounded once, because it exceeds a bound of
+// all rounding (kPosedRounding).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "poses/posed_body.hpp"
+
+namespace satcheck {
+
+enum class Sifted : std::uint8_t {
+  open,   // neither is proven
+  apart,  // by more than the gap limit of the pair
+  deep,   // a point lies deeper in both bodies than the depth of the pair
+};
+
+// One pair of bodies in all poses.
+struct SiftedPair {
+  std::uint32_t a, b;
+  double gap_limit, depth;
+};
+
+// matrices: of each body in each pose, pose by pose, three rows of four numbers each. Returns a value for each pair in
+// each pose, pose by pose, the same for any number of threads (0: one a core).
+std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
+                         const double* matrices, std::size_t poses, unsigned threads);
+
+}  // namespace satcheck

@@ -1,0 +1,175 @@
+"""Many poses at once give what checks of single poses give, for every kind of body and of rule."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.audit import samples as many
+from satcheck.audit.bodies.placed_bodies import place
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPairs
+from satcheck.audit.request.planner import Planner
+from satcheck.audit.samples import check_poses
+from satcheck.report.report import OVERLAPS, Finding, without_timings
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.robot import RandomPoses, posed
+from satcheck.scene.robot.pose_batches import pose_batches
+from tests.scene.robot.robots import SAMPLES, joint, link, robot_of
+
+QUICK = Settings(depth=False)
+MESHES = ("l_bracket.obj", "snowflake.obj", "kettle.obj", "ring.glb", "box.obj")
+SHAPES = (
+    '<sphere radius="0.8"/>',
+    '<capsule radius="0.4" length="1.5"/>',
+    '<cylinder radius="0.5" length="1.6"/>',
+    '<box size="1.5 0.5 0.8"/>',
+)
+
+
+def spider(folder: Path, geometries: list[str], rules: str = "") -> Scene:
+    """Bodies on arms that turn about different axes through nearly the same point, so that many
+    pairs overlap, some barely, and others do not."""
+    elements = [link("hub", "")]
+    for k, geometry in enumerate(geometries):
+        x, y, z = math.sin(2.4 * k), math.cos(2.4 * k), 0.3 * (k % 3)
+        origin = f'<origin xyz="{0.9 + 0.2 * k} 0.1 0" rpy="0.3 {0.5 * k} 0.1"/>'
+        elements.append(
+            link(f"part{k}", f"<collision>{origin}<geometry>{geometry}</geometry></collision>")
+        )
+        axis = f'<origin xyz="0 0 {0.4 * k}"/><axis xyz="{x} {y} {z}"/>'
+        elements.append(joint(f"j{k}", "hub", f"part{k}", "continuous", axis))
+    (folder / "r.urdf").write_text(robot_of(*elements))
+    if not rules:
+        return load_scene([folder / "r.urdf"])
+    wall = '{id = "wall", shape = {type = "box", size = [1, 1, 1]}, position = [1, 1, 0.5]}'
+    head = f'schema = "satcheck.scene/1"\nunits = "m"\nbodies = [{wall}]\n'
+    (folder / "rules.toml").write_text(head + rules)
+    return load_scene([folder / "rules.toml", folder / "r.urdf"])
+
+
+def meshes(folder: Path, scale: str = "0.5 0.5 0.5") -> list[str]:
+    for name in MESHES:
+        (folder / name).write_bytes((SAMPLES / name).read_bytes())
+    return [f'<mesh filename="{name}" scale="{scale}"/>' for name in MESHES]
+
+
+def plain(finding: Finding) -> dict[str, Any]:
+    """All of a finding but its timings."""
+    stated: dict[str, Any] = without_timings(msgspec.to_builtins(finding))
+    return stated
+
+
+def compare(scene: Scene, settings: Settings, count: int, seed: int = 0) -> set[str]:
+    """Every finding of every pose equals that of a check of the pose. Returns the relations."""
+    poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
+    found = check_poses(scene, poses, settings)
+    relations = set()
+    for sample, pose in zip(found.samples, poses, strict=True):
+        report = check(posed(scene, pose), settings)
+        expected = [
+            f for f in report.findings if not (f.relation == "separated" and f.severity == "none")
+        ]
+        assert [plain(f) for f in sample.findings] == [plain(f) for f in expected]
+        assert sample.verdict == report.summary.verdict
+        relations |= {finding.relation for finding in report.findings}
+    return relations
+
+
+def test_meshes(tmp_path: Path) -> None:
+    scene = spider(tmp_path, meshes(tmp_path))
+    assert compare(scene, QUICK, 40) >= {"separated", "penetrating"}
+
+
+def test_mirrored_and_stretched_meshes(tmp_path: Path) -> None:
+    scene = spider(tmp_path, meshes(tmp_path, "-0.5 0.7 0.4"))
+    assert compare(scene, QUICK, 20) >= {"separated", "penetrating"}
+
+
+def test_curved_shapes_and_meshes(tmp_path: Path) -> None:
+    scene = spider(tmp_path, [*SHAPES, *meshes(tmp_path)[:2]])
+    assert compare(scene, QUICK, 15) >= {"separated", "penetrating"}
+
+
+@pytest.mark.parametrize(
+    "rules",
+    [
+        '[[rules]]\na = "part0"\nb = "part1"\nallowed = true\nreason = "test"\n',
+        '[[rules]]\na = "part*"\nb = "part2"\nmax_depth = 0.2\n',
+        '[[rules]]\na = "part*"\nb = "part*"\nclearance = 0.3\n',
+        '[[rules]]\na = "part*"\nb = "part*"\nseverity = "warning"\n',
+        '[[rules]]\na = "part*"\nb = "part*"\ntolerance = 0.05\n',
+    ],
+)
+def test_rules(tmp_path: Path, rules: str) -> None:
+    scene = spider(tmp_path, [*SHAPES[2:], *meshes(tmp_path)[:2]], rules)
+    compare(scene, QUICK, 12)
+
+
+def test_flags(tmp_path: Path) -> None:
+    scene = spider(tmp_path, meshes(tmp_path)[:3])
+    assert "near" in compare(scene, Settings(depth=False, clearance=0.4), 15)
+    compare(scene, Settings(depth=False, tolerance=0.1, surface_tolerance=0.02), 15)
+
+
+def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
+    """What a report does not list is counted by these codes alone."""
+    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES])
+    bodies = place(scene, QUICK)
+    pairs = PosedPairs(scene, bodies, Planner(QUICK, bodies.book, scene.composed))
+    poses = RandomPoses([robot.robot for robot in scene.robots], 25, 7)
+    seen = set()
+    for batch in pose_batches(scene, poses, 10):
+        codes = pairs.sift(batch.matrices(scene))
+        for row in range(batch.count):
+            report = check(posed(scene, batch.pose(row)), QUICK)
+            relations = {(f.a, f.b): f.relation for f in report.findings}
+            for code, names in zip(codes[row], pairs.names, strict=True):
+                relation = relations.get(names, "separated")
+                seen.add(int(code))
+                if code == APART:
+                    assert relation == "separated"
+                if code == DEEP:
+                    assert relation in OVERLAPS
+    assert seen == {OPEN, APART, DEEP}
+
+
+def test_a_report_of_many_poses_counts_all_and_lists_the_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES[:2]])
+    poses = RandomPoses([robot.robot for robot in scene.robots], 60, 3)
+    whole = check_poses(scene, poses, QUICK)
+    monkeypatch.setattr("satcheck.audit.sampled.LISTED_SAMPLES", 5)
+    monkeypatch.setattr(many, "LISTED_SAMPLES", 5)
+    monkeypatch.setattr(many, "BATCH", 16)
+    short = check_poses(scene, poses, QUICK)
+    noted = [sample for sample in whole.samples if sample.findings]
+    assert len(noted) > 5
+    assert [s.number for s in short.samples] == [s.number for s in noted[:5]]
+    assert [list(map(plain, s.findings)) for s in short.samples] == [
+        list(map(plain, s.findings)) for s in noted[:5]
+    ]
+    assert short.by_verdict == whole.by_verdict
+    assert short.pairs == whole.pairs
+    left_out = short.report().truncated
+    assert left_out is not None
+    assert left_out.samples == 55
+    assert whole.report().truncated is None
+
+
+def test_matrices_have_the_bits_of_single_poses() -> None:
+    scene = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
+    poses = RandomPoses([robot.robot for robot in scene.robots], 30, 1)
+    (batch,) = pose_batches(scene, poses, 30)
+    matrices = batch.matrices(scene)
+    for row, pose in enumerate(poses):
+        bodies = posed(scene, pose).bodies
+        expected = [body.transform or IDENTITY for body in bodies]
+        assert np.array_equal(matrices[row], np.array(expected)[:, :12])
