@@ -38,7 +38,8 @@ STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
 # A scene names meshes, these name buffers: more rounds of fetching are a circle.
 _MOST_ROUNDS = 8
 
-
+# Issues that end when a package is installed, which no file shows.
+_NOT_INSTALLED = frozenset({"missing-extra", "no-solver"})
 # What this process keeps for the next world. A triangle takes about 200 bytes.
 _KEPT_TRIANGLES = 1_000_000
 # New objects before Python looks for cycles among them, of which reports have none.
@@ -114,8 +115,7 @@ def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | No
         return _remote_answer(world, options, terms, copy=copy)
     checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
-    key = key_of(world, terms, inputs, _digests.real_path) if files.are_certain() else None
-    return answer(_result(world, checked, inputs, key))
+    return answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
 
 
 def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) -> Answer:
@@ -124,8 +124,7 @@ def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) 
     except SatcheckError as error:  # of the fetch: the next run tries again
         return answer(_result(world, unreadable_asset(world[0], error), (), None))
     inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
-    key = key_of(world, terms, inputs, _digests.real_path) if files.are_certain() else None
-    made = answer(_result(world, checked, inputs, key))
+    made = answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
     return replace(made, line=copy.with_urls(made.line))
 
 
@@ -147,6 +146,16 @@ def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
             note(name)
         checked = check_world(world, options, known=_meshes)
     return without_unused_rules(checked, options.rules), files
+
+
+def _key(
+    world: World, terms: str, inputs: tuple[InputFile, ...], checked: Asset, files: FilesRead
+) -> str | None:
+    """None: the next run checks the world again."""
+    lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
+    if lacking or not files.are_certain():
+        return None
+    return key_of(world, terms, inputs, _digests.real_path)
 
 
 def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:

@@ -175,6 +175,8 @@ class _Watch:
 
 def _refuse(worlds: Sequence[World], inputs: Inputs, output: str, baseline: Path | None) -> None:
     """What can be seen to fail before any work is done."""
+    if output == "-":
+        raise click.UsageError("-o - has no place for --resume: name a file")
     files = tuple(name for world in worlds for name in world if not is_url(name))
     if baseline is not None and any(map(is_remote, worlds)):
         raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
@@ -209,6 +211,8 @@ def _worlds(inputs: Inputs, manifest: str | None, shard: Shard, *, planar: bool)
         read_manifest(manifest) if manifest is not None else (),
     )
     first = next(named, None)
+    if first is None and manifest is not None:
+        raise SatcheckError("no-assets", "it names no scene", file=manifest)
     if first is None:
         raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
     return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))

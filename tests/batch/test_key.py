@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import sys
 from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -41,7 +43,7 @@ def checked(worlds: Sequence[World], options: CheckOptions | None = None) -> lis
     return done
 
 
-def answer(world: World) -> object:
+def answer(world: World) -> Any:
     lines = map(json.loads, Path("results.jsonl").read_text().splitlines())
     return next(line["report"] for line in lines if tuple(line["files"]) == world)
 
@@ -234,6 +236,28 @@ def test_the_search_path_of_packages_counts(monkeypatch: pytest.MonkeyPatch) -> 
     world = _robot("package://parts/box.obj")
     assert checked([world]) == [world]
     monkeypatch.setenv("ROS_PACKAGE_PATH", "elsewhere")
+    assert checked([world]) == [world]
+
+
+def test_an_answer_without_a_reader_does_not_hold(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Once the reader is installed, its files are read."""
+    (tmp_path / "pxr.py").write_text('raise ModuleNotFoundError("no pxr", name="pxr")')
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
+    worlds = [(copied("bench.usda"),), _other_scene()]
+    assert checked(worlds) == worlds
+    assert [issue["code"] for issue in answer(worlds[0])["issues"]] == ["missing-extra"]
+    assert checked(worlds) == worlds[:1]
+
+
+def test_an_answer_without_a_solver_does_not_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "clarabel", None)
+    world = _other_scene()
+    text = Path(world[0]).read_text().replace("[[bodies]]", 'units = "m"\n[[bodies]]', 1)
+    Path(world[0]).write_text(f'{text}[[rules]]\nbodies = "*"\nsupported = true\n')
+    assert checked([world]) == [world]
+    assert "no-solver" in [issue["code"] for issue in answer(world)["issues"]]
     assert checked([world]) == [world]
 
 

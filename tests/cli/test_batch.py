@@ -80,6 +80,21 @@ def test_results_are_not_overwritten(scenes: Path) -> None:
     assert "--resume" in again.err
 
 
+def test_a_manifest_that_names_nothing_is_told(tmp_path: Path) -> None:
+    manifest = tmp_path / "manifest"
+    manifest.write_text("\n\n")
+    ran = satcheck("batch", "--manifest", str(manifest), "-o", str(tmp_path / "r.jsonl"))
+    assert ran.code == 2
+    assert f"{manifest}: it names no scene [no-assets]" in ran.err
+
+
+def test_results_do_not_go_to_standard_output(scenes: Path, tmp_path: Path) -> None:
+    ran = satcheck("batch", str(scenes), "-o", "-", cwd=tmp_path)
+    assert ran.code == 2
+    assert "name a file" in ran.err
+    assert not (tmp_path / "-").exists()
+
+
 def test_a_manifest_names_files_that_are_one_scene(scenes: Path) -> None:
     output = scenes.parent / "results.jsonl"
     manifest = scenes.parent / "manifest"
