@@ -38,8 +38,8 @@ STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
 # A scene names meshes, these name buffers: more rounds of fetching are a circle.
 _MOST_ROUNDS = 8
 
-# Issues that end when a package is installed, which no file shows.
-_NOT_INSTALLED = frozenset({"missing-extra", "no-solver"})
+# An issue that ends when a package is installed, which no file shows.
+_NOT_INSTALLED = "missing-extra"
 # What this process keeps for the next world. A triangle takes about 200 bytes.
 _KEPT_TRIANGLES = 1_000_000
 # New objects before Python looks for cycles among them, of which reports have none.
@@ -152,7 +152,7 @@ def _key(
     world: World, terms: str, inputs: tuple[InputFile, ...], checked: Asset, files: FilesRead
 ) -> str | None:
     """None: the next run checks the world again."""
-    lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
+    lacking = any(issue.code == _NOT_INSTALLED for issue in checked.report.issues)
     if lacking or not files.are_certain():
         return None
     return key_of(world, terms, inputs, _digests.real_path)

@@ -257,7 +257,7 @@ def test_an_answer_without_a_solver_does_not_hold(monkeypatch: pytest.MonkeyPatc
     text = Path(world[0]).read_text().replace("[[bodies]]", 'units = "m"\n[[bodies]]', 1)
     Path(world[0]).write_text(f'{text}[[rules]]\nbodies = "*"\nsupported = true\n')
     assert checked([world]) == [world]
-    assert "no-solver" in [issue["code"] for issue in answer(world)["issues"]]
+    assert "missing-extra" in [issue["code"] for issue in answer(world)["issues"]]
     assert checked([world]) == [world]
 
 
