@@ -341,9 +341,9 @@ geometry_options = _together(
     click.option(
         "--time",
         type=float,
-        metavar="CODE",
+        metavar="TIME",
         callback=_time,
-        help="Time code of animated USD.  [default: the first]",
+        help="Of animations: seconds in glTF, time code in USD (default: the first).",
     ),
     click.option(
         "--mesh-hulls",

@@ -63,7 +63,7 @@ _ALL = (
     Code("no-surface", "warning", "A mesh has only lines or points: its pairs are not checked."),
     Code("not-a-body", "note", "Hidden geometry, or geometry of another purpose, has no body."),
     Code("control-cage", "warning", "A subdivision surface is checked as its control cage."),
-    Code("time-sampled", "note", "The file is animated: bodies stand as at its first time."),
+    Code("time-sampled", "note", "The file is animated: bodies stand as at one time."),
     Code("assumed-units", "note", "The file states no unit: the default of its format counts."),
     Code("ignored-opinion", "warning", "A part of the file that moves no body was ignored."),
     Code("rest-shape", "warning", "A deformable mesh is checked in its stored shape."),

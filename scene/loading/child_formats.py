@@ -178,4 +178,5 @@ def _read(request: Request) -> RawScene:
         binary=request.format == "glb",
         allow_outside=request.allow_outside,
         isolated=True,
+        time=request.options.time,
     )

@@ -2,7 +2,7 @@
 
 This reader is our own. A general loader would need checks of chunks, buffers, views, accessors and
 the node graph first, which is most of the reading itself, and it would take about a second for each
-file. Materials, textures, cameras and animations are not read. Sources: the Khronos glTF 2.0
+file. Materials, textures and cameras are not read. Sources: the Khronos glTF 2.0
 specification.
 """
 
@@ -12,6 +12,8 @@ import json
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
+
+from msgspec.structs import replace
 
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
@@ -68,11 +70,13 @@ def read_gltf(
     binary: bool,
     allow_outside: bool = False,
     isolated: bool = False,
+    time: float | None = None,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
     directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
-    binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
+    binary: GLB. isolated: this process is a child that may crash. time: of the first animation, in
+    seconds; None: the pose that the nodes store. Raises MeshFileError without a
     file name, and NeedsChild if the data need an isolated process and this one is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
@@ -81,7 +85,26 @@ def read_gltf(
     work = Work(isolated=isolated)
     views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
     accessors = Accessors(document, views, work)
-    return _Scene(document, accessors, Meshes(document, accessors, work), work).read()
+    named = items(document, "animations")
+    if named and time is not None:
+        from satcheck.scene.loading.gltf_animation import posed
+
+        document = posed(document, accessors, time)
+    meshes = Meshes(document, accessors, work, posed=bool(named) and time is not None)
+    scene = _Scene(document, accessors, meshes, work).read()
+    return replace(scene, warnings=_about_time(named, time)) if named else scene
+
+
+def _about_time(animations: list[Any], time: float | None) -> tuple[tuple[str, str], ...]:
+    """animations: of the file, at least one."""
+    first = animations[0].get("name") if isinstance(animations[0], dict) else None
+    count = f"the first of {len(animations)} animations" if len(animations) > 1 else "the animation"
+    called = f" ({first!r})" if isinstance(first, str) and first else ""
+    if time is None:
+        message = f"the nodes stand as the file stores them; --time asks for {count}{called}"
+    else:
+        message = f"the nodes stand as in {count}{called} at {time:g} s"
+    return (("time-sampled", message),)
 
 
 def _parse_json(data: memoryview) -> dict[str, Any]:

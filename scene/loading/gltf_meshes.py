@@ -39,7 +39,12 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    def __init__(self, document: dict[str, Any], accessors: Accessors, work: Work) -> None:
+    """posed: the nodes stand as in an animation, not as the file stores them."""
+
+    def __init__(
+        self, document: dict[str, Any], accessors: Accessors, work: Work, *, posed: bool = False
+    ) -> None:
+        self._posed = posed
         self._meshes = items(document, "meshes")
         self._accessors = accessors
         self._work = work
@@ -112,13 +117,15 @@ class Meshes:
             triangles = self._triangles(primitive, mode, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
-            warnings["rest-shape"] = "morph targets have the weights that the file stores"
+            if not self._posed:
+                warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
         if skin is not None:
             from satcheck.scene.loading.gltf_shapes import skinned
 
-            warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
+            if not self._posed:
+                warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
             positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
 
