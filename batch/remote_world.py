@@ -15,10 +15,12 @@ from msgspec.structs import replace
 from satcheck.batch import urls
 from satcheck.batch.check_options import World
 from satcheck.report.batch import InputFile
+from satcheck.scene.input_kind import ROBOT_SUFFIXES
 
 # Copies beyond this size are removed before the next world.
 _MOST_BYTES = 2 << 30
-_URDF = ".urdf"
+# Of robots; one in XML of another ending is known as such only when it is here.
+_ROBOTS = ROBOT_SUFFIXES | {".xml"}
 
 
 def is_remote(world: World) -> bool:
@@ -124,7 +126,7 @@ def _root(url: str, *, anywhere: bool) -> str:
     folders = _tidy(path).split("/")[:-1]
     if anywhere:
         folders = folders[:1]
-    elif url.endswith(_URDF) and len(folders) > 1:
+    elif posixpath.splitext(path)[1].lower() in _ROBOTS and len(folders) > 1:
         folders = folders[:-1]
     return head + "".join(f"{folder}/" for folder in folders)
 

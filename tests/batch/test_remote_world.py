@@ -63,6 +63,26 @@ def test_a_name_cannot_leave_the_folder_of_copies(tmp_path: Path) -> None:
     assert place.is_relative_to(tmp_path.resolve())
 
 
+@pytest.mark.parametrize(
+    ("name", "fetched"),
+    [
+        ("a.urdf", True),
+        ("a.sdf", True),
+        ("a.WORLD", True),
+        ("a.xml", True),
+        ("a.toml", False),
+        ("urdf", False),
+    ],
+)
+def test_files_beside_the_folder_of_a_robot_are_fetched(
+    memory: Any, tmp_path: Path, name: str, fetched: bool
+) -> None:
+    memory.pipe_file(f"/bucket/scenes/{name}", b"")
+    copy = Copies(tmp_path).of((f"memory://bucket/scenes/{name}",), anywhere=False)
+    robot = Path(copy.path(f"memory://bucket/scenes/{name}"))
+    assert copy.fetch([str(robot.parents[1] / "meshes" / "box.obj")]) == fetched
+
+
 def test_worlds_of_other_roots_share_no_copies(tmp_path: Path) -> None:
     """Else the answer for a world would depend on the worlds before it."""
     copies = Copies(tmp_path)
