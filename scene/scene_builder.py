@@ -372,7 +372,7 @@ def _rules_of(
                 allowed=True if rule.severity is None else None,
                 severity=rule.severity,
                 reason=rule.reason,
-                where=path,
+                where=f"{path}: {rule.reason}",
                 file=path,
             )
 

@@ -21,6 +21,7 @@ HEAVY = {
     "collada",
     "ezdxf",
     "fcl",
+    "ifcopenshell",
     "jsonschema",
     "lxml",
     "manifold3d",

@@ -12,6 +12,7 @@ from satcheck.scene.loading.ifc.kernel_log import Message
 # Messages about faces that are left out. The mesh then has a hole, which the check of its surface
 # finds: the body stays.
 _LOST_FACES = frozenset(("GEO159", "GEO162", "GEO184", "GEO198"))
+_OF_FACES = ("IfcFace", "IfcFaceBound", "IfcLoop")
 # From an instance in a message, these lead up to the products that use it.
 _ABOVE = (
     "IfcRepresentationItem",
@@ -36,13 +37,19 @@ def failures_in(model: Any, messages: Iterable[Message], bodies: Collection[int]
     fatal: dict[int, Message] = {}
     faces: dict[int, int] = {}
     for message in messages:
-        if message.code in _LOST_FACES:
+        is_error = message.level == "error"
+        if message.code in _LOST_FACES or (is_error and _is_of_face(model, message)):
             for number in _concerned(model, message, bodies):
                 faces[number] = faces.get(number, 0) + 1
-        elif message.level == "error":
+        elif is_error:
             for number in _concerned(model, message, bodies):
                 fatal.setdefault(number, message)
     return Failures(fatal, faces)
+
+
+def _is_of_face(model: Any, message: Message) -> bool:
+    number = message.instance_number
+    return number is not None and any(map(model.by_id(number).is_a, _OF_FACES))
 
 
 def _concerned(model: Any, message: Message, bodies: Collection[int]) -> Collection[int]:

@@ -7,6 +7,7 @@ cannot make, and says so in its log only. A body of which something is missing i
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -21,6 +22,8 @@ from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
 LINEAR_DEFLECTION = 0.001  # metres: the largest distance from a curve to its facets
 ANGULAR_DEFLECTION = 0.5  # radians from facet to facet
 _LIBRARY = "opencascade"
+# More threads need more address space, which is limited. Their number changes no shape.
+_MOST_THREADS = 4
 _DEFAULT_PRECISION = 1e-5  # metres, of contexts that state none
 # The beginnings of types of representations without a surface.
 _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
@@ -48,7 +51,10 @@ def _elements(model: Any, bodies: Sequence[Any]) -> Iterator[Any]:
     settings.set("mesher-angular-deflection", ANGULAR_DEFLECTION)
     settings.set("no-normals", True)
     settings.set("apply-default-materials", False)
-    shapes = geom.iterator(settings, model, 1, include=list(bodies), geometry_library=_LIBRARY)
+    threads = min(os.cpu_count() or 1, _MOST_THREADS)
+    shapes = geom.iterator(
+        settings, model, threads, include=list(bodies), geometry_library=_LIBRARY
+    )
     more = shapes.initialize()
     while more:
         yield shapes.get()

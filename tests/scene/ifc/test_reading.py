@@ -187,3 +187,52 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
         read_ifc(memoryview(good().encode()))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[ifc]'" in caught.value.message
+
+
+def faces(model: Model, *loops: list[str]) -> str:
+    """A faceted solid of these loops of points."""
+    made = []
+    for points in loops:
+        loop = model.add(f"IFCPOLYLOOP(({','.join(points)}))")
+        made.append(model.add(f"IFCFACE(({model.add(f'IFCFACEOUTERBOUND({loop},.T.)')}))"))
+    shell = model.add(f"IFCCLOSEDSHELL(({','.join(made)}))")
+    return model.shape(model.add(f"IFCFACETEDBREP({shell})"), kind="Brep")
+
+
+def test_a_face_that_the_kernel_leaves_out_is_a_hole_with_a_warning(tmp_path: Path) -> None:
+    model = Model()
+    corners = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (9, 9, 9)]
+    a, b, c, d, e = (model.add(f"IFCCARTESIANPOINT(({x}.,{y}.,{z}.))") for x, y, z in corners)
+    model.element(faces(model, [a, c, b], [a, b, d], [b, c, d], [a, e, a]))
+    (body,) = scene_of(tmp_path, model).bodies
+    assert not body.file.health.closed
+    assert "ignored-geometry" in {issue.code for issue in body.file.issues}
+
+
+def test_an_opening_that_the_kernel_cannot_cut_leaves_no_body_without_it(tmp_path: Path) -> None:
+    """The wall would have more material than the file says."""
+    model = Model()
+    model.box((1, 1, 1), (9, 9, 9))
+    wall = model.box((4, 1, 2), kind="IFCWALL", more=",$,$")
+    hole = model.box((1, 3, 0), (1, -1, 0.5), kind="IFCOPENINGELEMENT", more=",$,$")
+    model.relation("IFCRELVOIDSELEMENT", f"{wall},{hole}")
+    scene = scene_of(tmp_path, model)
+    assert [body.path for body in scene.unreadable] == ["0000000000000000000003"]
+
+
+def test_a_model_with_a_map_conversion_says_that_it_is_not_applied(tmp_path: Path) -> None:
+    model = Model()
+    model.box((1, 1, 1))
+    target = model.add("IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$)")
+    model.add(f"IFCMAPCONVERSION({model.context},{target},1000.,2000.,30.,$,$,$)")
+    scene = scene_of(tmp_path, model)
+    assert scene.bodies[0].world_mesh().bounds == ((0, 0, 0), (1, 1, 1))
+    assert "IfcMapConversion" in codes(scene)["left-out"]
+
+
+def test_a_body_far_from_the_origin_keeps_its_digits(tmp_path: Path) -> None:
+    model = Model()
+    model.box((1, 1, 1), at=(4_500_000.125, 5_300_000.25, 500.5))
+    (body,) = scene_of(tmp_path, model).bodies
+    assert body.world_mesh().bounds[0] == (4_500_000.125, 5_300_000.25, 500.5)
+    assert body.resolution_world < 1e-6
