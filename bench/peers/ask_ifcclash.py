@@ -9,10 +9,11 @@ from __future__ import annotations
 import json
 import logging
 import sys
+from typing import Any
 
-from ifcclash.ifcclash import Clasher, ClashSet, ClashSettings
+from ifcclash.ifcclash import Clasher, ClashSettings
 
-SETTINGS = {
+SETTINGS: dict[str, dict[str, Any]] = {
     "collision": {"allow_touching": False},
     "intersection": {"tolerance": 0.0, "check_all": False},
 }
@@ -22,7 +23,7 @@ def main(file: str, mode: str) -> None:
     settings = ClashSettings()
     settings.logger = logging.getLogger("ifcclash")
     clasher = Clasher(settings)
-    asked: ClashSet = {"name": mode, "a": [{"file": file}], "mode": mode, **SETTINGS[mode]}
+    asked: dict[str, Any] = {"name": mode, "a": [{"file": file}], "mode": mode, **SETTINGS[mode]}
     clasher.clash_sets = [asked]
     clasher.clash()
     pairs = [[each["a_global_id"], each["b_global_id"]] for each in asked["clashes"].values()]
