@@ -62,7 +62,10 @@ def open_stage(location: Path, *, allow_outside: bool) -> Stage:
 
 def said(error: Exception) -> str:
     """What an error of the library says, without the places in its source code."""
-    message = str(error)
+    try:
+        message = str(error)
+    except UnicodeDecodeError:  # it quotes the file
+        return "its text is no UTF-8"
     quoted = [line.partition(" : '")[2] for line in message.splitlines() if " : '" in line]
     text = next(filter(None, quoted), message).strip().rstrip("'")
     return " ".join(text.split())
