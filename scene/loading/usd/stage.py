@@ -98,7 +98,7 @@ def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str,
     lost: dict[str, Refusal] = {}
     ignored: list[str] = []
     for error in stage.GetCompositionErrors():
-        kind, message = type(error).__name__, " ".join(str(error).split())
+        kind, message = type(error).__name__, said(error)
         code = _CODES.get(kind, "missing-resource")
         if any(word in kind for word in _OF_LAYERS):
             raise MeshFileError(code, message)

@@ -29,6 +29,7 @@ def referring(name: str, arc: str) -> str:
         ("references = @part.usda@</Nobody>", "missing-resource", "/Nobody"),
         ("references = @part.usda@", "missing-resource", "defaultPrim"),
         ("references = @damaged.usda@", "missing-resource", "damaged.usda"),
+        ("references = @garbage.usda@", "missing-resource", "UTF-8"),
         ("references = </A>", "reference-cycle", "Cycle"),
     ],
 )
@@ -37,6 +38,7 @@ def test_what_a_prim_lacks_is_a_body_that_is_not_read(
 ) -> None:
     (tmp_path / "part.usda").write_text(stage(PART))
     (tmp_path / "damaged.usda").write_text("#usda 1.0\ndef Xform {")
+    (tmp_path / "garbage.usda").write_bytes(b"#usda 1.0\ndef \xf5\xa9\xa5 {")
     text = stage(f'def Xform "A" {{\n{referring("Sub", arc)}}}', cube("Other"))
     scene = load(tmp_path, text)
     assert [body.id for body in scene.bodies] == ["/Other"]
