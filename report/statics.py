@@ -88,14 +88,17 @@ class BodyIsland(Value, frozen=True):
     """Free bodies that touch each other. tolerant: whether forces at all contacts hold them.
     strict: whether forces at the strict contacts do. missing: of the forces that come closest, as a
     share of the weight; None: not computed. margin: the angle, in degrees, by which gravity may
-    tilt in any direction, as a proven lower end and an upper end; None: not computed. reason: why
-    something is open."""
+    tilt in any direction, between two ends. least_friction: a friction that suffices, if all
+    contacts have the same. squeezed: whether it falls unless something presses it. These three are
+    figures without a proof; None: not computed. reason: why something is open."""
 
     bodies: tuple[str, ...]
     tolerant: State
     strict: State
     missing: Length | None = None
     margin: tuple[Degrees, Degrees] | None = None
+    least_friction: Length | None = None
+    squeezed: bool | None = None
     reason: str | None = None
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
+from satcheck.audit.statics.margins import Margins
 from satcheck.audit.statics.subjects import Subject
 from satcheck.report.report import Severity
 from satcheck.report.statics import (
@@ -46,6 +47,15 @@ def answer_to(
     return "open", outcome.reason
 
 
+def doubt_about(margins: Margins) -> str | None:
+    """Why a body may fall although forces exist that hold it; None: no such reason is known."""
+    if margins.squeezed:
+        return "squeeze only: forces hold it if something presses it, else it falls"
+    if margins.balanced:
+        return "balanced: any tilt of gravity moves it"
+    return None
+
+
 def finding(
     body: str,
     question: Question,
@@ -54,8 +64,9 @@ def finding(
     answer: State,
     reason: str | None,
 ) -> SupportFinding:
-    """severity: that a rule gives the errors of this body; None: the default."""
-    level: Severity = "none"
+    """reason: of a yes, a doubt, which is a warning. severity: that a rule gives the errors of this
+    body; None: the default."""
+    level: Severity = "none" if reason is None else "warning"
     if answer == "open":
         level = "error" if severity == "error" else "warning"
     elif answer == "no":
@@ -64,13 +75,19 @@ def finding(
 
 
 def island_report(
-    members: Sequence[int], subjects: Sequence[Subject], outcome: Outcome
+    members: Sequence[int],
+    subjects: Sequence[Subject],
+    outcome: Outcome,
+    margins: Margins | None,
 ) -> BodyIsland:
     return BodyIsland(
         bodies=tuple(subjects[k].id for k in members),
         tolerant=outcome.tolerant,
         strict=outcome.strict,
         missing=outcome.missing,
+        margin=None if margins is None else margins.tilt,
+        least_friction=None if margins is None else margins.least_friction,
+        squeezed=None if margins is None else margins.squeezed,
         reason=outcome.reason,
     )
 

@@ -15,6 +15,7 @@ import numpy as np
 from msgspec import Struct
 
 from satcheck.audit.statics.near import Floats, Indices, cross
+from satcheck.audit.statics.programme import cone, friction_rows, minimum
 from satcheck.core.errors import SatcheckError
 
 # Cones are narrowed by this share to look for forces, and widened to look for a motion: rounding of
@@ -86,11 +87,11 @@ def require_solver() -> None:
 
 def solve(island: Island) -> Answer:
     """Whether forces exist that hold the island."""
-    inner = _Programme(island, 1.0 - CONE_ROUNDING)
+    inner = Programme(island, 1.0 - CONE_ROUNDING)
     answer = inner.answer()
     if answer.holds is not None and answer.holds:
         return answer
-    outer = _Programme(island, 1.0 + CONE_ROUNDING).answer()
+    outer = Programme(island, 1.0 + CONE_ROUNDING).answer()
     return outer if outer.holds is False else Answer(None, missing=answer.missing)
 
 
@@ -102,7 +103,7 @@ def tangents(normals: Floats) -> tuple[Floats, Floats]:
     return u, cross(normals, u)
 
 
-class _Programme:
+class Programme:
     """Minimise |A x + w| over forces x = (normal, tangent, tangent) in cones of friction times
     `widening`. Rows are in weights of their body, torques also in its size."""
 
@@ -138,33 +139,22 @@ class _Programme:
         return Answer(None, missing=missing)
 
     def _minimum(self) -> tuple[Floats | None, Floats | None, float]:
-        import clarabel
         from scipy import sparse
 
         rows, columns = self.matrix.shape
-        contacts = columns // 3
         # Variables: x, t. Cones: (t, A x + w), then (friction * normal, tangents) of each contact.
-        scale = np.ones((contacts, 3))
-        scale[:, 0] = self.friction
-        own = sparse.diags(-scale.ravel())
         top = sparse.csc_matrix(([-1.0], ([0], [columns])), shape=(1, columns + 1))
-        side = sparse.csc_matrix((rows, 1))
-        below = sparse.csc_matrix((columns, 1))
-        a = sparse.vstack(
-            [top, sparse.hstack([-self.matrix, side]), sparse.hstack([own, below])], format="csc"
-        )
-        b = np.concatenate([[0.0], self.load.ravel(), np.zeros(columns)])
+        below = sparse.hstack([-self.matrix, sparse.csc_matrix((rows, 1))])
+        own = friction_rows(self.friction, columns + 1)
         q = np.zeros(columns + 1)
         q[-1] = 1.0
-        cones = [clarabel.SecondOrderConeT(rows + 1)]
-        cones += [clarabel.SecondOrderConeT(3)] * contacts
-        settings = clarabel.DefaultSettings()
-        settings.verbose = False
-        settings.max_threads = 1
-        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = 1e-10
-        solution = clarabel.DefaultSolver(
-            sparse.csc_matrix((columns + 1, columns + 1)), q, a, b, cones, settings
-        ).solve()
+        solution = minimum(
+            sparse.csc_matrix((columns + 1, columns + 1)),
+            q,
+            sparse.vstack([top, below, own]),
+            np.concatenate([[0.0], self.load.ravel(), np.zeros(columns)]),
+            [cone(rows + 1)] + [cone(3)] * (columns // 3),
+        )
         if str(solution.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
             return None, None, 0.0
         found = np.array(solution.x[:-1]).reshape(-1, 3)

@@ -5,11 +5,14 @@ from __future__ import annotations
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE, PlacedBodies
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.statics.answers import (
     answer_to,
     asks,
+    doubt_about,
     finding,
     island_report,
     rule_report,
@@ -18,6 +21,7 @@ from satcheck.audit.statics.answers import (
 from satcheck.audit.statics.equilibrium import require_solver
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, outcome_of
+from satcheck.audit.statics.margins import Margins, margins_of
 from satcheck.audit.statics.subjects import subjects_of
 from satcheck.audit.statics.terms import terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
@@ -67,6 +71,10 @@ class Support:
         self.contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
         self.graph = graph_of(self.subjects, self.contacts, alone=alone)
         self.outcomes = self._outcomes(alone)
+        self.margins = [
+            self._margins(members, outcome)
+            for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
+        ]
         self.microseconds = (perf_counter_ns() - started) / 1000.0
 
     def _outcomes(self, alone: bool) -> list[Outcome]:
@@ -85,6 +93,14 @@ class Support:
             for members, contacts in zip(self.graph.islands, by_island, strict=True)
         ]
 
+    def _margins(self, members: list[int], outcome: Outcome) -> Margins | None:
+        """Of an island that stands, if a rule asks whether one of its bodies is stable."""
+        asked = any(self.subjects[k].terms.asks("stable") for k in members)
+        if not asked or outcome.strict != "yes" or outcome.weighed is None:
+            return None
+        weighed = outcome.weighed
+        return margins_of(weighed.island.among(np.flatnonzero(weighed.strict)))
+
     def stated(self) -> Statics:
         names = dict.fromkeys(
             rule.name for rule in self.rules if any(getattr(rule, q) for q in QUESTIONS)
@@ -100,8 +116,10 @@ class Support:
             bodies=tuple(self._body(k) for k in range(len(self.subjects))),
             contacts=tuple(self._contact(k, forces) for k in range(len(self.contacts))),
             islands=tuple(
-                island_report(members, self.subjects, outcome)
-                for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
+                island_report(members, self.subjects, outcome, margins)
+                for members, outcome, margins in zip(
+                    self.graph.islands, self.outcomes, self.margins, strict=True
+                )
             ),
             findings=tuple(self._findings()),
             pairs=self.pairs,
@@ -183,4 +201,7 @@ class Support:
         subject, graph = self.subjects[k], self.graph
         outcome = None if subject.fixed is not None else self.outcomes[graph.island[k]]
         answer, reason = answer_to(question, k, subject, graph, outcome)
+        margins = None if subject.fixed is not None else self.margins[graph.island[k]]
+        if answer == "yes" and question == "stable" and margins is not None:
+            reason = doubt_about(margins)
         return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)

@@ -15,7 +15,7 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
-    from satcheck.report.statics import Statics, SupportedBody, SupportFinding
+    from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding
 
 MOST_BODIES = 40  # JSON has them all
 MOST_LINKS = 5  # of a chain
@@ -33,8 +33,11 @@ def support_lines(report: Report, page: Page) -> list[str]:
     bodies = {body.id: body for body in statics.bodies}
     answers = _by_body(statics)
     for body, findings in answers[:MOST_BODIES]:
-        style = _STYLES[findings[0].answer]
-        lines += fitted(f"  {_answers(body, findings, bodies.get(body))}", page, style)
+        stated = bodies.get(body)
+        number = None if stated is None else stated.island
+        island = None if number is None else statics.islands[number]
+        style = _style(findings)
+        lines += fitted(f"  {_answers(body, findings, stated, island)}", page, style)
     if rest := len(answers) - MOST_BODIES:
         lines += (
             fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page) if rest > 0 else []
@@ -55,6 +58,18 @@ def failed_support(report: Report) -> list[str]:
     return list(said.values())
 
 
+def held(statics: Statics) -> str:
+    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free."""
+    free = {body.id for body in statics.bodies if body.fixed is None}
+    count = len({f.body for f in statics.findings if f.answer == "yes"} & free)
+    return f"contact forces exist that hold {counted(count, 'body', 'bodies')}"
+
+
+def warned(statics: Statics) -> int:
+    """The number of answers that are yes, with a warning."""
+    return sum(f.answer == "yes" and f.severity == "warning" for f in statics.findings)
+
+
 def open_support(report: Report) -> list[str]:
     """`the support of 2 bodies is open`."""
     statics = report.support
@@ -70,14 +85,41 @@ def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:
     return sorted(groups, key=lambda group: _RANK[group[1][0].answer])
 
 
-def _answers(body: str, findings: list[SupportFinding], stated: SupportedBody | None) -> str:
+def _answers(
+    body: str,
+    findings: list[SupportFinding],
+    stated: SupportedBody | None,
+    island: BodyIsland | None,
+) -> str:
     """`top: not stable: no forces hold it; held by base; chain: top, base, floor`."""
     said = ", ".join(_WORDS[f.answer].format(f.question) for f in findings)
     reasons = dict.fromkeys(f.reason for f in findings if f.reason)
     parts = [f"{body}: {said}", *reasons]
     if stated is not None:
         parts += _held(stated)
+    if island is not None:
+        parts += _margins(island)
     return "; ".join(map(str, parts))
+
+
+def _style(findings: list[SupportFinding]) -> str:
+    if any(finding.severity == "warning" for finding in findings):
+        return YELLOW
+    return _STYLES[findings[0].answer]
+
+
+def _margins(island: BodyIsland) -> Iterator[str]:
+    """Of the island as a whole."""
+    if island.margin is not None:
+        yield f"tilt {_degrees(*island.margin)}"
+    if island.least_friction:
+        yield f"friction from {island.least_friction:.2g}"
+
+
+def _degrees(low: float, high: float) -> str:
+    """`1.5 deg`, or `24 to 26 deg`."""
+    near, far = f"{low:.3g}", f"{high:.3g}"
+    return f"{near} deg" if near == far else f"{near} to {far} deg"
 
 
 def _held(body: SupportedBody) -> Iterator[str]:

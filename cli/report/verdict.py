@@ -76,7 +76,13 @@ def _passed(report: Report) -> str:
     if not report.summary.pairs.asked:
         return "no pair to check"
     warnings = sum(severity(finding) == "warning" for finding in report.findings)
-    return _no_collision(report) + (f", {counted(warnings, 'warning')}" if warnings else "")
+    said = _no_collision(report)
+    if report.support is not None:
+        from satcheck.cli.report.support import held, warned
+
+        said += f", {held(report.support)}"
+        warnings += warned(report.support)
+    return said + (f", {counted(warnings, 'warning')}" if warnings else "")
 
 
 def _no_collision(report: Report) -> str:

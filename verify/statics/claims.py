@@ -126,7 +126,8 @@ class Claims:
         terms = self.terms[finding.body]
         if finding.rule != terms["names"][finding.question]:
             raise Rejected("another rule asks this")
-        if finding.severity != _severity(finding.answer, terms.get("severity")):
+        doubted = finding.answer == "yes" and finding.reason and finding.severity == "warning"
+        if not doubted and finding.severity != _severity(finding.answer, terms.get("severity")):
             raise Rejected("the severity does not follow from the answer and the rules")
         if finding.answer == "open":
             return

@@ -173,6 +173,50 @@ def test_a_ball_rolls_off_a_slope_and_rests_in_a_groove(tmp_path):
     assert answers(support(tmp_path, [plate, other, resting], friction=0.0))["ball"] == "yes"
 
 
+def test_the_tilt_is_that_of_the_nearest_edge(tmp_path):
+    """A brick of height 0.5 whose centre is 0.1 inside of the edge tips at atan(0.1 / 0.25)."""
+    statics = support(
+        tmp_path,
+        [
+            box("table", [2, 2, 1], [-1, 0, -0.5], static=True),
+            box("brick", [1, 1, 0.5], [-0.1, 0, 0.25]),
+        ],
+        friction=2.0,
+    )
+    low, high = statics.islands[0].margin
+    assert low <= math.degrees(math.atan(0.4)) <= high + 1e-6
+    assert high == pytest.approx(math.degrees(math.atan(0.4)), abs=1e-4)
+
+
+@pytest.mark.parametrize("degrees", [10.0, 25.0])
+def test_the_least_friction_on_a_slope_is_its_tangent(tmp_path, degrees):
+    (island,) = support(tmp_path, on_slope(degrees)).islands
+    tangent = math.tan(math.radians(degrees))
+    # Of 12 halvings of 0.5, at the upper end.
+    assert tangent <= island.least_friction <= tangent + 0.5 / 2**12 + 1e-6
+
+
+def test_a_squeezed_body_is_a_warning(tmp_path):
+    """Between two walls, forces hold it only if something presses; with a floor they need not."""
+    walls = [box(f"wall {x}", [0.2, 2, 2], [x, 0, 1], static=True) for x in (-0.6, 0.6)]
+    squeezed = support(tmp_path, [*walls, box("block", [1, 1, 1], [0, 0, 1])])
+    (finding,) = (f for f in squeezed.findings if (f.body, f.question) == ("block", "stable"))
+    assert (finding.answer, finding.severity) == ("yes", "warning")
+    assert squeezed.islands[0].squeezed is True
+    standing = support(tmp_path, [*walls, floor(), box("block", [1, 1, 1], [0, 0, 0.5])])
+    assert standing.islands[0].squeezed is False
+    assert {f.severity for f in standing.findings} == {"none"}
+
+
+def test_a_balance_is_a_warning(tmp_path):
+    """One ball on top of another one, which stands: any tilt moves it."""
+    balls = [ball("low", 0.2, [0, 0, 0.2], static=True), ball("top", 0.2, [0, 0, 0.6])]
+    statics = support(tmp_path, balls)
+    (finding,) = (f for f in statics.findings if (f.body, f.question) == ("top", "stable"))
+    assert (finding.answer, finding.severity) == ("yes", "warning")
+    assert "balanced" in finding.reason
+
+
 def test_a_scene_without_such_rules_does_not_import_it(tmp_path):
     import subprocess
     import sys
