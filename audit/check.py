@@ -134,12 +134,12 @@ def _check(
     pair_issues = (issue for pair in examined for issue in pair.issues)
     counts = count(bodies, [pair.finding for pair in examined], findings)
     support = _support(scene, bodies, planner.settings)
-    support_issues = () if support is None else support.issues(scene)
+    statics = None if support is None else support.stated()
+    support_issues = [] if support is None or statics is None else support.issues(scene, statics)
     size_issues = doubtful_sizes(bodies, findings, settings.planar)
     issues = issues_of(
         scene, bodies, counts, (*size_issues, *motion_issues, *support_issues, *pair_issues)
     )
-    statics = None if support is None else support.stated()
     return Report(
         tool=tool(),
         units=scene.units,

@@ -68,6 +68,9 @@ ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-c
 INTERNAL_ERROR = "internal-error"
 # No pair is checked: all are within one link, allowed, or exempt.
 NOTHING_TO_CHECK = "nothing-to-check"
+# The codes of issues about bodies that nothing holds, and of which that is open.
+UNSUPPORTED = "unsupported"
+SUPPORT_OPEN = "support-open"
 # Codes of warnings about sizes that make an answer doubtful.
 TOLERANCE_LARGE = "tolerance-large"
 SIZES_DIFFER = "sizes-differ"

@@ -85,14 +85,19 @@ def require_solver() -> None:
         raise SatcheckError("missing-extra", message) from None
 
 
+def find_forces(island: Island) -> Answer:
+    """Forces that hold the island; if there are none, or none is found, holds is None."""
+    answer = Programme(island, 1.0 - CONE_ROUNDING).answer()
+    return answer if answer.holds else Answer(None, missing=answer.missing)
+
+
 def solve(island: Island) -> Answer:
-    """Whether forces exist that hold the island."""
-    inner = Programme(island, 1.0 - CONE_ROUNDING)
-    answer = inner.answer()
-    if answer.holds is not None and answer.holds:
-        return answer
+    """Forces that hold the island, or the motion that starts."""
+    found = find_forces(island)
+    if found.holds:
+        return found
     outer = Programme(island, 1.0 + CONE_ROUNDING).answer()
-    return outer if outer.holds is False else Answer(None, missing=answer.missing)
+    return outer if outer.holds is False else found
 
 
 def tangents(normals: Floats) -> tuple[Floats, Floats]:

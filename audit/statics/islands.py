@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec import Struct
 
-from satcheck.audit.statics.equilibrium import Answer, Island, solve
+from satcheck.audit.statics.equilibrium import Answer, Island, find_forces, solve
 from satcheck.audit.statics.near import Floats
 from satcheck.audit.statics.subjects import Subject
 from satcheck.audit.statics.terms import Terms
@@ -53,18 +53,16 @@ def outcome_of(
         return Outcome("open", "open", {}, {}, reason=reason)
     weighed = weigh(members, subjects, contacts, terms)
     nearest = np.flatnonzero(weighed.strict)
-    strict = solve(weighed.island.among(nearest))
+    strict = find_forces(weighed.island.among(nearest))
     if strict.holds:
         rows = [weighed.rows[k] for k in nearest.tolist()]
         forces = _forces(rows, strict)
         return Outcome("yes", "yes", forces, {}, strict.missing, weighed)
-    everything = bool(weighed.strict.all())
-    tolerant = strict if everything else solve(weighed.island)
+    tolerant = solve(weighed.island)
     if tolerant.holds:
-        state: State = "no" if strict.holds is False else "open"
         reason = "forces exist only if all surfaces within the tolerance count as contacts"
         forces = _forces(weighed.rows, tolerant)
-        return Outcome("yes", state, forces, {}, tolerant.missing, weighed, reason)
+        return Outcome("yes", "open", forces, {}, tolerant.missing, weighed, reason)
     if tolerant.holds is None:
         reason = "the solver finds neither forces nor a motion: it is at its limit"
         return Outcome("open", "open", {}, {}, tolerant.missing, weighed, reason)

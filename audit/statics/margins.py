@@ -4,12 +4,13 @@ stands without being squeezed."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.statics.equilibrium import Island, Programme, solve, tangents
+from satcheck.audit.statics.equilibrium import Island, Programme, find_forces, tangents
 from satcheck.audit.statics.near import Floats
 from satcheck.audit.statics.programme import (
     SOLVED,
@@ -20,8 +21,10 @@ from satcheck.audit.statics.programme import (
     zeros,
 )
 
-# With more contacts these figures, of many programmes each, take too long.
-MOST_CONTACTS = 300
+# The most contact points of all islands together whose tilt and friction are looked for, by some
+# twenty programmes each, and the most of one island whose first step is.
+MOST_POINTS = 200
+MOST_OF_STEP = 2000
 DIRECTIONS = 8
 # The largest tilt that is looked for, as a tangent: 89.4 degrees.
 MOST_TILT = 100.0
@@ -49,11 +52,26 @@ class Margins(Struct, frozen=True):
         return self.tilt is not None and self.tilt[1] <= BALANCED_DEGREES
 
 
-def margins_of(island: Island) -> Margins | None:
-    """Of an island that stands; None: it has too many contacts."""
-    if len(island.at) > MOST_CONTACTS:
-        return None
-    return Margins(_tilt(island), _least_friction(island), _is_squeezed(island))
+def margins_of(islands: Sequence[Island | None]) -> list[Margins | None]:
+    """Of islands that stand; None: it does not, or has too many contacts. The first islands use up
+    the points for tilts."""
+    margins: list[Margins | None] = []
+    left = MOST_POINTS
+    for island in islands:
+        points = MOST_OF_STEP + 1 if island is None else len(island.at)
+        if island is None or points > MOST_OF_STEP:
+            margins.append(None)
+            continue
+        full = points <= left
+        left -= points if full else 0
+        margins.append(
+            Margins(
+                _tilt(island) if full else None,
+                _least_friction(island) if full else None,
+                _is_squeezed(island),
+            )
+        )
+    return margins
 
 
 def _tilt(island: Island) -> tuple[float, float] | None:
@@ -123,7 +141,7 @@ def _least_friction(island: Island) -> float | None:
 
 
 def _stands_with(island: Island, friction: float) -> bool:
-    return solve(replace(island, friction=np.full(len(island.at), friction))).holds is True
+    return bool(find_forces(replace(island, friction=np.full(len(island.at), friction))).holds)
 
 
 def _is_squeezed(island: Island) -> bool | None:

@@ -18,15 +18,16 @@ from satcheck.audit.statics.answers import (
     rule_report,
     vector,
 )
-from satcheck.audit.statics.equilibrium import require_solver
+from satcheck.audit.statics.equilibrium import Island, require_solver
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, outcome_of
-from satcheck.audit.statics.margins import Margins, margins_of
+from satcheck.audit.statics.margins import margins_of
 from satcheck.audit.statics.subjects import subjects_of
 from satcheck.audit.statics.terms import terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
-from satcheck.report.report import Issue
+from satcheck.core.risky_steps import not_for_lack_of_memory
+from satcheck.report.report import SUPPORT_OPEN, UNSUPPORTED, Issue
 from satcheck.report.statics import (
     BodyContact,
     ContactPoint,
@@ -40,7 +41,7 @@ from satcheck.scene.statics import QUESTIONS, BodyRule, terms_of
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
-    from satcheck.scene import Scene
+    from satcheck.scene import Body, Scene, Unreadable
 
 NOT_SOLVED = Outcome("open", "open", {}, {}, reason="no rule asks about a body of this island")
 
@@ -71,10 +72,12 @@ class Support:
         self.contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
         self.graph = graph_of(self.subjects, self.contacts, alone=alone)
         self.outcomes = self._outcomes(alone)
-        self.margins = [
-            self._margins(members, outcome)
-            for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
-        ]
+        self.margins = margins_of(
+            [
+                self._standing(members, outcome)
+                for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
+            ]
+        )
         self.microseconds = (perf_counter_ns() - started) / 1000.0
 
     def _outcomes(self, alone: bool) -> list[Outcome]:
@@ -87,19 +90,30 @@ class Support:
                 assert island is not None
                 by_island[island].append((index, contact))
         return [
-            outcome_of(members, self.subjects, contacts, self.terms, alone=alone)
+            self._outcome(members, contacts, alone)
             if any(asks(self.subjects[k].terms) for k in members)
             else NOT_SOLVED
             for members, contacts in zip(self.graph.islands, by_island, strict=True)
         ]
 
-    def _margins(self, members: list[int], outcome: Outcome) -> Margins | None:
-        """Of an island that stands, if a rule asks whether one of its bodies is stable."""
+    def _outcome(
+        self, members: list[int], contacts: list[tuple[int, Contact]], alone: bool
+    ) -> Outcome:
+        """A failure leaves the island open, so that the others are still decided."""
+        try:
+            return outcome_of(members, self.subjects, contacts, self.terms, alone=alone)
+        except Exception as error:  # noqa: BLE001 what failed is open, with the reason
+            not_for_lack_of_memory(error)
+            reason = f"internal error: {type(error).__name__}: {error}"
+            return Outcome("open", "open", {}, {}, reason=reason)
+
+    def _standing(self, members: list[int], outcome: Outcome) -> Island | None:
+        """An island that stands, if a rule asks whether one of its bodies is stable."""
         asked = any(self.subjects[k].terms.asks("stable") for k in members)
         if not asked or outcome.strict != "yes" or outcome.weighed is None:
             return None
         weighed = outcome.weighed
-        return margins_of(weighed.island.among(np.flatnonzero(weighed.strict)))
+        return weighed.island.among(np.flatnonzero(weighed.strict))
 
     def stated(self) -> Statics:
         names = dict.fromkeys(
@@ -126,9 +140,21 @@ class Support:
             microseconds=self.microseconds,
         )
 
-    def issues(self, scene: Scene) -> list[Issue]:
-        """Rules that select no body."""
+    def issues(self, scene: Scene, statics: Statics) -> list[Issue]:
+        """Bodies that fail or are open, once each, for formats that only list pairs and issues; and
+        rules that select no body."""
         members = scene.in_order()
+        failed: dict[str, Issue] = {}
+        for answer in sorted(statics.findings, key=lambda f: f.answer):  # no before open
+            if answer.answer != "yes":
+                code = UNSUPPORTED if answer.answer == "no" else SUPPORT_OPEN
+                said = "not" if answer.answer == "no" else "perhaps not"
+                message = f"{answer.body} is {said} {answer.question}: {answer.reason}"
+                issue = Issue(code, "warning", answer.body, None, message)
+                failed.setdefault(answer.body, issue)
+        return [*failed.values(), *self._unused(members)]
+
+    def _unused(self, members: list[Body | Unreadable]) -> list[Issue]:
         return [
             Issue(
                 UNUSED_RULE,

@@ -15,6 +15,7 @@ from satcheck.cli.report.words import counted
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
+    from satcheck.report.statics import Statics
 
 
 # Of those who ask for an effect.
@@ -27,6 +28,8 @@ def explanation(
     """The lines between the table and the remarks."""
     canvas = Canvas(page)
     canvas.print(_effects(report.effects, timings=timings))
+    if report.support is not None:
+        canvas.print(_support(report.support, timings=timings))
     canvas.print()
     canvas.print(_bodies(report.bodies))
     for finding in findings:
@@ -47,6 +50,21 @@ def _effects(effects: Sequence[EffectReport], *, timings: bool) -> Table:
             *cost,
             _who(effect),
         )
+    return table
+
+
+def _support(statics: Statics, *, timings: bool) -> Table:
+    """What the support of bodies took, as the effects above."""
+    table = _grid(columns=4 if timings else 3)
+    cost = [duration(statics.microseconds)] if timings else []
+    points = sum(len(contact.points) for contact in statics.contacts)
+    islands = counted(len(statics.islands), "island")
+    who = ", ".join(statics.asked_by[:MOST_NAMES])
+    if len(statics.asked_by) > MOST_NAMES:
+        who += f" and {len(statics.asked_by) - MOST_NAMES} more"
+    found = f"{counted(points, 'contact point')}, {islands}"
+    name = Text("support", style="bold")
+    table.add_row("", name, counted(statics.pairs, "pair"), *cost, f"{who}; {found}")
     return table
 
 

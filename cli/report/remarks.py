@@ -22,6 +22,8 @@ from satcheck.report.report import (
     NO_ANSWER,
     NOT_AVAILABLE,
     ON_TRIANGLES,
+    SUPPORT_OPEN,
+    UNSUPPORTED,
 )
 from satcheck.scene.units import unit_of
 
@@ -55,7 +57,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
         Remark(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))
     ]
     for issue in report.issues:
-        if issue.severity != "error":
+        if issue.severity != "error" and issue.code not in (UNSUPPORTED, SUPPORT_OPEN):
             lines.append(Remark(issue_line(issue), _ISSUE_STYLES[issue.severity]))
     return lines
 
