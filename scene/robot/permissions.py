@@ -50,6 +50,8 @@ def _exempted(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> list[Ru
         for pair in product(bodies.get(e.a, ()), bodies.get(e.b, ())):
             rules.append(_allowed(pair, e.reason, file))
     for e in exempt.checked:
+        if not (members[e.a] and members[e.b]):
+            continue
         pair = robot.groups[e.a], robot.groups[e.b]
         rules.append(replace(_allowed(pair, e.reason, file, Selector.exactly_group), allowed=False))
     return rules

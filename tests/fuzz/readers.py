@@ -21,8 +21,10 @@ from satcheck.scene import MeshFileError, Scene, load_scene
 from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.robot.mjcf.reading import robot_of_model
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written
@@ -65,6 +67,19 @@ def read_scene(path: Path) -> None:
         check(scene)
 
 
+_MODELS = MeshFiles()  # one child process for all files
+
+
+def read_model(path: Path) -> None:
+    """MuJoCo works in a child process. One that it loses is a fault."""
+    try:
+        robot_of_model(str(path), _MODELS.model(str(path), None))
+    except MeshFileError as error:
+        if error.code == "reader-failed":
+            raise RuntimeError(error.message) from error
+        raise
+
+
 def read_states(path: Path) -> None:
     """An SRDF beside the robot that it is about."""
     refuse_errors(load_scene([SAMPLES / "arm.urdf", path]))
@@ -98,6 +113,7 @@ READERS: Mapping[str, Reader] = {
     **dict.fromkeys(("3mf", "dae", "zae", "3dxml", "xaml"), read_in_this_process),
     **dict.fromkeys(("svg", "dxf"), read_drawing),
     **dict.fromkeys(("toml", "json", "urdf", "sdf"), read_scene),
+    "mjcf": read_model,
     "srdf": read_states,
     "config": read_settings,
     "baseline": read_baseline,
@@ -108,6 +124,7 @@ READERS: Mapping[str, Reader] = {
 # The name of a file of the kind, where its ending is not the kind.
 _NAMES = {
     "config": "satcheck.toml",
+    "mjcf": "file.xml",
     **dict.fromkeys(("baseline", "pose", "verify", "view"), "document.json"),
 }
 

@@ -25,6 +25,27 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" vi
 </g><use href="#s" x="4"/><polygon points="0,0 4,0 4,4"/><ellipse rx="4" ry="2"/>
 <line x1="0" y1="0" x2="4" y2="1" stroke-width="2"/></svg>"""
 
+MJCF = """<mujoco model="m">
+<compiler angle="radian" meshdir="."/><option><flag filterparent="disable"/></option>
+<default><geom size=".1"/><default class="v"><geom contype="0" conaffinity="0"/></default></default>
+<asset><mesh name="own" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/><mesh name="file" file="a.stl"/>
+<mesh name="made" builtin="sphere" params="1" scale="1 2 -1" refpos="1 0 0"/>
+<hfield name="h" nrow="2" ncol="2" size="1 1 1 1" elevation="0 1 1 0"/></asset>
+<worldbody><geom type="plane" size="1 1 1"/><geom type="hfield" hfield="h" pos="0 0 -3"/>
+<body name="a" pos="1 2 3" euler=".1 .2 .3"><joint name="j" axis="0 1 1" range="-1 1" ref=".5"/>
+<joint name="s" type="slide" pos="1 0 0"/><geom name="g" type="mesh" mesh="own"/>
+<frame axisangle="0 0 1 1"><geom name="k" type="box" mesh="made"/></frame>
+<body name="b"><joint name="q" type="ball"/><geom name="c" type="capsule" fromto="0 0 0 0 1 1"/>
+<geom class="v" type="cylinder" size=".2 .3"/></body></body>
+<replicate count="3" offset="1 0 0"><body name="r" pos="0 5 0"><freejoint/><geom/></body>
+</replicate>
+<body name="f" mocap="true"><geom name="e" type="ellipsoid" size="1 2 3" contype="2"/></body>
+<body name="p"><geom type="mesh" mesh="file"/></body></worldbody>
+<contact><exclude body1="a" body2="f"/><pair geom1="g" geom2="e"/></contact>
+<equality><connect body1="a" body2="f" anchor="0 0 0"/></equality>
+<keyframe><key name="x" qpos=".1 .2 1 0 0 0 0 5 0 1 0 0 0 1 5 0 1 0 0 0 2 5 0 1 0 0 0"/></keyframe>
+</mujoco>"""
+
 CONFIG = """clearance = "0.5 mm"
 planar = "xy"
 package = ["arm=../arm", "hand=hand"]
@@ -154,6 +175,7 @@ _MAKERS: Mapping[str, list[Callable[[], bytes]]] = {
     "dxf": [_dxf],
     "json": [_scene, _shapes, _simple],
     "urdf": [_urdf],
+    "mjcf": [MJCF.encode],
     "config": [CONFIG.encode],
     "baseline": [_baseline],
     "pose": [lambda: json.dumps(POSES).encode(), lambda: json.dumps(POSES[0]).encode()],

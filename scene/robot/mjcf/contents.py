@@ -111,12 +111,12 @@ class _Contents:
                 return Refusal("bad-robot", str(error)), place
         mesh = m.geom_dataid[k]
         name = m.mesh(mesh).name
-        if name in read.refused:
-            return read.refused[name], place
         if name in read.file_meshes:
             if 0.0 in read.file_meshes[name].scale:
                 return Refusal("singular-transform", "scale 0 flattens the mesh"), place
             return read.file_meshes[name], _uncentred(place, m.mesh_pos[mesh], m.mesh_quat[mesh])
+        if name in read.refused:
+            return read.refused[name], place
         return OwnMesh(_part_name(m, mesh)), place
 
     def _joint(self, k: int) -> Joint:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
+import mujoco
 import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Sphere
@@ -149,6 +150,26 @@ def test_a_flex_is_an_unreadable_body(tmp_path: Path) -> None:
     assert [(lost.id, lost.issue.code) for lost in scene.unreadable] == [
         ("flex cloth", "unsupported-feature")
     ]
+
+
+def test_points_alone_are_the_hull_that_mujoco_makes(tmp_path: Path) -> None:
+    (tmp_path / "t.obj").write_text(TETRAHEDRON.partition("f")[0])
+    scene = load(tmp_path, model(body("a", MESH_GEOM), before=MESH))
+    (only,) = scene.bodies
+    assert (only.path, only.file.mesh.triangle_count) == ("t", 4)
+
+
+def test_a_shape_may_be_fitted_to_a_mesh(tmp_path: Path) -> None:
+    """The half sizes of the box have the inertia of the mesh. A mesh that is missing makes the
+    shape unknown."""
+    (tmp_path / "t.obj").write_text(NOTCH)
+    path = write(tmp_path, model(body("a", MESH_GEOM.replace('"mesh"', '"box"')), before=MESH))
+    compiled = mujoco.MjModel.from_xml_path(str(path))
+    (only,) = load_scene([path]).bodies
+    assert only.shape == Box(tuple((2 * compiled.geom_size[0]).tolist()))
+    (tmp_path / "t.obj").unlink()
+    (lost,) = load_scene([path]).unreadable
+    assert lost.issue.code == "missing-resource"
 
 
 def test_what_places_no_geometry_may_be_broken(tmp_path: Path) -> None:
