@@ -14,8 +14,7 @@ from satcheck.scene.robot.xml_tree import Element, read_tree
 
 ROOTS = ("mujoco", "mujocoinclude")
 _MOST_FILES = 10_000
-# Elements of which MuJoCo opens the file while it reads the XML.
-_OPENED = ("model", "flexcomp")
+_FOLDERS = ("meshdir", "assetdir")  # attributes of <compiler>
 
 
 class ModelFiles:
@@ -43,16 +42,30 @@ class ModelFiles:
         root = read_tree(path, Path(path), *ROOTS, "robot")
         if len(self._read) > _MOST_FILES:
             root.refuse(f"more than {_MOST_FILES} files", "too-large")
+        folders = [""]
         for element in _all_below(root):
             tag, file = element.tag.lower(), element.attributes.get("file")
+            if tag == "compiler":
+                folders += [element.attributes.get(name, "") for name in _FOLDERS]
             if not file:
                 continue
             if tag == "include":
                 self._file(self._place(element, file, model), model)
-            elif tag in _OPENED:
+            elif tag == "model":
                 place = self._place(element, file, model)
-                if tag == "model" and Path(place).suffix.lower() == ".xml":
+                if Path(place).suffix.lower() == ".xml":
                     self._model(place)
+            elif tag == "flexcomp":
+                for folder in folders:
+                    self._permit(element, str(Path(folder, file)), model)
+
+    def _permit(self, element: Element, file: str, model: str) -> None:
+        """Refuses a file that may not be opened. MuJoCo reports one that is missing."""
+        try:
+            self._places.of(model).locate(file)
+        except MeshFileError as error:
+            if error.code == "outside-path":
+                element.refuse(f"{file!r}: {error.message}", error.code)
 
     def _place(self, element: Element, file: str, model: str) -> str:
         first: MeshFileError | None = None

@@ -9,9 +9,10 @@ import mujoco
 import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Sphere
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.robot.mjcf.child import serve
 from satcheck.scene.robot.mjcf.messages import Answer, Request
@@ -117,6 +118,27 @@ def test_triangles_or_convex_hulls_of_meshes(tmp_path: Path) -> None:
         (note,) = (i for i in scene.issues if i.code == "mesh-or-hull")
         assert said in note.message
     assert next(b for b in hulls.bodies if b.id == "notch").path == "#hull"
+
+
+@pytest.mark.parametrize("part", ["own", "own#hull"])
+def test_a_part_is_read_again_by_its_name(tmp_path: Path, part: str) -> None:
+    """As `satcheck verify` does."""
+    text = model(body("a", MESH_GEOM.replace('"t"', '"own"')), before=INLINE)
+    options = ReadOptions(mesh_hulls=part.endswith("hull"))
+    (only,) = load_scene([write(tmp_path, text)], reading=options).bodies
+    assert only.path == part
+    again = MeshFiles().part(only.file.path, Path(only.file.path), part)
+    assert not isinstance(again, MeshFileError)
+    assert isinstance(again.file, MeshFile)
+    assert again.file.mesh.to_bytes() == only.file.mesh.to_bytes()
+
+
+def test_a_flex_may_not_read_files_elsewhere(tmp_path: Path) -> None:
+    (tmp_path / "t.obj").write_text(TETRAHEDRON)
+    cloth = '<flexcomp name="f" type="mesh" file="t.obj" dim="2" radius=".1"/>'
+    before = '<compiler meshdir="../.."/>'
+    inside = tmp_path / "package" / "robot"
+    assert refusal(inside, model(body("c", cloth), before=before))[0] == "outside-path"
 
 
 def test_visual_geometry_is_what_collides_with_nothing(tmp_path: Path) -> None:
