@@ -26,8 +26,13 @@ class ModelFiles:
     def __init__(self, path: str, places: FilePlaces) -> None:
         self._places = places
         self._read: set[tuple[str, str]] = set()
+        self._folders = [""]
+        self._flexes: list[tuple[Element, str, str]] = []
         self.models: list[str] = []
         self._model(path)
+        for element, file, model in self._flexes:
+            for folder in dict.fromkeys(self._folders):
+                self._permit(element, str(Path(folder, file)), model)
 
     def _model(self, path: str) -> None:
         if path not in self.models:
@@ -42,11 +47,10 @@ class ModelFiles:
         root = read_tree(path, Path(path), *ROOTS, "robot")
         if len(self._read) > _MOST_FILES:
             root.refuse(f"more than {_MOST_FILES} files", "too-large")
-        folders = [""]
         for element in _all_below(root):
             tag, file = element.tag.lower(), element.attributes.get("file")
             if tag == "compiler":
-                folders += [element.attributes.get(name, "") for name in _FOLDERS]
+                self._folders += [element.attributes.get(name, "") for name in _FOLDERS]
             if not file:
                 continue
             if tag == "include":
@@ -56,8 +60,7 @@ class ModelFiles:
                 if Path(place).suffix.lower() == ".xml":
                     self._model(place)
             elif tag == "flexcomp":
-                for folder in folders:
-                    self._permit(element, str(Path(folder, file)), model)
+                self._flexes.append((element, file, model))
 
     def _permit(self, element: Element, file: str, model: str) -> None:
         """Refuses a file that may not be opened. MuJoCo reports one that is missing."""
