@@ -42,19 +42,12 @@ from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_rules
 from satcheck.scene.loading.reading_children import ReadingChildren
-from satcheck.scene.moved.scene_file import moved_scene_file, stray_mesh
-from satcheck.scene.moved.usd import SUFFIXES as USD_SUFFIXES
-from satcheck.scene.moved.usd import Request as UsdRequest
-from satcheck.scene.moved.usd import moved_usd
+from satcheck.scene.moved import WRITTEN_BACK, written_back
+from satcheck.scene.moved.scene_file import stray_mesh
 from satcheck.scene.new_scene_file import new_scene_file
 from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
-# Endings of a file -> those under which it is written back.
-_WRITTEN_BACK = {
-    **{ending: frozenset({ending}) for ending in SCENE_SUFFIXES},
-    **dict.fromkeys(USD_SUFFIXES, USD_SUFFIXES),
-}
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
@@ -182,7 +175,7 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
     if moved is None:
         return _Target(moved, rules, None)
     ending = moved.suffix.lower()
-    own = _WRITTEN_BACK.get(Path(bodies[0]).suffix.lower(), frozenset())
+    own = WRITTEN_BACK.get(Path(bodies[0]).suffix.lower(), frozenset())
     back = len(bodies) == 1 and ending in own
     is_scene = len(bodies) == 1 and kind_of(bodies[0]) == "scene"
     if not is_scene and not all(kind_of(path) in ("mesh", "document") for path in bodies):
@@ -224,20 +217,12 @@ def _write_moved(
     path: Path, target: _Target, scene: Scene, result: Resolution, inputs: Inputs
 ) -> None:
     translations = {move.body: move.translation for move in result.moves}
-    if target.scene is not None:
-        write_file(path, moved_scene_file(target.scene, path, translations))
-    elif target.source is not None:
-        request = UsdRequest(
-            location=target.source,
-            suffix=path.suffix.lower(),
-            bodies=tuple(body.id for body in scene.in_order()),
-            translations=translations,
-            options=scene.reading,
-        )
-        children = ReadingChildren(inputs.megabytes_per_file)
-        write_file(path, moved_usd(request, children, seconds=inputs.seconds_per_file))
-    else:
+    if target.source is None:
         write_file(path, new_scene_file(path, scene, inputs.mesh_files(), translations))
+        return
+    children, seconds = ReadingChildren(inputs.megabytes_per_file), inputs.seconds_per_file
+    content = written_back(path, target.source, scene, translations, children, seconds=seconds)
+    write_file(path, content)
 
 
 def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) -> Report:

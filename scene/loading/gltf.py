@@ -8,14 +8,11 @@ specification.
 
 from __future__ import annotations
 
-import json
-import sys
-from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 from msgspec.structs import replace
 
-from satcheck.core.transform import Transform, placed, quaternion_matrix
+from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -30,7 +27,8 @@ from satcheck.scene.loading.gltf_buffers import (
     split_glb,
 )
 from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape, Skin
-from satcheck.scene.loading.placing import Instance, instances, multiply, raw_scene, tidy_name
+from satcheck.scene.loading.gltf_nodes import NodeGraph, parse_document, trs_placement
+from satcheck.scene.loading.placing import Instance, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
     RawMesh,
@@ -80,7 +78,7 @@ def read_gltf(
     file name, and NeedsChild if the data need an isolated process and this one is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
-    document = _parse_json(text)
+    document = parse_document(text)
     _check_extensions(document)
     work = Work(isolated=isolated)
     views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
@@ -107,34 +105,6 @@ def _about_time(animations: list[Any], time: float | None) -> tuple[tuple[str, s
     return (("time-sampled", message),)
 
 
-def _parse_json(data: memoryview) -> dict[str, Any]:
-    try:
-        text = str(data, "utf-8").removeprefix("\ufeff")
-    except UnicodeDecodeError:
-        raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
-    document = _json(text)
-    if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
-        raise MeshFileError("not-this-format", "not a glTF file: no asset object")
-    version = document["asset"].get("version")
-    if not isinstance(version, str) or not version.startswith("2."):
-        raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
-    return document
-
-
-def _json(text: str) -> Any:
-    def refuse(token: str) -> NoReturn:
-        raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
-
-    try:
-        return json.loads(text, parse_constant=refuse)
-    except json.JSONDecodeError as error:
-        raise MeshFileError(
-            "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"
-        ) from None
-    except RecursionError:
-        raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
-
-
 def _check_extensions(document: dict[str, Any]) -> None:
     for name in _names(document, "extensionsRequired"):
         if name not in _READ and not name.startswith(_HARMLESS_PREFIXES):
@@ -159,22 +129,15 @@ class _Scene:
         self._document = document
         self._accessors = accessors
         self._nodes = items(document, "nodes")
+        self._graph = NodeGraph(document, work)
         self._meshes = meshes
-        self._parents: dict[int, int] | None = None
         self._copied = 0
 
     def read(self) -> RawScene:
-        nodes = instances(
-            [(root, self._matrix(root)) for root in self._roots()],
-            children=self._children,
-            has_mesh=lambda node: self._mesh_of(node) >= 0,
-            name=self._name,
-            kind="node",
-        )
         paths = UniqueNames()
         placed = [
             Instance(self._shape(node.key), matrix, paths.unique(path))
-            for node in nodes
+            for node in self._graph.drawn()
             for path, matrix in self._copies(node)
         ]
         scene = raw_scene(placed, lambda shape: self._mesh_name(shape.mesh), self._mesh)
@@ -184,7 +147,7 @@ class _Scene:
         return scene
 
     def _shape(self, number: int) -> Shape:
-        node, mesh = self._nodes[number], self._mesh_of(number)
+        node, mesh = self._nodes[number], self._graph.mesh_of(number)
         skin = integer(node, "skin", -1) if "skin" in node else None
         return Shape(mesh, self._meshes.weights(mesh, node), skin)
 
@@ -224,128 +187,18 @@ class _Scene:
             parts = (
                 None if rows is None else rows[width * i : width * (i + 1)] for rows, width in given
             )
-            copies.append((f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts))))
+            copies.append((f"{node.path}[{i}]", multiply(node.matrix, trs_placement(*parts))))
         return copies
 
     def _skin(self, number: int) -> Skin:
         skin = member(items(self._document, "skins"), number, "skin")
-        joints = [self._node_number(joint) for joint in items(skin, "joints")]
+        joints = [self._graph.number(joint) for joint in items(skin, "joints")]
         bound = None
         if "inverseBindMatrices" in skin:
             bound = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
             if len(bound) < 16 * len(joints):
                 raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
-        return Skin(tuple(self._world(joint) or IDENTITY for joint in joints), bound)
-
-    def _world(self, node: int) -> Transform | None:
-        """The world matrix of a node; None: the identity."""
-        if self._parents is None:
-            self._parents = {
-                child: parent
-                for parent in range(len(self._nodes))
-                for child, _ in self._children(parent)
-            }
-        matrix = self._matrix(node)
-        seen = {node}
-        while (parent := self._parents.get(node)) is not None:
-            if parent in seen:
-                raise MeshFileError("reference-cycle", f"node {parent} contains itself: a cycle")
-            seen.add(parent)
-            self._work.spend(len(IDENTITY))
-            matrix = multiply(self._matrix(parent), matrix)
-            node = parent
-        return matrix
-
-    def _roots(self) -> list[int]:
-        scenes = items(self._document, "scenes")
-        if scenes:
-            chosen = member(scenes, integer(self._document, "scene", 0), "scene")
-            return [self._node_number(number) for number in items(chosen, "nodes")]
-        placed = {child for node in range(len(self._nodes)) for child, _ in self._children(node)}
-        roots = [node for node in range(len(self._nodes)) if node not in placed]
-        if self._nodes and not roots:
-            raise MeshFileError("reference-cycle", "every node is a child of another: a cycle")
-        return roots
-
-    def _node_number(self, number: object) -> int:
-        if type(number) is not int:
-            raise MeshFileError("bad-record", f"node {number!r} is not a number")
-        member(self._nodes, number, "node")
-        return number
-
-    def _children(self, node: int) -> list[tuple[int, Transform | None]]:
-        numbers = items(member(self._nodes, node, "node"), "children")
-        return [(child := self._node_number(n), self._matrix(child)) for n in numbers]
-
-    def _name(self, number: int) -> str:
-        """The name of a node, else of its mesh, else its number."""
-        name = tidy_name(self._nodes[number].get("name"), "")
-        mesh = self._mesh_of(number)
-        if not name and mesh >= 0:
-            name = tidy_name(self._meshes.name(mesh), "")
-        return name or f"node{number}"
+        return Skin(tuple(self._graph.world(joint) or IDENTITY for joint in joints), bound)
 
     def _mesh_name(self, number: int) -> str:
         return tidy_name(self._meshes.name(number), f"mesh{number}")
-
-    def _matrix(self, number: int) -> Transform | None:
-        return placement_of(member(self._nodes, number, "node"), number)
-
-    def _mesh_of(self, number: int) -> int:
-        """The number of a node's mesh, -1 for none."""
-        mesh = integer(member(self._nodes, number, "node"), "mesh", -1)
-        if mesh >= 0:
-            self._meshes.name(mesh)  # raises if there is no such mesh
-        return mesh
-
-
-def placement_of(node: dict[str, Any], number: int) -> Transform | None:
-    """The placement of a node in its parent; None: the identity."""
-    if "matrix" in node:
-        return _from_columns(_numbers(node, "matrix", 16, number), f"node {number}")
-    translation, rotation, scale = (
-        _numbers(node, key, count, number) if key in node else None
-        for key, count in (("translation", 3), ("rotation", 4), ("scale", 3))
-    )
-    return _placement(translation, rotation, scale)
-
-
-def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[float]:
-    values = items(node, key)
-    good = len(values) == count and all(
-        type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values
-    )
-    if not good:
-        raise MeshFileError("bad-record", f"node {number}: {key} needs {count} finite numbers")
-    return [float(value) for value in values]
-
-
-def _from_columns(columns: Sequence[float], where: str) -> Transform:
-    if tuple(columns[3:16:4]) != (0.0, 0.0, 0.0, 1.0):
-        raise MeshFileError("bad-record", f"{where}: the matrix is not affine")
-    return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
-
-
-def _placement(
-    translation: Sequence[float] | None,
-    rotation: Sequence[float] | None,
-    scale: Sequence[float] | None,
-) -> Transform | None:
-    """Scales, then rotates by a quaternion x, y, z, w, then translates."""
-    placement: Transform | None = None
-    if translation is not None:
-        x, y, z = translation
-        placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
-    if rotation is not None:
-        placement = multiply(placement, _rotation(rotation))
-    if scale is not None:
-        x, y, z = scale
-        placement = multiply(placement, (x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1))
-    return placement
-
-
-def _rotation(quaternion: Sequence[float]) -> Transform:
-    if not any(quaternion):
-        raise MeshFileError("bad-record", "a rotation quaternion is zero")
-    x, y, z, w = quaternion
-    return placed(quaternion_matrix(x, y, z, w), (0.0, 0.0, 0.0))

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 Vector = tuple[float, float, float]
 
-SUFFIXES = frozenset((".usd", ".usda", ".usdc"))
 _CRATE = b"PXR-USDC"  # the first bytes of the binary encoding
 _ORIGIN = (0.0, 0.0, 0.0)
 _SUFFIX = "resolved"  # of the operation xformOp:translate:resolved

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import shutil
 import tomllib
@@ -13,6 +14,7 @@ from jsonschema import Draft202012Validator
 from satcheck.cli.report.schema import text
 from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
+from tests.scene.files import glb, gltf_document
 from tests.scene.usd.files import at, cube, stage
 
 # The box from (0, 0, 0) to (1, 1, 1).
@@ -278,3 +280,21 @@ def test_a_usd_file_is_written_beside_the_files_that_it_names(tmp_path: Path) ->
     assert ran.code == 2
     assert "write it beside" in ran.err
     assert not output.exists()
+
+
+@pytest.mark.parametrize("ending", [".gltf", ".glb"])
+def test_a_gltf_file_is_written_back_and_checked_again(tmp_path: Path, ending: str) -> None:
+    source, output = tmp_path / f"scene{ending}", tmp_path / f"moved{ending}"
+    document, buffer = gltf_document()
+    document["nodes"] = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "scale": [2, 2, 2]}]
+    document["scenes"] = [{"nodes": [0, 1]}]
+    if ending == ".glb":
+        source.write_bytes(glb(document))
+    else:
+        data = base64.b64encode(buffer).decode()
+        document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{data}"
+        source.write_text(json.dumps(document))
+    ran = satcheck("resolve", str(source), "--scene-out", str(output))
+    assert ran.code == 0, ran.err
+    assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out
+    assert satcheck(str(output)).code == 0

@@ -17,7 +17,6 @@ from msgspec.structs import replace
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.gltf import placement_of
 from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import (
     BufferViews,
@@ -29,6 +28,7 @@ from satcheck.scene.loading.gltf_buffers import (
     split_glb,
 )
 from satcheck.scene.loading.gltf_meshes import NO_TRIANGLES, Meshes, Shape
+from satcheck.scene.loading.gltf_nodes import placement_of
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.step.exchange import Exchange, read_exchange
