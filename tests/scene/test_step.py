@@ -204,6 +204,29 @@ def test_names_are_read_with_the_escapes_of_the_format() -> None:
     assert read_exchange(file.text().encode()).products == {"NAUO1": "über 'a'"}
 
 
+def test_faces_that_are_not_read_are_counted(tmp_path: Path) -> None:
+    face = next(line for line in GOOD.splitlines() if "CLOSED_SHELL" in line)
+    first, _, rest = face.partition("('',(")
+    lost = GOOD.replace(face, f"{first}('',({rest.partition(',')[2]}")
+    scene = load(tmp_path, lost)
+    (said,) = [issue for issue in scene.issues if issue.code == "ignored-geometry"]
+    assert "5 of the 6 faces" in said.message
+    assert "not-closed" in codes(scene)
+
+
+def test_a_file_without_a_unit_is_in_millimetres_and_says_so(tmp_path: Path) -> None:
+    scene = load(tmp_path, GOOD.replace("(LENGTH_UNIT()NAMED_UNIT", "(NAMED_UNIT"))
+    assert scene.bodies[0].world_mesh().bounds == ((0, 0, 0), (1, 1, 1))
+    assert "assumed-units" in codes(scene)
+
+
+def test_numbers_that_are_not_finite_end_no_child(tmp_path: Path) -> None:
+    text = GOOD.replace("CARTESIAN_POINT('',(1.0", "CARTESIAN_POINT('',(1.E400")
+    scene = load(tmp_path, text)
+    assert not scene.bodies
+    assert scene.unreadable[0].issue.code in ("non-finite", "empty-mesh", "out-of-range")
+
+
 def test_the_package_to_install_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cascadio", None)
     with pytest.raises(MeshFileError, match="pip install 'satcheck\\[step\\]'") as caught:

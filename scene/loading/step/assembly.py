@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterable, Iterator
 from typing import Any, NoReturn
 
 import numpy as np
@@ -56,7 +57,11 @@ def read_step(data: memoryview, options: ReadOptions) -> RawScene:
     exchange = read_exchange(bytes(data))
     glb = _tessellated(bytes(data), options)
     text, chunk = split_glb(memoryview(glb))
-    document: dict[str, Any] = json.loads(str(text, "utf-8"))
+    try:
+        document: dict[str, Any] = json.loads(str(text, "utf-8"))
+    except ValueError:  # it writes numbers that are not finite as they are
+        message = "OpenCascade makes coordinates of it that are not finite"
+        raise MeshFileError("non-finite", message) from None
     return _Assembly(document, chunk, exchange, options).read()
 
 
@@ -112,7 +117,8 @@ class _Assembly:
         if all(part.key.mesh is None for part in placed):
             self._refuse_empty([part.key.name for part in placed], curves)
         scene = raw_scene(placed, lambda part: part.name, self._mesh)
-        return replace(scene, warnings=self._warnings(scene, curves))
+        ignored = self._ignored((part.key for part in placed), curves)
+        return replace(scene, warnings=tuple(self._warnings(scene, ignored)))
 
     def _children(self, node: int) -> list[tuple[int, Transform | None]]:
         return [(child, self._matrix(child)) for child in items(self._nodes[node], "children")]
@@ -158,7 +164,7 @@ class _Assembly:
         except MeshFileError as error:
             return Refusal(error.code, error.message)
         vertices = _millimetres(np.frombuffer(raw.vertices))
-        flat = all(map(self._is_flat, self._primitives[part.mesh]))
+        flat = not self._exchange.is_curved or all(map(self._is_flat, self._primitives[part.mesh]))
         return replace(
             raw,
             vertices=vertices.tobytes(),
@@ -198,23 +204,37 @@ class _Assembly:
         used = self._accessors.indices(integer(faces, "faceIndices", -1))
         return planes.issuperset(used)
 
-    def _warnings(self, scene: RawScene, curves: list[str]) -> tuple[tuple[str, str], ...]:
-        warnings = []
-        if curves:
-            message = f"{len(curves)} products of curves alone have no body: {listed(curves)}"
-            warnings.append(("ignored-geometry", message))
-        rounds = [
-            part
-            for part in scene.parts
-            if isinstance(part.mesh, RawMesh) and part.mesh.surface_tolerance
-        ]
-        if rounds:
+    def _warnings(self, scene: RawScene, ignored: list[str]) -> Iterator[tuple[str, str]]:
+        if not self._exchange.has_unit:
+            message = "the file states no unit of length: its numbers count as millimetres"
+            yield "assumed-units", message
+        if ignored:
+            yield "ignored-geometry", "; ".join(ignored)
+        meshes = [part.mesh for part in scene.parts if isinstance(part.mesh, RawMesh)]
+        faceted = sum(mesh.surface_tolerance > 0 for mesh in meshes)
+        if faceted:
             message = (
-                f"{len(rounds)} of {len(scene.parts)} products have curved faces: their facets are "
-                f"off by up to about {self._options.chord_tolerance:g} mm (--chord-tolerance)"
+                f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
+                f"by up to about {self._options.chord_tolerance:g} mm (--chord-tolerance)"
             )
-            warnings.append(("faceted", message))
-        return tuple(warnings)
+            yield "faceted", message
+
+    def _ignored(self, parts: Iterable[_Part], curves: list[str]) -> list[str]:
+        """What the file has and the bodies lack."""
+        said = []
+        if curves:
+            said.append(f"{len(curves)} products of curves alone have no body: {listed(curves)}")
+        read, faces = self._faces(parts), self._exchange.faces
+        if read is not None and read < faces:
+            said.append(f"OpenCascade reads {read} of the {faces} faces of the file")
+        return said
+
+    def _faces(self, parts: Iterable[_Part]) -> int | None:
+        """How many faces the products have; None: cascadio says it only of a part of them."""
+        used = {part.mesh for part in parts if part.mesh is not None}
+        faces = [extension(each, _FACES) for mesh in used for each in self._primitives[mesh]]
+        known = [items(each, "faces") for each in faces if each is not None]
+        return sum(map(len, known)) if len(known) == len(faces) else None
 
 
 def _millimetres(metres: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

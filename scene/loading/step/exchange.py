@@ -38,6 +38,11 @@ _OCCURRENCE = re.compile(
 )
 _WIDE = re.compile(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\")
 _NARROW = re.compile(r"\\X\\([0-9A-F]{2})")
+# The curved surfaces of ISO 10303-42, also within records of several kinds.
+_CURVED = re.compile(
+    rb"(?:CYLINDRICAL|CONICAL|SPHERICAL|TOROIDAL|B_SPLINE|BEZIER|UNIFORM|OFFSET|SWEPT)_SURFACE"
+    rb"|SURFACE_OF_|TESSELLATED_|TRIANGULATED_"
+)
 # Solids that OpenCascade does not make from a STEP file.
 _UNREAD_SOLIDS = frozenset(
     {
@@ -64,11 +69,17 @@ _UNREAD_SOLIDS = frozenset(
 class Exchange(Struct, frozen=True):
     """kinds: how many records of each kind there are. products: occurrences without a name of
     their own, by their identifiers -> the names of their products. documents: the other files that
-    the file names."""
+    the file names. has_unit: it states a unit of length. is_curved: it has curved surfaces."""
 
     kinds: Mapping[str, int]
     products: Mapping[str, str]
     documents: tuple[str, ...]
+    has_unit: bool
+    is_curved: bool
+
+    @property
+    def faces(self) -> int:
+        return self.kinds.get("ADVANCED_FACE", 0) + self.kinds.get("FACE_SURFACE", 0)
 
 
 def read_exchange(data: bytes) -> Exchange:
@@ -89,7 +100,13 @@ def read_exchange(data: bytes) -> Exchange:
         message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
         raise MeshFileError("unsupported-feature", message)
     documents = dict.fromkeys(_decoded(match[1]) for match in _DOCUMENT.finditer(data))
-    return Exchange(kinds, _unnamed(data), tuple(filter(None, documents)))
+    return Exchange(
+        kinds,
+        _unnamed(data),
+        tuple(filter(None, documents)),
+        has_unit=b"LENGTH_UNIT" in bare,
+        is_curved=_CURVED.search(bare) is not None,
+    )
 
 
 def _kinds(bare: bytes) -> Counter[str]:
