@@ -119,7 +119,9 @@ def _one(query: str, connection: DuckDBPyConnection) -> str:
 
 
 def _bad(reason: str) -> SatcheckError:
-    return SatcheckError("bad-query", f"--sql: {reason}")
+    """In one line, without the place that DuckDB draws below the query."""
+    told = " ".join(reason.partition("\n\nLINE ")[0].split())
+    return SatcheckError("bad-query", f"--sql: {told}")
 
 
 def _load(connection: DuckDBPyConnection, results: Iterable[Stored], folder: Path) -> None:

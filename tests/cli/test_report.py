@@ -212,6 +212,8 @@ def test_a_wrong_query_is_an_error(folder: Path) -> None:
     assert (ran.code, ran.out) == (2, "")
     assert "nonsense" in ran.err
     assert "[bad-query]" in ran.err
+    assert "LINE 1" not in ran.err
+    assert "\ufffd" not in ran.err
 
 
 def test_an_answer_of_an_unfinished_batch_is_incomplete(folder: Path) -> None:
