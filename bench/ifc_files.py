@@ -22,6 +22,7 @@ from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
 
 ENDINGS = frozenset((".ifc", ".ifczip", ".ifcxml"))
+SECONDS = 300.0  # for one file; the default is a minute
 SETTINGS = Settings(depth=False, list_pruned=False)
 
 
@@ -45,7 +46,7 @@ class Outcome(Struct):
 
 def outcome(path: Path) -> Outcome:
     start = time.monotonic()
-    scene = load_scene([path])
+    scene = load_scene([path], seconds_per_file=SECONDS)
     reasons = tuple(f"{each.issue.code}: {each.issue.message}" for each in scene.unreadable)
     found = Outcome(path.name, time.monotonic() - start, len(scene.bodies), reasons)
     if not scene.bodies:

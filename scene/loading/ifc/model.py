@@ -20,16 +20,16 @@ _LAST = b"END-ISO-10303-21"
 _ENDS_BYTES = 4096
 _WRONG_COUNT = "VAL016"  # the code of a message: an instance has too few or too many attributes
 _TWICE = "Overwriting instance"
+_SHAPE = "IfcProductRepresentation"
 # What shapes or places a body. Damage elsewhere changes no body.
 _SHAPING = (
     "IfcRepresentationItem",
     "IfcRepresentation",
     "IfcRepresentationMap",
     "IfcRepresentationContext",
-    "IfcProductRepresentation",
+    _SHAPE,
     "IfcProfileDef",
     "IfcObjectPlacement",
-    "IfcProduct",
     "IfcNamedUnit",
     "IfcUnitAssignment",
     "IfcMeasureWithUnit",
@@ -49,6 +49,7 @@ def open_model(data: memoryview) -> Any:
         raise _unopened(list(logged()), str(error)) from None
     _refuse_damage(model, logged())
     _refuse_without_unit(model)
+    _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):
         message = "the file has no IfcGeometricRepresentationContext, so its shapes have no meaning"
         raise MeshFileError("bad-record", message)
@@ -104,13 +105,44 @@ def _refuse_damage(model: Any, messages: Iterable[Message]) -> None:
 
 
 def _shapes(model: Any, message: Message) -> bool:
-    """Whether the instance that the message ends with shapes or places a body."""
+    """Whether the instance that the message ends with shapes or places a body. A product does not
+    if its placement and its shape are where they should be: then it lacks what follows them."""
     number = message.message.rpartition("#")[2]
     instance = model.by_id(int(number)) if number.isdecimal() else None
-    return instance is None or any(map(instance.is_a, _SHAPING))
+    if instance is None or any(map(instance.is_a, _SHAPING)):
+        return True
+    if not instance.is_a("IfcProduct"):
+        return False
+    placement, shape = instance.ObjectPlacement, instance.Representation
+    return not (_is_a(placement, "IfcObjectPlacement") and _is_a(shape, _SHAPE))
+
+
+def _is_a(value: Any, name: str) -> bool:
+    """Whether an attribute is empty or an instance of the class."""
+    return value is None or (hasattr(value, "is_a") and value.is_a(name))
 
 
 def _refuse_without_unit(model: Any) -> None:
     units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
     if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
         raise MeshFileError("bad-record", "the file states no unit of length (LENGTHUNIT)")
+
+
+def _refuse_cycles(model: Any) -> None:
+    """The kernel ends its process over a placement that is relative to itself."""
+    above = {
+        each.id(): each.PlacementRelTo.id()
+        for each in model.by_type("IfcLocalPlacement")
+        if each.PlacementRelTo is not None
+    }
+    fine: set[int] = set()
+    for number in above:
+        chain: dict[int, None] = {}
+        place: int | None = number
+        while place is not None and place not in fine:
+            if place in chain:
+                message = f"placement #{place} is relative to itself: a cycle"
+                raise MeshFileError("reference-cycle", message)
+            chain[place] = None
+            place = above.get(place)
+        fine.update(chain)

@@ -147,8 +147,10 @@ def test_a_file_in_a_zip_is_read(tmp_path: Path) -> None:
 
 
 def broken(text: str, old: str, new: str) -> bytes:
+    """{itself}: the number of the instance."""
     assert old in text
-    return text.replace(old, new, 1).encode()
+    instance = text[: text.index(old)].rpartition(";")[2].partition("=")[0]
+    return text.replace(old, new.replace("{itself}", instance), 1).encode()
 
 
 def good() -> str:
@@ -169,6 +171,11 @@ def good() -> str:
         (broken(good(), "IFCLOCALPLACEMENT($,#", "IFCLOCALPLACEMENT($,#9"), "bad-record"),
         (broken(good(), "IFCLOCALPLACEMENT($,", "IFCLOCALPLACEMENT(3.,$,"), "bad-record"),
         (broken(good(), "ENDSEC;END-", "#3=IFCDIRECTION((0.,0.,1.));ENDSEC;END-"), "bad-record"),
+        (broken(good(), "IFCBUILDINGELEMENTPROXY('", "IFCBUILDINGELEMENTPROXY($,'"), "bad-record"),
+        (
+            broken(good(), "=IFCLOCALPLACEMENT($,", "=IFCLOCALPLACEMENT({itself},"),
+            "reference-cycle",
+        ),
         (Model(unit="").bytes(), "bad-record"),
         (Model(context="").bytes(), "bad-record"),
         (Model().bytes(), "empty-mesh"),
@@ -176,6 +183,13 @@ def good() -> str:
 )
 def test_what_is_not_understood_is_refused(tmp_path: Path, content: bytes, code: str) -> None:
     assert refusal(tmp_path, "model.ifc", content)[0] == code
+
+
+def test_a_product_that_lacks_its_last_attributes_is_read(tmp_path: Path) -> None:
+    """Some programs write the form of an older schema."""
+    model = Model()
+    model.box((1, 1, 1), more=",$")
+    assert scene_of(tmp_path, model).bodies[0].world_mesh().bounds == ((0, 0, 0), (1, 1, 1))
 
 
 def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
