@@ -16,6 +16,8 @@ from satcheck.audit.statics.near import Floats, Indices, cross, near_boxes
 
 # Edges whose directions differ by less than this sine are parallel: their vertices decide.
 PARALLEL = 1e-6
+# The contacts of a patch with no more than so many points stay as they are.
+PLAIN_PATCH = 8
 
 
 class Points(Struct, frozen=True):
@@ -76,8 +78,51 @@ def extreme(points: Points, rounding: float) -> Points:
     order = np.lexsort(keys.T[::-1])
     ordered = keys[order][:, :6]
     first = np.r_[True, (ordered[1:] != ordered[:-1]).any(axis=1)]
-    kept = np.sort(order[first])
+    kept = _corners_of_patches(points, order[first], strict, rounding)
     return Points(points.at[kept], points.normals[kept], points.heights[kept], strict[kept])
+
+
+def _corners_of_patches(
+    points: Points, kept: Indices, strict: NDArrayBool, rounding: float
+) -> Indices:
+    """Of contacts in one plane with one normal only the corners of their hull: forces at the others
+    are mixtures of forces at these."""
+    if len(kept) <= PLAIN_PATCH:
+        return np.sort(kept)
+    at, normals = points.at[kept], points.normals[kept]
+    plane = np.einsum("ci,ci->c", at, normals)
+    keys = np.column_stack(
+        [np.round(normals * 1e7), np.round(plane / (4 * rounding)), strict[kept]]
+    )
+    _, patch = np.unique(keys, axis=0, return_inverse=True)
+    corners = []
+    for number in range(int(patch.max()) + 1):
+        of_patch = kept[patch.reshape(-1) == number]
+        if len(of_patch) > PLAIN_PATCH:
+            of_patch = of_patch[_hull(points.at[of_patch], points.normals[of_patch[0]])]
+        corners.append(of_patch)
+    return np.sort(np.concatenate(corners))
+
+
+def _hull(at: Floats, normal: Floats) -> Indices:
+    """The corners of the hull of points in a plane: A. M. Andrew (1979). Near collinear points may
+    stay."""
+    u = cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
+    flat = np.column_stack([at @ u, at @ cross(normal, u)])
+    order = np.lexsort(flat.T[::-1]).tolist()
+    x, y = flat[:, 0].tolist(), flat[:, 1].tolist()
+    corners: list[int] = []
+    for run in (order, order[::-1]):
+        chain: list[int] = []
+        for k in run:
+            while len(chain) > 1:
+                i, j = chain[-2:]
+                if (x[j] - x[i]) * (y[k] - y[i]) - (y[j] - y[i]) * (x[k] - x[i]) > 0:
+                    break
+                chain.pop()
+            chain.append(k)
+        corners += chain[:-1]
+    return np.array(sorted(set(corners)), dtype=np.int64)
 
 
 def _vertices_on_faces(

@@ -273,7 +273,10 @@ class Claims:
                 turned = self._places[b, a]
                 self._places[a, b] = [Place(p.at, -p.normal, p.height, p.exact) for p in turned]
             else:
-                self._places[a, b] = self._found(a, b)
+                try:
+                    self._places[a, b] = self._found(a, b)
+                except Rejected as why:
+                    raise _NotCertified(f"the contacts of {a} and {b}: {why}") from None
         return self._places[a, b]
 
     def _found(self, a: str, b: str) -> list[Place]:

@@ -22,7 +22,9 @@ SLACK = 1e-6
 # Edges whose directions differ by less than this sine are parallel: their ends decide.
 PARALLEL = 1e-6
 # With more pairs of near triangles a check would take too long.
-MOST_NEAR = 2_000_000
+MOST_NEAR = 300_000
+# The sine of an angle below which two faces are one plane; that of the search is smaller.
+FLAT = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,7 @@ class Surface:
         self.triangles: Indices = triangles[sound]
         self.normals: Floats = across[sound] / size[sound, None]
         self.points = world.vertices
+        self._sharp: dict[tuple[int, int], bool] = {}
         self.exact = Exact(World(world.vertices, self.triangles, solid=False), 0)
 
     @cached_property
@@ -73,6 +76,15 @@ class Surface:
                 edges.setdefault((min(u, v), max(u, v)), []).append((t, w))
         return edges
 
+    def is_sharp(self, edge: tuple[int, int]) -> bool:
+        """Whether its faces lie in several planes: a flat edge is no corner of any patch."""
+        if edge not in self._sharp:
+            first, *others = (self.normals[t] for t, _ in self.edges[edge])
+            self._sharp[edge] = not others or any(
+                first @ n < 0 or np.abs(np.cross(first, n)).max() > FLAT for n in others
+            )
+        return self._sharp[edge]
+
 
 def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list[Place]:
     """All contacts of A and B."""
@@ -84,7 +96,9 @@ def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list
         for i, j in zip(s.tolist(), t.tolist(), strict=True):
             of_a, of_b = a.triangles[i].tolist(), b.triangles[j].tolist()
             vertices |= {(v, j, True) for v in of_a} | {(v, i, False) for v in of_b}
-            edges |= {(p, q) for p in _sides(of_a) for q in _sides(of_b)}
+            edges |= {
+                (p, q) for p in _sides(of_a) if a.is_sharp(p) for q in _sides(of_b) if b.is_sharp(q)
+            }
     for v, face, first in sorted(vertices):
         found += _on_face(*((a, b) if first else (b, a)), v, face, near, rounding, first)
     for p, q in sorted(edges):
