@@ -36,8 +36,10 @@ from satcheck.report.settings import StatedSettings
 if TYPE_CHECKING:
     from satcheck.scene.robot import Posture
 
-# A report lists all samples up to this number.
+# A report lists all samples up to this number. Of more samples it lists the first ones with a
+# finding, so many.
 LISTED_SAMPLES = 1000
+LISTED_NOTED = 100
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 
@@ -120,7 +122,7 @@ class Samples(Struct, frozen=True):
     """The result of `check_poses`.
 
     number: of the checked samples; by_verdict: how many have each verdict. samples: all of them; of
-    more than LISTED_SAMPLES, the first ones with a finding, at most that many. pairs: every checked
+    more than LISTED_SAMPLES, the first LISTED_NOTED ones with a finding. pairs: every checked
     pair, in the order of the bodies, including pairs that never met. counts: of one sample; the
     numbers of allowed and exempt pairs are the same in all samples. bodies, exempt and rules: as in
     a report; the transforms are those of one sample. issues: those that are not about a single
@@ -179,8 +181,8 @@ class Samples(Struct, frozen=True):
         left_out = self.number - len(self.samples)
         if not left_out:
             return None
-        beyond = f", or come after the first {LISTED_SAMPLES:,} with one"
-        reason = f"they have no finding{beyond if len(self.samples) == LISTED_SAMPLES else ''}"
+        beyond = f", or come after the first {LISTED_NOTED:,} with one"
+        reason = f"they have no finding{beyond if len(self.samples) == LISTED_NOTED else ''}"
         return SamplesTruncated(left_out, reason)
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:

@@ -23,7 +23,14 @@ from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPair, PosedPairs, same_way
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import FailOn, Settings
-from satcheck.audit.sampled import LISTED_SAMPLES, VERDICTS, PairTally, Sample, Samples
+from satcheck.audit.sampled import (
+    LISTED_NOTED,
+    LISTED_SAMPLES,
+    VERDICTS,
+    PairTally,
+    Sample,
+    Samples,
+)
 from satcheck.audit.severity import fails
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.scene.robot.assembly import posed
@@ -38,7 +45,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 
 # Poses whose placements are in memory at a time, and pairs that climb the ladder together.
-BATCH = 1024
+BATCH = 2048
 TOGETHER = 512
 
 
@@ -101,7 +108,7 @@ class _Results:
     @property
     def room(self) -> int:
         """How many more samples with a finding are listed."""
-        return LISTED_SAMPLES - len(self.listed)
+        return LISTED_NOTED - len(self.listed)
 
     def tally(self, a: str, b: str) -> PairTally:
         return self._tallies.setdefault((a, b), PairTally(a, b))

@@ -146,8 +146,9 @@ def test_a_report_of_many_poses_counts_all_and_lists_the_first(
     scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES[:2]])
     poses = RandomPoses([robot.robot for robot in scene.robots], 60, 3)
     whole = check_poses(scene, poses, QUICK)
-    monkeypatch.setattr("satcheck.audit.sampled.LISTED_SAMPLES", 5)
-    monkeypatch.setattr(many, "LISTED_SAMPLES", 5)
+    monkeypatch.setattr("satcheck.audit.sampled.LISTED_NOTED", 5)
+    monkeypatch.setattr(many, "LISTED_NOTED", 5)
+    monkeypatch.setattr(many, "LISTED_SAMPLES", 50)
     monkeypatch.setattr(many, "BATCH", 16)
     short = check_poses(scene, poses, QUICK)
     noted = [sample for sample in whole.samples if sample.findings]

@@ -97,6 +97,14 @@ const std::vector<Ball>& PosedBody::inner() {
   return inner_;
 }
 
+std::optional<Ball> PosedBody::ball_about(Vec3 point) const {
+  if (!geometry_ || !geometry_->solid()) return {};
+  const auto surface = geometry_->surface();
+  const double radius = nearest_point(*surface, point).distance - chain_rounding(max_abs(largest_));
+  if (!(radius > 0) || winding_number(*surface, point).value_or(0) == 0) return {};
+  return Ball{point, radius};
+}
+
 PosedPlace place_at(const PosedBody& body, const double* m) {
   PosedPlace at;
   at.linear = {{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};

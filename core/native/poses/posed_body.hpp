@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "convex/support_scan.hpp"
@@ -35,6 +36,8 @@ class PosedBody {
   Vec3 largest() const { return largest_; }               // |coordinate| of all corners
   // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
   const std::vector<Ball>& inner();
+  // The largest ball in the material of a solid mesh about a point in it; empty for other bodies and points.
+  std::optional<Ball> ball_about(Vec3 point) const;
 
  private:
   void enclose(const std::vector<Vec3>& corners);

@@ -3,6 +3,7 @@
 #include "poses/sift.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "base/tolerances.hpp"
@@ -43,12 +44,21 @@ SATCHECK_INLINE Corner support(const PosedBody& body, const PosedPlace& at, Vec3
 struct Search {
   bool apart = false;
   Vec3 axis;  // the last one, from B to A
+  std::optional<Vec3> common;  // a point of both hulls, rounded
 };
+
+// The point of A in the tetrahedron of these points of A - B around the origin.
+Vec3 point_of_a(const Vec3 (&difference)[4], const Vec3 (&of_a)[4]) {
+  const Volumes volumes = volumes_of_origin(difference[0], difference[1], difference[2], difference[3]);
+  Vec3 sum;
+  for (int i = 0; i < 4; ++i) sum = sum + of_a[i] * volumes.opposite[i];
+  return sum * (1 / volumes.whole());
+}
 
 // axis: the first one to try, of any length except 0. enough: a height that exceeds all rounding and the gap limit.
 SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const PosedBody& b, const PosedPlace& at_b,
                                Vec3 axis, double enough) {
-  Vec3 point[4];
+  Vec3 point[4], of_a[4];
   std::array<std::uint32_t, 2> seen[4];
   int count = 0;
   double nearest = INFINITY;
@@ -57,28 +67,49 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
     const Corner on_a = support(a, at_a, -axis), on_b = support(b, at_b, axis);
     const Vec3 w = on_a.point - on_b.point;
     const double height = dot(axis, w);
-    if (height > enough) return {true, axis};
+    if (height > enough) return {true, axis, {}};
     const std::array<std::uint32_t, 2> corners{on_a.index, on_b.index};
     for (int i = 0; i < count; ++i) {
-      if (seen[i] == corners) return {false, axis};
+      if (seen[i] == corners) return {false, axis, {}};
     }
     point[count] = w;
+    of_a[count] = on_a.point;
     seen[count++] = corners;
     const ClosestPoint closest = closest_point<true>(point[0], point[1], point[2], point[3], count);
+    if (closest.encloses()) return {false, axis, point_of_a(point, of_a)};
     const double distance = std::sqrt(closest.distance_squared);
-    if (!(distance < nearest) || !(distance > 0)) return {false, axis};
+    if (!(distance < nearest) || !(distance > 0)) return {false, axis, {}};
     nearest = distance;
-    if (nearest < enough) return {false, axis};  // the hulls are nearer than the gap limit
+    if (nearest < enough) return {false, axis, {}};  // the hulls are nearer than the gap limit
     int kept = 0;
     for (int i = 0; i < count; ++i) {
       point[kept] = point[i];
+      of_a[kept] = of_a[i];
       seen[kept] = seen[i];
       kept += closest.carriers >> i & 1;
     }
     count = kept;
     axis = closest.v * (1 / distance);
   }
-  return {false, axis};
+  return {false, axis, {}};
+}
+
+// The point that the placement takes near `p`.
+Vec3 in_file(const PosedPlace& at, Vec3 p) {
+  const Vec3 *row = at.linear.row, from = p - at.offset;
+  const Vec3 x = cross(row[1], row[2]), y = cross(row[2], row[0]), z = cross(row[0], row[1]);
+  return (x * from.x + y * from.y + z * from.z) * (1 / dot(row[0], x));
+}
+
+Ball in_world(const PosedPlace& at, const Ball& ball) {
+  return {at.linear * ball.centre + at.offset, at.stretch.least * ball.radius};
+}
+
+// Whether two balls have a ball with a radius of more than `depth` in common.
+bool overlap(const Ball& p, const Ball& q, double depth) {
+  const double most = p.radius + q.radius - 2 * depth;
+  return p.radius > depth && q.radius > depth &&
+         norm_squared(p.centre - q.centre) < most * most * (1 - 16 * kUnitRoundoff);
 }
 
 class PoseSifter {
@@ -109,7 +140,10 @@ class PoseSifter {
     const Search search = seek_axis(a, at_a, b, at_b, axis == Vec3{} ? between : axis, limit + grown);
     axis = search.axis;
     if (search.apart) return Sifted::apart;
-    return have_deep_point(a, place_a, b, place_b, pair.depth + rounding) ? Sifted::deep : Sifted::open;
+    const double depth = pair.depth + rounding;
+    const bool deep = have_deep_point(place_a, place_b, a, b, depth) ||
+                      (search.common && is_deep(place_a, place_b, a, b, *search.common, depth));
+    return deep ? Sifted::deep : Sifted::open;
   }
 
   const std::vector<Ball>& inner(PosedBody& body, Place& place) {
@@ -118,23 +152,28 @@ class PoseSifter {
       place.inner.clear();
       const PosedPlace& at = place.at;
       for (const Ball& ball : body.inner()) {
-        place.inner.push_back({at.linear * ball.centre + at.offset, at.stretch.least * ball.radius});
+        place.inner.push_back(in_world(at, ball));
       }
     }
     return place.inner;
   }
 
-  // Whether two inner balls have a ball with a radius of more than `depth` in common. Its centre is that deep in both.
-  bool have_deep_point(PosedBody& a, Place& place_a, PosedBody& b, Place& place_b, double depth) {
+  // Whether two inner balls have a ball in common whose centre is that deep in both.
+  bool have_deep_point(Place& place_a, Place& place_b, PosedBody& a, PosedBody& b, double depth) {
     const std::vector<Ball>&of_a = inner(a, place_a), &of_b = inner(b, place_b);
     for (const Ball& p : of_a) {
-      if (!(p.radius > depth)) continue;
       for (const Ball& q : of_b) {
-        const double most = p.radius + q.radius - 2 * depth;
-        if (q.radius > depth && norm_squared(p.centre - q.centre) < most * most * (1 - 16 * kUnitRoundoff)) return true;
+        if (overlap(p, q, depth)) return true;
       }
     }
     return false;
+  }
+
+  // The same for the balls around one point of both hulls.
+  static bool is_deep(const Place& place_a, const Place& place_b, const PosedBody& a, const PosedBody& b, Vec3 common,
+                      double depth) {
+    const auto p = a.ball_about(in_file(place_a.at, common)), q = b.ball_about(in_file(place_b.at, common));
+    return p && q && overlap(in_world(place_a.at, *p), in_world(place_b.at, *q), depth);
   }
 
   const std::vector<PosedBody*>& bodies_;
