@@ -23,6 +23,7 @@ difference is counted, by what satcheck proved about the pair.
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import random
 import sys
@@ -52,10 +53,11 @@ Pairs = list[tuple[str, str]]
 
 def boxes_around(count: int) -> list[tuple[str, list[float], list[float]]]:
     """(name, size, centre) of boxes in a shell around the root of a robot, metres."""
-    draw, boxes = random.Random(5), []
+    draw = random.Random(5)
+    boxes: list[tuple[str, list[float], list[float]]] = []
     while len(boxes) < count:
         centre = [draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-0.2, 1.2)]
-        if 0.5 < np.hypot(*centre[:2]) < 1:
+        if 0.5 < math.hypot(*centre[:2]) < 1:
             boxes.append((f"box{len(boxes)}", [draw.uniform(0.05, 0.2) for _ in range(3)], centre))
     return boxes
 
