@@ -56,7 +56,8 @@ def root(tmp_path: Path) -> Path:
     """A copy of what the pages name, so that reports can be written beside it."""
     shutil.copytree(ROOT / "sample_meshes", tmp_path / "sample_meshes")
     (tmp_path / "docs").mkdir()
-    shutil.copy(ROOT / "docs" / "rig.step", tmp_path / "docs")
+    for name in ("rig.step", "bench.usda"):
+        shutil.copy(ROOT / "docs" / name, tmp_path / "docs")
     return tmp_path
 
 

@@ -245,7 +245,7 @@ def test_an_answer_without_a_reader_does_not_hold(
     """Once the reader is installed, its files are read."""
     (tmp_path / "pxr.py").write_text('raise ModuleNotFoundError("no pxr", name="pxr")')
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
-    worlds = [(copied("bench.usda"),), _other_scene()]
+    worlds = [(copied("../docs/bench.usda", "bench.usda"),), _other_scene()]
     assert checked(worlds) == worlds
     assert [issue["code"] for issue in answer(worlds[0])["issues"]] == ["missing-extra"]
     assert checked(worlds) == worlds[:1]
