@@ -16,7 +16,6 @@ from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.baseline_file import names_in_baseline, read_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.sampled import Samples
-from satcheck.audit.samples import check_poses
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -412,5 +411,7 @@ def _refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
 def _check_poses(
     scene: Scene, poses: Sequence[Pose], settings: Settings, seed: int | None
 ) -> Samples:
+    from satcheck.audit.samples import check_poses  # imports numpy
+
     with Bar("poses") as bar:
         return replace(check_poses(scene, poses, settings, progress=bar), seed=seed)
