@@ -18,6 +18,8 @@ from satcheck.batch.limits import Limits
 from satcheck.batch.results import ResultsFile
 from satcheck.batch.run import run
 from satcheck.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
+from satcheck.scene import mesh_files
+from satcheck.scene.loading.reading_children import ReadingChildren
 from tests.cli.process import SAMPLES, on_posix
 
 
@@ -243,6 +245,8 @@ def test_an_answer_without_a_reader_does_not_hold(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Once the reader is installed, its files are read."""
+    # A child of an earlier test has the library already (tests/conftest.py).
+    monkeypatch.setattr(mesh_files, "ReadingChildren", ReadingChildren)
     (tmp_path / "pxr.py").write_text('raise ModuleNotFoundError("no pxr", name="pxr")')
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     worlds = [(copied("../docs/bench.usda", "bench.usda"),), _other_scene()]
