@@ -108,11 +108,14 @@ class Support:
             return Outcome("open", "open", {}, {}, reason=reason)
 
     def _standing(self, members: list[int], outcome: Outcome) -> Island | None:
-        """An island that stands, if a rule asks whether one of its bodies is stable."""
-        asked = any(self.subjects[k].terms.asks("stable") for k in members)
-        if not asked or outcome.strict != "yes" or outcome.weighed is None:
-            return None
+        """An island with forces, if a rule asks about one of its bodies: at its strict contacts, if
+        these suffice."""
+        asked = any(asks(self.subjects[k].terms) for k in members)
         weighed = outcome.weighed
+        if not asked or outcome.tolerant != "yes" or weighed is None:
+            return None
+        if outcome.strict != "yes":
+            return weighed.island
         return weighed.island.among(np.flatnonzero(weighed.strict))
 
     def stated(self) -> Statics:
@@ -228,6 +231,6 @@ class Support:
         outcome = None if subject.fixed is not None else self.outcomes[graph.island[k]]
         answer, reason = answer_to(question, k, subject, graph, outcome)
         margins = None if subject.fixed is not None else self.margins[graph.island[k]]
-        if answer == "yes" and question == "stable" and margins is not None:
+        if answer == "yes" and margins is not None:
             reason = doubt_about(margins)
         return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)

@@ -23,6 +23,7 @@ from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
 from satcheck.audit.statics.features import Features
 from satcheck.audit.statics.near import near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
+from satcheck.audit.statics.thin import TOO_THIN, may_be_through
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import Finding
@@ -103,6 +104,8 @@ def _contact(
         return Contact(a, b, "overlapping", False)
     one, other = subjects[a], subjects[b]
     points = _points(one, other, tolerance)
+    if may_be_through(points, one.form, other.form, tolerance):
+        return Contact(a, b, "unknown", False, reason=TOO_THIN)
     complete = one.complete and other.complete and len(points) > 0
     return Contact(a, b, "touching", complete, points)
 

@@ -59,10 +59,16 @@ def failed_support(report: Report) -> list[str]:
 
 
 def held(statics: Statics) -> str:
-    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free."""
+    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
+    many have none, which a severity makes no failure."""
     free = {body.id for body in statics.bodies if body.fixed is None}
-    count = len({f.body for f in statics.findings if f.answer == "yes"} & free)
-    return f"contact forces exist that hold {counted(count, 'body', 'bodies')}"
+    yes = {f.body for f in statics.findings if f.answer == "yes"} & free
+    no = {f.body for f in statics.findings if f.answer == "no"}
+    said = f"contact forces exist that hold {counted(len(yes - no), 'body', 'bodies')}"
+    if not no:
+        return said
+    missing = f"not supported: {counted(len(no), 'body', 'bodies')}"
+    return f"{said}, {missing}" if yes - no else missing
 
 
 def warned(statics: Statics) -> int:

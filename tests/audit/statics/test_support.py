@@ -128,6 +128,18 @@ def test_the_severity_of_a_rule_is_that_of_its_failures(tmp_path):
     assert report.summary.verdict == "incomplete"  # the base is open, and nothing fails
 
 
+@pytest.mark.parametrize("severity", ["warning", "none"])
+def test_the_last_line_counts_what_falls(tmp_path, severity):
+    from satcheck.cli.report.support import held
+
+    rules = [{"bodies": "*", "supported": True, "severity": severity}]
+    statics = support(tmp_path, [floor(), box("cube", [1, 1, 1], [0, 0, 2])], rules)
+    assert held(statics) == "not supported: 1 body"
+    both = [floor(), box("cube", [1, 1, 1], [0, 0, 2]), box("low", [1, 1, 1], [0, 0, 0.5])]
+    said = held(support(tmp_path, both, rules))
+    assert said == "contact forces exist that hold 1 body, not supported: 1 body"
+
+
 def test_friction_of_two_bodies_is_the_smaller_one(tmp_path):
     slope = on_slope(FRICTION_ANGLE - 5)
     rules = [{"bodies": "*", "stable": True}, {"bodies": "cube", "friction": 0.3}]
@@ -206,6 +218,43 @@ def test_a_squeezed_body_is_a_warning(tmp_path):
     standing = support(tmp_path, [*walls, floor(), box("block", [1, 1, 1], [0, 0, 0.5])])
     assert standing.islands[0].squeezed is False
     assert {f.severity for f in standing.findings} == {"none"}
+
+
+def test_supported_alone_has_the_warnings(tmp_path):
+    walls = [box(f"wall {x}", [0.2, 2, 2], [x, 0, 1], static=True) for x in (-0.6, 0.6)]
+    rules = [{"bodies": "block", "supported": True}]
+    (finding,) = support(tmp_path, [*walls, box("block", [1, 1, 1], [0, 0, 1])], rules).findings
+    assert (finding.answer, finding.severity) == ("yes", "warning")
+    assert "squeeze only" in finding.reason
+
+
+@pytest.mark.parametrize(("thick", "answer"), [(0.5e-3, "open"), (3e-3, "no")])
+def test_a_tile_under_a_thin_plate_is_not_held(tmp_path, thick, answer):
+    """Its far side is within the tolerance of the far side of the plate."""
+    plate = box("plate", [1, 1, thick], [0, 0, 1 + thick / 2], static=True)
+    tile = box("tile", [0.1, 0.1, 0.3e-3], [0, 0, 1 - 0.15e-3])
+    statics = support(tmp_path, [plate, tile])
+    assert answers(statics)["tile"] == answer
+    if answer == "open":
+        assert "thinner than the tolerance" in statics.islands[0].reason
+
+
+def test_a_tile_under_a_thin_tray_is_open(tmp_path):
+    """Walls make the tray thick as a whole, and its bottom stays thin."""
+    bottom = [0.5, 0.5, 1.0, 1.0005, 1.1, 0.4995]  # half sizes, heights, the hole
+    outer, _, low, floor_, high, inner = bottom
+    rings = [(outer, low), (outer, high), (inner, high), (inner, floor_)]
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    lines = [f"v {x * half} {y * half} {z}" for half, z in rings for x, y in corners]
+    for ring in range(3):
+        for k in range(4):
+            a, b = 4 * ring + k + 1, 4 * ring + (k + 1) % 4 + 1
+            lines += [f"f {a} {b} {b + 4}", f"f {a} {b + 4} {a + 4}"]
+    lines += ["f 1 3 2", "f 1 4 3", "f 13 14 15", "f 13 15 16"]
+    (tmp_path / "tray.obj").write_text("\n".join(lines))
+    tile = box("tile", [0.1, 0.1, 0.3e-3], [0, 0, 1 - 0.15e-3])
+    statics = support(tmp_path, [{"id": "tray", "mesh": "tray.obj", "static": True}, tile])
+    assert answers(statics)["tile"] == "open"
 
 
 def test_a_balance_is_a_warning(tmp_path):
