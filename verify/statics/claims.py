@@ -66,6 +66,7 @@ class Claims:
         self._places: dict[tuple[str, str], list[Place]] = {}
         self._balanced: dict[tuple[int, bool], str | None] = {}
         self._moving: dict[int, str | None] = {}
+        self._worst: dict[int, float] = {}
         self._afloat: str | bool | None = False
         self._check_section()
 
@@ -205,17 +206,28 @@ class Claims:
         """By the motion of its island."""
         if body.motion is None:
             raise _NotCertified(f"{body.id}: no motion shows that it falls")
+        if not any((*body.motion.velocity, *body.motion.angular)):
+            raise Rejected(f"{body.id} is at rest in the motion that shows its fall")
         number = self._island(body)
         if number not in self._moving:
             try:
-                self._check_motion(number)
+                self._worst[number] = self._check_motion(number)
                 self._moving[number] = None
             except Rejected as why:
                 self._moving[number] = str(why)
         if self._moving[number] is not None:
             raise Rejected(str(self._moving[number]))
+        self._check_falls(body.id, body.motion, self._worst[number])
 
-    def _check_motion(self, number: int) -> None:
+    def _check_falls(self, name: str, motion: FirstMotion, worst: float) -> None:
+        """That the motion is the fall of this body too: others of its island may pay for it."""
+        try:
+            check_power({name: motion}, {name: self.weight(name)}, self.down, worst)
+        except Rejected as why:
+            raise _NotCertified(f"{name}, by itself: {why}") from None
+
+    def _check_motion(self, number: int) -> float:
+        """The largest resistance of a contact."""
         motions = {
             name: motion
             for name in self.statics.islands[number].bodies
@@ -228,6 +240,7 @@ class Claims:
                 if other != name and not (other in motions and other < name):
                     worst = max(worst, self._resistance(name, other, motions, weights))
         check_power(motions, weights, self.down, worst)
+        return worst
 
     def _resistance(
         self,

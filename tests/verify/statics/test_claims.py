@@ -201,3 +201,22 @@ def test_a_static_body_may_not_be_made_up(tmp_path):
     of_body(made, "top").update(fixed="static", island=None, motion=None)
     with_answer(made, "top", "yes")
     assert any("fixed" in fault for fault in judged(made).faults)
+
+
+@pytest.mark.parametrize(("rise", "outcome"), [(0.0, "rejected"), (1e-9, "not certified")])
+def test_a_body_that_stands_does_not_fall_with_another_one(tmp_path, rise, outcome):
+    """The fall of a body far away does the work of the island."""
+    apart = [
+        floor(),
+        box("stands", [0.5, 0.5, 0.5], [0, 0, 0.25]),
+        box("wall", [0.2, 2, 3], [2, 0, 1.5], static=True),
+        box("falls", [0.3, 0.3, 0.3], [1.75, 0, 2]),
+    ]
+    made = with_answer(document(tmp_path, apart), "stands", "no")
+    motion = {"velocity": [0, 0, rise], "angular": [0, 0, 0]}
+    of_body(made, "stands").update(motion=motion, island=0)
+    of_body(made, "falls")["island"] = 0
+    island = made["statics"]["islands"][0]
+    made["statics"]["islands"] = [island | {"bodies": ["stands", "falls"]}]
+    by_body = {a.body: a.outcome for a in judged(made).support}
+    assert by_body == by_body | {"stands": outcome, "falls": "accepted"}
