@@ -27,7 +27,7 @@ from satcheck.audit.statics.terms import terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
-from satcheck.report.report import SUPPORT_OPEN, UNSUPPORTED, Issue
+from satcheck.report.report import SUPPORT_OPEN, TOLERANCE_LARGE, UNSUPPORTED, Issue
 from satcheck.report.statics import (
     BodyContact,
     ContactPoint,
@@ -155,7 +155,21 @@ class Support:
                 message = f"{answer.body} is {said} {answer.question}: {answer.reason}"
                 issue = Issue(code, "warning", answer.body, None, message)
                 failed.setdefault(answer.body, issue)
-        return [*failed.values(), *self._unused(members)]
+        return [*failed.values(), *self._small(), *self._unused(members)]
+
+    def _small(self) -> list[Issue]:
+        tolerance = self.terms.tolerance
+        return [
+            Issue(
+                TOLERANCE_LARGE,
+                "warning",
+                subject.id,
+                None,
+                f"{subject.id} is smaller than the tolerance of contacts {tolerance:.3g}",
+            )
+            for subject in self.subjects
+            if subject.fixed is None and subject.body.diagonal < tolerance
+        ]
 
     def _unused(self, members: list[Body | Unreadable]) -> list[Issue]:
         return [

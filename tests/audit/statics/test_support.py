@@ -272,6 +272,14 @@ def test_bodies_that_fail_or_are_open_are_issues(tmp_path):
     assert issues == {"top": "unsupported", "base": "support-open"}
 
 
+@pytest.mark.parametrize(("tolerance", "warned"), [(0.2, ["cube"]), (0.1, [])])
+def test_a_body_smaller_than_the_tolerance_is_a_warning(tmp_path, tolerance, warned):
+    """The diagonal of the cube is 0.17."""
+    cube = box("cube", [0.1, 0.1, 0.1], [0, 0, 0.05])
+    report = report_of(tmp_path, [floor(), cube], tolerance=tolerance)
+    assert [i.body for i in report.issues if i.code == "tolerance-large"] == warned
+
+
 def test_beside_a_body_that_cannot_be_read_nothing_is_said_to_fall(tmp_path):
     """It may hold what seems to fall or to float; what stands stands."""
     lost = {"id": "lost", "mesh": "lost.obj", "static": True}
