@@ -38,7 +38,7 @@ from satcheck.verify.statics.sums import (
     resistance,
     velocity_at,
 )
-from satcheck.verify.statics.weights import Weight, ball, weight_of
+from satcheck.verify.statics.weights import Weight, ball, covers_once, weight_of
 
 QUESTIONS = ("supported", "stable")
 KEYS = (*QUESTIONS, "mounted", "density", "mass", "friction", "severity")
@@ -173,6 +173,8 @@ class Claims:
                     elif self.stated[name].fixed is None:
                         raise Rejected(f"{name} holds a body, and is not in its island")
         for name, own in pushes.items():
+            if not covers_once(self.bodies[name]):
+                raise _NotCertified(f"{name}: its parts may overlap, so its mass is not certified")
             size = Fraction(self._size(name))
             check_balance(name, self.weight(name), self.down, size, own)
 

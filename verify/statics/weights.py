@@ -7,14 +7,19 @@ mesh representation", 2001).
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+
+import numpy as np
 
 from satcheck.core.shapes import Sphere
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import Point, Rejected, cross, dot, integers
 from satcheck.verify.world import World
+
+MOST_PARTS = 500  # of a mesh, whose boxes are compared in pairs
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +42,22 @@ def weight_of(body: Placed, mass: float | None, density: float | None) -> Weight
     if mass is not None:
         return Weight(Fraction(mass), centre)
     return Weight(volume * Fraction(1.0 if density is None else density), centre)
+
+
+def covers_once(body: Placed) -> bool:
+    """Whether no two parts of a mesh share space, as far as their boxes tell."""
+    if body.world is None:
+        return True
+    world = body.world
+    labels = world.labels(world.triangles)[world.triangles[:, 0]]
+    parts = [labels == label for label in np.unique(labels)]
+    if len(parts) > MOST_PARTS:
+        return False
+    boxes = [(world.low[p].min(axis=0), world.high[p].max(axis=0)) for p in parts]
+    return not any(
+        ((low < high_2) & (low_2 < high)).all()
+        for (low, high), (low_2, high_2) in itertools.combinations(boxes, 2)
+    )
 
 
 def _of_mesh(world: World) -> tuple[Fraction, Point]:

@@ -7,11 +7,15 @@ import json
 import math
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from satcheck.verify import Verification, verify
+from satcheck.verify.statics.weights import covers_once
+from satcheck.verify.world import World
 from tests.audit.statics.scenes import about_y, ball, box, floor, on_slope, report_of, tower
 
 Json = dict[str, Any]
@@ -220,3 +224,11 @@ def test_a_body_that_stands_does_not_fall_with_another_one(tmp_path, rise, outco
     made["statics"]["islands"] = [island | {"bodies": ["stands", "falls"]}]
     by_body = {a.body: a.outcome for a in judged(made).support}
     assert by_body == by_body | {"stands": outcome, "falls": "accepted"}
+
+
+@pytest.mark.parametrize(("shift", "known"), [(1.5, True), (0.25, False)])
+def test_parts_that_share_space_are_not_weighed(shift, known):
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    world = World(np.vstack([corners, corners + shift]), np.vstack([faces, faces + 4]), solid=True)
+    assert covers_once(SimpleNamespace(world=world)) is known
