@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from satcheck.report.values import Vector
 
 NO_CHAIN = "it floats: no chain of contacts leads to a fixed body"
+NOT_LET_GO = "squeeze not looked for: its island has too many contact points"
 FALLS = "no contact forces hold it: it starts to move"
 
 

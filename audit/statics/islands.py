@@ -37,6 +37,14 @@ class Outcome(Struct, frozen=True):
     weighed: Weighed | None = None
     reason: str | None = None
 
+    @property
+    def beside_walls(self) -> bool:
+        """Whether a contact is steeper than 45 degrees, so that it may squeeze."""
+        if self.weighed is None:
+            return False
+        island = self.weighed.island
+        return bool((np.abs(island.normals @ island.down) < np.sqrt(0.5)).any())
+
 
 def outcome_of(
     members: Sequence[int],

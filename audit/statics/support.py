@@ -10,6 +10,7 @@ import numpy as np
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE, PlacedBodies
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.statics.answers import (
+    NOT_LET_GO,
     answer_to,
     asks,
     doubt_about,
@@ -247,4 +248,7 @@ class Support:
         margins = None if subject.fixed is not None else self.margins[graph.island[k]]
         if answer == "yes" and margins is not None:
             reason = doubt_about(margins)
+        if answer == "yes" and outcome is not None and margins is None and outcome.beside_walls:
+            answer = "open" if question == "stable" else "yes"
+            reason = NOT_LET_GO
         return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)

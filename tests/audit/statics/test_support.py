@@ -257,6 +257,16 @@ def test_a_tile_under_a_thin_tray_is_open(tmp_path):
     assert answers(statics)["tile"] == "open"
 
 
+def test_beside_walls_a_squeeze_that_is_not_looked_for_is_open(tmp_path, monkeypatch):
+    from satcheck.audit.statics import margins
+
+    monkeypatch.setattr(margins, "MOST_OF_STEP", 1)
+    walls = [box(f"wall {x}", [0.2, 2, 2], [x, 0, 1], static=True) for x in (-0.6, 0.6)]
+    statics = support(tmp_path, [*walls, box("block", [1, 1, 1], [0, 0, 1])])
+    assert answers(statics)["block"] == "open"
+    assert answers(support(tmp_path, tower(0.1)))["top"] == "yes"
+
+
 def test_a_balance_is_a_warning(tmp_path):
     """One ball on top of another one, which stands: any tilt moves it."""
     balls = [ball("low", 0.2, [0, 0, 0.2], static=True), ball("top", 0.2, [0, 0, 0.6])]
