@@ -47,6 +47,7 @@ SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6
 # Of the rounding of coordinates, as in the search for contacts, and as much to spare.
 ROUNDING, SHARE = 2.0**-46, 0.02
 SAME_WEIGHT = 1e-9  # relative
+FASTEST = 1e100  # of a motion, whose squares are floats
 
 
 class _NotCertified(Exception):
@@ -211,6 +212,10 @@ class Claims:
         if not any((*body.motion.velocity, *body.motion.angular)):
             raise Rejected(f"{body.id} is at rest in the motion that shows its fall")
         number = self._island(body)
+        for name in self.statics.islands[number].bodies:
+            moves = self.stated[name].motion
+            if moves and max(map(abs, (*moves.velocity, *moves.angular))) > FASTEST:
+                raise Rejected(f"{name}: a motion this fast cannot be checked")
         if number not in self._moving:
             try:
                 self._worst[number] = self._check_motion(number)

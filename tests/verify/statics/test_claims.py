@@ -232,3 +232,10 @@ def test_parts_that_share_space_are_not_weighed(shift, known):
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     world = World(np.vstack([corners, corners + shift]), np.vstack([faces, faces + 4]), solid=True)
     assert covers_once(SimpleNamespace(world=world)) is known
+
+
+def test_a_motion_too_fast_for_floats_is_rejected(tmp_path):
+    made = document(tmp_path, tower(0.55))
+    of_body(made, "top")["motion"]["velocity"] = [1e308, 1e308, -1e308]
+    reasons = {a.reason for a in judged(made).support if a.outcome == "rejected"}
+    assert any("fast" in str(reason) for reason in reasons)
