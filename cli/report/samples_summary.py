@@ -50,6 +50,10 @@ def samples_verdict(result: Samples) -> str:
 
 def _failed(result: Samples) -> str:
     failed = [pair for pair in result.pairs if pair.fails]
+    if not failed:  # bodies that rules ask to stand
+        poses = result.by_verdict["fail"]
+        verb = "fails" if poses == 1 else "fail"
+        return f"{counted(poses, 'pose')} {verb} by the support of bodies"
     failed.sort(key=lambda pair: (-pair.fails, pair.first_overlap or 0))
     named = [f"{p.a} and {p.b} in {counted(p.fails, 'pose')}" for p in failed[:NAMED]]
     more = f", and {len(failed) - len(named):,} more" if len(failed) > len(named) else ""

@@ -313,3 +313,25 @@ def test_results_of_two_assets_have_fingerprints_of_their_own() -> None:
     run = json.loads(render({"a.glb": MIXED, "b.glb": MIXED}, "sarif"))["runs"][0]
     prints = [result["partialFingerprints"]["satcheckId/v1"] for result in run["results"]]
     assert len(set(prints)) == len(prints) == 12
+
+
+def test_a_body_that_is_not_supported_fails_its_test_case(tmp_path: Path) -> None:
+    """The cube stands, the other hangs in the air beside it: no pair fails."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'schema = "satcheck.scene/1"\nunits = "m"\n'
+        '[[bodies]]\nid = "floor"\nshape = { type = "box", size = [4, 4, 1] }\nstatic = true\n'
+        '[[bodies]]\nid = "cube"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [0, 0, 1]\n"
+        '[[bodies]]\nid = "lamp"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [0, 0, 5]\n"
+        '[[rules]]\nbodies = "*"\nsupported = true\n'
+    )
+    ran = satcheck(str(scene), "--format", "junit")
+    assert ran.code == 1
+    (suite,) = JUnitXml.fromstring(ran.out.encode())
+    failed = {case.name: case.result[0] for case in suite if case.result}
+    assert list(failed) == ["lamp is supported"]
+    assert isinstance(failed["lamp is supported"], Failure)
+    assert "it floats" in failed["lamp is supported"].message
+    assert "cube is supported" in [case.name for case in suite]

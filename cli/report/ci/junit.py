@@ -1,4 +1,5 @@
-"""JUnit XML, as CI servers read it: a test suite for each report, a test case for each finding.
+"""JUnit XML, as CI servers read it: a test suite for each report, a test case for each pair that it
+lists, and for each answer about the support of a body.
 
 A finding that fails is a failure, an undecided question an error, a finding that a baseline holds
 is skipped; others pass. The pairs that the report does not list are one test case together, and so
@@ -10,12 +11,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.audit.severity import fails
+from satcheck.audit.severity import fails, is_unsupported
 from satcheck.cli.output import harmless
 from satcheck.cli.report.ci.problems import kind_of, sentence
 from satcheck.cli.report.config import config_line
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, issue_line
+from satcheck.report.report import UNSUPPORTED
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
     from satcheck.cli.report.ci import Reports
     from satcheck.report.report import Finding, Report
+    from satcheck.report.statics import SupportFinding
 
 
 def render(reports: Reports) -> Iterator[str]:
@@ -44,6 +47,10 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
     for finding in report.findings:
         case = _case(suite, files[finding.a], f"{finding.a} and {finding.b}")
         _judge(case, finding, report)
+    if report.support is not None:
+        for answer in report.support.findings:
+            case = _case(suite, files[answer.body], f"{answer.body} is {answer.question}")
+            _judge_support(case, answer, report)
     if report.truncated is not None:
         pairs = counted(report.truncated.pairs, "more pair")
         _case(suite, name, f"{pairs}: {report.truncated.reason}")
@@ -75,6 +82,16 @@ def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
         ElementTree.SubElement(case, "skipped", message=_clean(text))
     elif fails(finding, report.settings.fail_on):
         _say(case, "failure", kind_of(finding), text)
+
+
+def _judge_support(case: ElementTree.Element, answer: SupportFinding, report: Report) -> None:
+    if answer.answer == "open":
+        text = f"whether {answer.body} is {answer.question} is open: {answer.reason}"
+        _say(case, "error", "undecided", text)
+    elif is_unsupported(answer, report.settings.fail_on):
+        is_not = "is not" if answer.answer == "no" else "is"
+        text = f"{answer.body} {is_not} {answer.question}: {answer.reason}"
+        _say(case, "failure", UNSUPPORTED, text)
 
 
 def _say(case: ElementTree.Element, name: str, kind: str, text: str) -> None:
