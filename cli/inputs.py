@@ -19,6 +19,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
+from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
@@ -34,7 +35,8 @@ from satcheck.scene.read_options import (
 )
 from satcheck.scene.scene_builder import Split
 
-_HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD file
+_HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD or glTF file
+_GLTF = frozenset(("glb", "gltf"))
 
 
 class Inputs(Struct, frozen=True):
@@ -98,14 +100,15 @@ class Inputs(Struct, frozen=True):
             megabytes_per_file=self.megabytes_per_file,
         )
 
-    def mesh_files(self) -> MeshFiles:
-        """To read the mesh files of the scene once more, as it has read them."""
+    def mesh_files(self, reading: ReadOptions) -> MeshFiles:
+        """To read the mesh files of a scene once more, with the options that it has read them
+        with."""
         return MeshFiles(
             self.seconds_per_file,
             self.megabytes_per_file,
             allow_outside=True,
             hashed=False,
-            options=self.reading,
+            options=reading,
         )
 
     @property
@@ -157,8 +160,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
-    if inputs.time is not None and not any(kind_of(path) in _HOLD_USD for path in paths):
-        raise click.UsageError("--time is about USD files")
+    if inputs.time is not None and not any(map(_may_be_animated, paths)):
+        raise click.UsageError("--time is about USD and glTF files")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed)
@@ -175,6 +178,10 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     for line in advice:
         talk(line)
     return scene
+
+
+def _may_be_animated(path: str) -> bool:
+    return kind_of(path) in _HOLD_USD or FORMATS.get(Path(path).suffix.lower()) in _GLTF
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

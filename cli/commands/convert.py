@@ -26,7 +26,7 @@ from satcheck.cli.options import (
 from satcheck.cli.output import harmless, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.report.numbers import at_most
-from satcheck.cli.report.words import counted, with_unit
+from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Scene
 from satcheck.scene.glb_file import Node, glb, rounding
@@ -82,13 +82,16 @@ def command(output: Path, **options: Any) -> int:
     lines, lost = write(output, scene, inputs)
     for line in lines:
         talk(harmless(line))
+    for issue in scene.issues:
+        if issue.severity == "warning":
+            talk(harmless(f"satcheck: {issue_line(issue)}"))
     for body in lost:
         talk(harmless(f"satcheck: {body} is not in {output}: it could not be read"))
     return exit_codes.INCOMPLETE if lost else exit_codes.CLEAN
 
 
 def _write_scene(output: Path, scene: Scene, inputs: Inputs) -> Told:
-    write_file(output, new_scene_file(output, scene, inputs.mesh_files()))
+    write_file(output, new_scene_file(output, scene, inputs.mesh_files(scene.reading)))
     lost = left_out_of(scene)
     stated = len(scene.bodies) + len(scene.unreadable) - len(lost)
     rules = len(scene.rules) + len(scene.body_rules)
@@ -97,9 +100,16 @@ def _write_scene(output: Path, scene: Scene, inputs: Inputs) -> Told:
         lines.append(f"note: to read {output} give --allow-outside, because of {stray}")
     if scene.robots:
         lines.append("note: joints are not written: the links stand where the pose puts them")
-    if inputs.time is not None:
-        lines.append(f"note: to read {output} give --time {inputs.time:g} again")
+    formats = {body.file.format for body in scene.bodies}
+    for option, value in (scene.reading.stated(formats) or {}).items():
+        if getattr(inputs, option) is not None:
+            flag = f"--{option.replace('_', '-')}"
+            lines.append(f"note: to read {output} give {flag} {_words(value)} again")
     return lines, lost
+
+
+def _words(value: Any) -> str:
+    return " ".join(value) if isinstance(value, tuple) else str(value)
 
 
 def _write_glb(output: Path, scene: Scene, inputs: Inputs) -> Told:

@@ -218,7 +218,9 @@ def _write_moved(
 ) -> None:
     translations = {move.body: move.translation for move in result.moves}
     if target.source is None:
-        write_file(path, new_scene_file(path, scene, inputs.mesh_files(), translations))
+        write_file(
+            path, new_scene_file(path, scene, inputs.mesh_files(scene.reading), translations)
+        )
         return
     children, seconds = ReadingChildren(inputs.megabytes_per_file), inputs.seconds_per_file
     content = written_back(path, target.source, scene, translations, children, seconds=seconds)
@@ -234,6 +236,7 @@ def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) ->
             units=inputs.units,
             allow_outside=inputs.allow_outside,
             reading=inputs.reading,
+            geometry=inputs.geometry,
         )
     except SatcheckError:
         path.unlink(missing_ok=True)

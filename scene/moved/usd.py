@@ -6,7 +6,7 @@ Each moved prim gets one more translation, before its own operations. All other 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +25,8 @@ Vector = tuple[float, float, float]
 
 _CRATE = b"PXR-USDC"  # the first bytes of the binary encoding
 _ORIGIN = (0.0, 0.0, 0.0)
+# Of a translation through a few matrices, relative to the largest coordinate.
+_ROUNDING = 2.0**-40
 _SUFFIX = "resolved"  # of the operation xformOp:translate:resolved
 
 
@@ -116,8 +118,43 @@ def _move(stage: Any, request: Request, steps: Mapping[str, Vector]) -> None:
         shifted[path] = step
         parent = cache.GetParentToWorldTransform(prim)
         changes.append((prim, _local(prim, parent, step, inherited)))
+    before = _places(stage, request)
     for prim, by in changes:
         _translate(prim, by)
+    _refuse_others(request.bodies, steps, before, _places(stage, request))
+
+
+def _places(stage: Any, request: Request) -> dict[str, Any]:
+    """Body -> world matrix; of an instance of a point instancer, that of the instancer."""
+    from pxr import UsdGeom
+
+    from satcheck.scene.loading.usd.choice import Choice
+
+    cache = UsdGeom.XformCache(Choice(request.options).time)
+    places = {}
+    for path in request.bodies:
+        if prim := stage.GetPrimAtPath(path.partition("[")[0]):
+            places[path] = cache.GetLocalToWorldTransform(prim)
+    return places
+
+
+def _refuse_others(
+    bodies: Sequence[str],
+    steps: Mapping[str, Vector],
+    before: Mapping[str, Any],
+    after: Mapping[str, Any],
+) -> None:
+    """A reference to a moved prim, or an instancer below it, moves with it."""
+    from pxr import Gf
+
+    for path in bodies:
+        if path not in before:
+            continue
+        step = Gf.Vec3d(*steps.get(path, _ORIGIN))
+        old, new = before[path].ExtractTranslation(), after[path].ExtractTranslation()
+        largest = max(map(abs, (*old, *new, *step)))
+        if (new - old - step).GetLength() > _ROUNDING * largest:
+            raise _not_movable(path, "it refers to a prim that is moved, or lies below one")
 
 
 def _inherited(prim: Any, shifted: Mapping[str, Vector]) -> Vector:

@@ -11,6 +11,7 @@ import trimesh
 
 from satcheck.scene import load_scene
 from tests.cli.process import SAMPLES, satcheck
+from tests.scene.usd.files import at, cube, stage
 
 ROBOT = "arm.urdf"
 RELATIONS = ("a", "b", "relation")
@@ -73,3 +74,22 @@ def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     before = scene.read_bytes()
     assert satcheck("convert", str(scene), "-o", str(scene)).code == 2
     assert scene.read_bytes() == before
+
+
+def test_colliders_are_written_where_they_stand_and_the_option_is_named(tmp_path: Path) -> None:
+    api, hidden = '"PhysicsCollisionAPI"', 'token purpose = "guide"\n'
+    source = tmp_path / "stage.usda"
+    source.write_text(stage(*(cube(n, hidden + at(x), api) for n, x in (("E", 20), ("F", 20.5)))))
+    output = str(tmp_path / "made.toml")
+    ran = satcheck("convert", str(source), "--geometry", "collision", "-o", output)
+    assert ran.code == 0
+    assert "give --geometry collision again" in ran.err
+    again = satcheck(output, "--geometry", "collision", "--format", "json")
+    assert again.code == 1
+    assert again.document["findings"][0]["relation"] == "penetrating"
+
+
+def test_what_a_scene_leaves_out_is_told(tmp_path: Path) -> None:
+    """The floor is a half space."""
+    ran = satcheck("convert", "lift.xml", "-o", str(tmp_path / "made.toml"))
+    assert "half-space" in ran.err

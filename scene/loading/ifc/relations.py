@@ -20,7 +20,11 @@ _NOTE: RuleSeverity = "note"
 _BARS, _CONCRETE = "reinforcement", "reinforced"
 _BAR = "IfcReinforcingElement"
 # What reinforcement lies in. In IFC2X3 reinforcement is itself a building element.
-_HOSTS = ("IfcBuildingElement", "IfcBuiltElement", "IfcCivilElement")
+_HOSTS = (
+    *("IfcBeam", "IfcBuildingElementProxy", "IfcCivilElement", "IfcColumn", "IfcFooting"),
+    *("IfcMember", "IfcPile", "IfcPlate", "IfcRamp", "IfcRampFlight", "IfcRoof", "IfcSlab"),
+    *("IfcStair", "IfcStairFlight", "IfcWall", "IfcCourse", "IfcPavement", "IfcBearing"),
+)  # what may be of reinforced concrete
 
 
 class Relations(Struct, frozen=True):

@@ -51,6 +51,7 @@ class _Reading:
         self._places: dict[object, int] = {}
 
     def scene(self) -> RawScene:
+        self._refuse_lost_in_instances()
         for found in Walk(self._stage.stage, self._choice.time).prims():
             self._take(found)
         for name, reason in self._lost.items():
@@ -61,6 +62,17 @@ class _Reading:
             raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
         nodes, rules = with_physics(self._stage.stage, self._nodes, self._found)
         return RawScene(tuple(self._parts), nodes, warnings, self._stage.unit, rules)
+
+    def _refuse_lost_in_instances(self) -> None:
+        """A reference is lost in every instance, and composition names one of them or none."""
+        stage = self._stage.stage
+        if not self._lost or not (
+            stage.GetPrototypes() or any(map(_is_instancer, stage.Traverse()))
+        ):
+            return
+        name, reason = next(iter(self._lost.items()))
+        message = f"{name}: {reason.message} (the stage has instances, which may lack it, too)"
+        raise MeshFileError(reason.code, message)
 
     def _of_time(self) -> list[tuple[str, str]]:
         if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
@@ -194,3 +206,7 @@ class _Reading:
         scale = self._stage.scale
         scaled = [value * scale for row in columns[:3] for value in row]
         return (*scaled, *columns[3])
+
+
+def _is_instancer(prim: Any) -> bool:
+    return bool(prim.IsA(UsdGeom.PointInstancer))

@@ -94,3 +94,14 @@ def test_an_instance_is_not_moved(tmp_path: Path) -> None:
         moved(tmp_path, source, **{"A/Geom": BY})
     assert caught.value.code == "not-movable"
     assert "/World/A/Geom" in caught.value.message
+
+
+def test_a_reference_to_a_moved_prim_is_not_moved_unseen(tmp_path: Path) -> None:
+    source = stage(
+        'def Xform "World" {', 'def Xform "S" {', cube("A"), "}",
+        f'def Xform "T" (\n references = </World/S>\n) {{ {at(9)} }}', "}",
+    )  # fmt: skip
+    with pytest.raises(SatcheckError, match="refers to a prim that is moved") as caught:
+        moved(tmp_path, source, **{"S/A": BY})
+    assert caught.value.code == "not-movable"
+    assert "/World/T/A" in caught.value.message

@@ -157,3 +157,19 @@ def test_a_missing_package_says_what_to_install(tmp_path: Path) -> None:
     ran = satcheck(str(tmp_path / "a.usda"), env={"PYTHONPATH": str(planted.parent)})
     assert "pip install 'satcheck[usd]'" in ran.err
     assert "Traceback" not in ran.err
+
+
+@pytest.mark.parametrize("hidden", ['token visibility = "invisible"', 'token purpose = "guide"'])
+def test_a_reference_that_is_lost_in_an_instance_loses_the_file(
+    tmp_path: Path, hidden: str
+) -> None:
+    """The prototype is hidden, its instances are not."""
+    text = stage(
+        'def Xform "World" {', cube("A"), cube("C", at(9)),
+        f'def Xform "lib" {{\n{hidden}\ndef Xform "proto" (references = @gone.usda@) {{}}\n}}',
+        'def PointInstancer "P" {\nrel prototypes = </World/lib/proto>\n'
+        "int[] protoIndices = [0]\npoint3f[] positions = [(0, 0, 0)]\n}", "}",
+    )  # fmt: skip
+    scene = load(tmp_path, text)
+    assert not scene.bodies
+    assert "missing-resource" in said(scene)
