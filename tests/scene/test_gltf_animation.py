@@ -14,6 +14,7 @@ from satcheck.audit import Settings, check
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify import verify
+from tests.cli.process import satcheck
 from tests.scene import files
 
 KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
@@ -242,3 +243,15 @@ def test_an_animation_that_cannot_be_trusted_is_refused(
     (lost,) = animated.load(tmp_path, 0.5).unreadable
     assert lost.issue.code == code
     assert not animated.load(tmp_path, None).unreadable  # nobody asked for it
+
+
+def test_the_command_takes_a_time(tmp_path: Path) -> None:
+    animated = Animated()
+    animated.channel("translation", [0, 2], [[0, 0, 0], [8, 0, 0]])
+    still = animated.load(tmp_path, None).bodies[0].world_mesh().bounds
+    output = tmp_path / "made.toml"
+    ran = satcheck("convert", str(tmp_path / "a.glb"), "--time", "1", "-o", str(output))
+    assert ran.code == 0, ran.err
+    assert "give --time 1.0 again" in ran.err
+    (body,) = load_scene([output], reading=ReadOptions(time=1.0)).bodies
+    assert list(body.world_mesh().bounds) == moved(still, 4.0)
