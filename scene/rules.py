@@ -42,6 +42,13 @@ class Selectable(Protocol):
     def groups(self) -> tuple[str, ...]: ...
 
 
+class HasSeverity(Protocol):
+    """A rule of pairs or of bodies."""
+
+    @property
+    def severity(self) -> Severity | None: ...
+
+
 B = TypeVar("B", bound=Selectable)
 
 
@@ -157,11 +164,7 @@ class Rule(Struct, frozen=True, kw_only=True):
             value = getattr(self, key)
             if value is not None and not (math.isfinite(value) and value >= 0):
                 raise _refused(f"{key} must be a finite number >= 0, not {value!r}")
-        if self.severity not in (None, *SEVERITIES):
-            names = ", ".join(SEVERITIES)
-            raise _refused(f"severity must be one of {names}, not {self.severity!r}")
-        if all(getattr(self, key) is None for key in KEYS):
-            raise _refused(f"the rule has no effect: give it one of {', '.join(KEYS)}")
+        require_effect(self, KEYS)
         if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
             raise _refused("an allowed pair is not checked: remove the other keys")
 
@@ -180,6 +183,16 @@ class Rule(Struct, frozen=True, kw_only=True):
     def name(self) -> str:
         """Its place in a file, else its two selectors."""
         return self.where or f"{self.a.text} and {self.b.text}"
+
+
+def require_effect(rule: HasSeverity, keys: Sequence[str]) -> None:
+    """Raises SatcheckError `bad-rule` if the severity is unknown, or if none of the keys, which
+    are those with an effect, is set."""
+    if rule.severity not in (None, *SEVERITIES):
+        names = ", ".join(SEVERITIES)
+        raise _refused(f"severity must be one of {names}, not {rule.severity!r}")
+    if all(getattr(rule, key) is None for key in keys):
+        raise _refused(f"the rule has no effect: give it one of {', '.join(keys)}")
 
 
 def _refused(message: str) -> SatcheckError:

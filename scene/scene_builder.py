@@ -13,17 +13,17 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
+from satcheck.scene.document_rules import DocumentGroups, document_rules
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.nodes import Nodes
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.read_options import GeometryKind, ReadOptions
-from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class SceneBuilder:
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
         self._document_rules: list[Rule] = []
-        self._shared_groups: dict[str, str] = {}  # of documents -> their names in the check
+        self._document_groups = DocumentGroups(self._group_names)
 
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
@@ -102,7 +102,7 @@ class SceneBuilder:
         self._issues.extend(nodes.issues)
         units = (node.file.units for node in nodes.nodes if isinstance(node.file, MeshFile))
         self._begin("scene", path, next(units, None))
-        groups = self._groups_of_document(nodes)
+        groups = self._document_groups.of(nodes)
         ids = {}
         for node in nodes.nodes:
             wanted = _node_id(node.path, id_, alone)
@@ -113,20 +113,7 @@ class SceneBuilder:
                 wanted, node.title or wanted, path, node.file, node.transform, own, node.static,
                 node.shape, place,
             )  # fmt: skip
-        self._document_rules += _rules_of(nodes, ids, groups, path)
-
-    def _groups_of_document(self, nodes: Nodes) -> dict[str, str]:
-        """Its groups -> their names in the check. Groups of several documents that have one name
-        are one group, unless rules of the document name it."""
-        ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
-        names = dict.fromkeys(group for node in nodes.nodes for group in node.groups)
-        for group in names:
-            if group not in ruled and group not in self._shared_groups:
-                self._shared_groups[group] = self._group_names.unique(group)
-        return {
-            group: self._group_names.unique(group) if group in ruled else self._shared_groups[group]
-            for group in names
-        }
+        self._document_rules += document_rules(nodes, ids, groups, path)
 
     def add_scene(self, scene: SceneFile) -> None:
         """Adds a scene file. One without bodies is a file of rules, which is added only once."""
@@ -356,25 +343,6 @@ class SceneBuilder:
         if self._scenes is None:
             return ()
         return self._scenes.body_rules([*self._bodies, *self._unreadable], scales)
-
-
-def _rules_of(
-    nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
-) -> Iterator[Rule]:
-    """The rules of a document. ids: of its nodes in the check."""
-    for rule in nodes.rules:
-        select = Selector.exactly_group if rule.of_groups else Selector.exactly
-        names = groups if rule.of_groups else ids
-        if rule.a in names and rule.b in names:
-            yield Rule(
-                a=select(names[rule.a]),
-                b=select(names[rule.b]),
-                allowed=True if rule.severity is None else None,
-                severity=rule.severity,
-                reason=rule.reason,
-                where=f"{path}: {rule.reason}",
-                file=path,
-            )
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:

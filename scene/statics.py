@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.rules import SEVERITIES, Selectable, Selector, Severity
+from satcheck.scene.rules import Selectable, Selector, Severity, require_effect
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Scene
@@ -66,11 +66,7 @@ class BodyRule(Struct, frozen=True, kw_only=True):
                 raise _refused(f"{key} must be a finite number > 0, not {value!r}")
         if self.friction is not None and not (math.isfinite(self.friction) and self.friction >= 0):
             raise _refused(f"friction must be a finite number >= 0, not {self.friction!r}")
-        if self.severity not in (None, *SEVERITIES):
-            names = ", ".join(SEVERITIES)
-            raise _refused(f"severity must be one of {names}, not {self.severity!r}")
-        if all(getattr(self, key) is None for key in KEYS):
-            raise _refused(f"the rule has no effect: give it one of {', '.join(KEYS)}")
+        require_effect(self, KEYS)
 
     def scaled(self, scale: float) -> BodyRule:
         """The same rule in another unit of length, which is `scale` times smaller."""

@@ -60,7 +60,7 @@ def read_step(data: memoryview, options: ReadOptions) -> RawScene:
     try:
         document: dict[str, Any] = json.loads(str(text, "utf-8"))
     except ValueError:  # it writes numbers that are not finite as they are
-        message = "OpenCascade makes coordinates of it that are not finite"
+        message = "OpenCascade turns it into coordinates that are infinite or no numbers"
         raise MeshFileError("non-finite", message) from None
     return _Assembly(document, chunk, exchange, options).read()
 

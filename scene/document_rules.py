@@ -1,0 +1,55 @@
+"""The groups and rules of documents: files that state, beside bodies, which may touch which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from satcheck.scene.loading.nodes import Nodes
+from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.rules import Rule, Selector
+
+
+class DocumentGroups:
+    """Names the groups of the documents of one scene.
+
+    Groups of several documents that have one name are one group, unless rules of a document name
+    the group. names: of all groups in the check.
+    """
+
+    def __init__(self, names: UniqueNames) -> None:
+        self._names = names
+        self._shared: dict[str, str] = {}
+
+    def of(self, nodes: Nodes) -> dict[str, str]:
+        """Each group of a document -> its name in the check."""
+        ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
+        groups = dict.fromkeys(group for node in nodes.nodes for group in node.groups)
+        return {
+            group: self._names.unique(group) if group in ruled else self._shared_name(group)
+            for group in groups
+        }
+
+    def _shared_name(self, group: str) -> str:
+        if group not in self._shared:
+            self._shared[group] = self._names.unique(group)
+        return self._shared[group]
+
+
+def document_rules(
+    nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
+) -> Iterator[Rule]:
+    """The rules of the document at `path`. ids, groups: of its nodes -> their names in the
+    check."""
+    for rule in nodes.rules:
+        select = Selector.exactly_group if rule.of_groups else Selector.exactly
+        names = groups if rule.of_groups else ids
+        if rule.a in names and rule.b in names:
+            yield Rule(
+                a=select(names[rule.a]),
+                b=select(names[rule.b]),
+                allowed=True if rule.severity is None else None,
+                severity=rule.severity,
+                reason=rule.reason,
+                where=f"{path}: {rule.reason}",
+                file=path,
+            )
