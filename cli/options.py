@@ -3,28 +3,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
-from satcheck.cli.lengths import length, millimetres
+from satcheck.cli.lengths import length
 from satcheck.core.conventions import PLANES
-from satcheck.scene.path_kind import is_folder
-from satcheck.scene.read_options import (
-    ANGULAR_TOLERANCE,
-    CHORD_TOLERANCE,
-    GeometryKind,
-    Purpose,
-)
-from satcheck.scene.units import MICROMETRES
 
-SPLITS = ("nodes", "components", "none")
 DEFAULTS = Settings()
 _STANDARD_OUTPUT = Path("-")
 _NO_CONFIG = "satcheck.no-config"
@@ -45,23 +35,11 @@ def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[
     return files + [CompletionItem(name) for name in names]
 
 
-def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, Path]:
-    packages: dict[str, Path] = {}
-    for text in texts:
-        name, _equals, folder = text.partition("=")
-        if not name or not folder:
-            raise click.BadParameter(f"{text!r} should be NAME=DIR")
-        if not is_folder(folder):
-            raise click.BadParameter(f"{folder!r} is no folder")
-        packages[name] = Path(folder)
-    return packages
-
-
 def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
-def _together(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Command]:
+def together(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Command]:
     """Several options, in this order in the help."""
 
     def add(command: _Command) -> _Command:
@@ -85,7 +63,7 @@ def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Comman
 
 
 # Of pictures beside a report.
-picture_options = _together(
+picture_options = together(
     click.option(
         "--png",
         type=click.Path(dir_okay=False, path_type=Path),
@@ -137,63 +115,12 @@ root_option = click.option(
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
-outside_option = click.option(
-    "--allow-outside",
-    is_flag=True,
-    help="Read what a file names outside of its folder.",
-)
-# About what reading a file may do.
-reading_options = _together(
-    outside_option,
-    seconds_option(
-        "--seconds-per-file",
-        DEFAULTS.seconds_per_file,
-        "The most time for reading a mesh file.",
-    ),
-    click.option(
-        "--megabytes-per-file",
-        type=click.IntRange(1),
-        metavar="MIB",
-        default=DEFAULTS.megabytes_per_file,
-        show_default=True,
-        help="The most memory for reading a mesh file; the file may be a quarter as large.",
-    ),
-    click.option(
-        "--chord-tolerance",
-        type=millimetres,
-        metavar="LENGTH",
-        default=f"{CHORD_TOLERANCE:g}mm",
-        show_default=True,
-        help="How far facets of curved STEP faces may be off: their surface tolerance.",
-    ),
-    click.option(
-        "--angular-tolerance",
-        type=click.FloatRange(0, math.pi, min_open=True),
-        metavar="RADIANS",
-        default=ANGULAR_TOLERANCE,
-        show_default=True,
-        help="The most angle between such facets.",
-    ),
-)
-split_option = click.option(
-    "--split",
-    type=click.Choice(SPLITS),
-    metavar="HOW",
-    help="A body is a node (nodes, the default for one file alone), a connected piece (components) "
-    "or a file (none).",
-)
 planar_option = click.option(
     "--planar",
     type=click.Choice(PLANES),
     metavar="PLANE",
     default=DEFAULTS.planar,
     help="Check outlines in this plane (xy, yz or xz): flat layouts, SVG and DXF drawings.",
-)
-units_option = click.option(
-    "--units",
-    type=click.Choice(tuple(MICROMETRES)),
-    metavar="UNIT",
-    help=f"Of files that state none: {', '.join(MICROMETRES)}.",
 )
 tolerance_option = click.option(
     "--tolerance",
@@ -293,103 +220,4 @@ debug_option = click.option(
     is_flag=True,
     expose_value=False,  # cli/entry.py looks for it: what fails may be the reading of options
     help="Show a traceback when satcheck fails.",
-)
-merge_option = click.option(
-    "--merge",
-    is_flag=True,
-    help="Put several scene files into one world.",
-)
-rules_option = click.option(
-    "--rules",
-    multiple=True,
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Rules about all bodies, after those of scenes: what may overlap, and by how much. "
-    "Repeatable.",
-)
-package_option = click.option(
-    "--package",
-    "packages",
-    multiple=True,
-    metavar="NAME=DIR",
-    callback=_packages,
-    help="The folder of a package or model, or of a folder in it (arm/meshes). Repeatable.",
-)
-
-
-def _time(_: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
-    if value is not None and not math.isfinite(value):
-        raise click.BadParameter("a finite number", param=parameter)
-    return value
-
-
-# That choose between the geometries of a file.
-geometry_options = _together(
-    click.option(
-        "--geometry",
-        type=click.Choice(get_args(GeometryKind)),
-        metavar="KIND",
-        help="collision (default: robots) or visual (default: USD).",
-    ),
-    click.option(
-        "--purpose",
-        multiple=True,
-        type=click.Choice(get_args(Purpose)),
-        metavar="NAME",
-        help="Of USD prims to draw: render (the default), proxy or guide. Repeatable.",
-    ),
-    click.option(
-        "--time",
-        type=float,
-        metavar="TIME",
-        callback=_time,
-        help="Of animations: seconds in glTF, time code in USD (default: the first).",
-    ),
-    click.option(
-        "--mesh-hulls",
-        is_flag=True,
-        help="Of MJCF: check hulls of meshes, as MuJoCo does.",
-    ),
-)
-# That pose robots.
-pose_options = _together(
-    click.option(
-        "--pose",
-        multiple=True,
-        metavar="FILE",
-        help='Values of joints in radians and metres, {"joint": value}: a JSON file or the text. '
-        "Several poses, or a list of them, are checked one by one.",
-    ),
-    click.option(
-        "--state",
-        multiple=True,
-        metavar="NAME",
-        help="A state of the SRDF; --pose overrides it. Repeatable.",
-    ),
-    click.option(
-        "--sample",
-        type=click.IntRange(min=1),
-        metavar="N",
-        help="Check N random poses; joints in --pose and --state stay.",
-    ),
-    click.option(
-        "--seed",
-        type=click.IntRange(min=0),
-        metavar="N",
-        help="The seed of the random poses.  [default: 0]",
-    ),
-)
-
-
-# That pose robots once.
-one_pose_options = _together(
-    click.option(
-        "--pose",
-        multiple=True,
-        metavar="FILE",
-        help="Values of the joints of a robot, as in a check, of one pose.",
-    ),
-    click.option(
-        "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
-    ),
 )

@@ -15,20 +15,22 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
     debug_option,
+    open_option,
+    output_option,
+    paths_argument,
+    planar_option,
+)
+from satcheck.cli.output import Document, Page
+from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
+from satcheck.cli.scene_options import (
     geometry_options,
     merge_option,
     one_pose_options,
-    open_option,
-    output_option,
     package_option,
-    paths_argument,
-    planar_option,
     reading_options,
     split_option,
     units_option,
 )
-from satcheck.cli.output import Document, Page
-from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
 from satcheck.studies.axes import axes_of

@@ -31,24 +31,16 @@ from satcheck.cli.options import (
     config_option,
     debug_option,
     exit_zero_option,
-    geometry_options,
     jobs_option,
-    merge_option,
     method_option,
     no_config_option,
     open_option,
     output_option,
-    package_option,
     paths_argument,
     picture_options,
     planar_option,
-    pose_options,
-    reading_options,
-    rules_option,
-    split_option,
     tolerance_option,
     top_option,
-    units_option,
 )
 from satcheck.cli.output import Document
 from satcheck.cli.pictures import (
@@ -59,8 +51,18 @@ from satcheck.cli.pictures import (
     write_pictures,
 )
 from satcheck.cli.progress import Bar
+from satcheck.cli.refusals import refuse_certificate, refuse_of_poses, refuse_of_worlds
 from satcheck.cli.rendering import Delivery, Shown, rendered, tell
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.scene_options import (
+    geometry_options,
+    merge_option,
+    package_option,
+    pose_options,
+    reading_options,
+    rules_option,
+    split_option,
+    units_option,
+)
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene
 
@@ -289,7 +291,7 @@ def command(
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, output, baseline)
     form = form_of(form, output, (*REPORT_FORMATS, *PICTURES))
-    _refuse_certificate(form, wanted=options["certificate"])
+    refuse_certificate(form, wanted=options["certificate"])
     pictures = taken_pictures(options)
     refuse_pictures(pictures, inputs, output, baseline)
     if pictures or form in PICTURES:
@@ -301,7 +303,7 @@ def command(
     if len(worlds) > 1:
         from satcheck.cli.worlds import check_worlds
 
-        _refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
+        refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
         return check_worlds(worlds, inputs, options, baseline, delivery, config)
     known = None if baseline is None else _Known(baseline, read_baseline(baseline))
     document = Document()
@@ -320,7 +322,7 @@ def command(
         if form != "table":
             result = with_stated_places(result, scene)
     else:
-        _refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
+        refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
         result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
@@ -378,34 +380,6 @@ def _check(scene: Scene, settings: Settings) -> Report:
             return check(scene, settings, progress=bar)
     except SystemExit as stop:  # a library that ends the process must not look like an answer
         raise RuntimeError(f"a library called exit({stop.code!r})") from stop
-
-
-def _refuse_certificate(form: str, *, wanted: bool) -> None:
-    if wanted and form != "json":
-        raise click.UsageError(
-            "--certificate needs a JSON report: add -o report.json or --format json"
-        )
-
-
-def _refuse_of_poses(form: str, **options: Any) -> None:
-    """Of many poses a report has counts and no evidence."""
-    if form in (*CI_FORMATS, *PICTURES):
-        raise click.UsageError(f"--format {form} takes one pose, and several are given")
-    for name in ("baseline", "certificate", "explain", "cross_check", "png", "glb"):
-        if options.get(name):
-            option = name.replace("_", "-")
-            raise click.UsageError(f"--{option} takes one pose, and several are given")
-
-
-def _refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
-    """What is about one world."""
-    refused = {f"--format {form}": form in PICTURES, "poses": inputs.has_poses}
-    refused |= {f"--{name}": bool(options[name]) for name in ("certificate", "explain")}
-    refused |= {f"--{name}": name in options for name in ("png", "glb")}
-    for what in (what for what, given in refused.items() if given):
-        raise click.UsageError(
-            f"each scene is a world of its own, and {what} is about one: give one scene, or --merge"
-        )
 
 
 def _check_poses(

@@ -11,22 +11,12 @@ import click
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    geometry_options,
-    merge_option,
-    one_pose_options,
-    package_option,
-    paths_argument,
-    reading_options,
-    split_option,
-    units_option,
-)
+from satcheck.cli.options import color_option, debug_option, paths_argument
 from satcheck.cli.output import harmless, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.report.numbers import at_most
 from satcheck.cli.report.words import counted, issue_line, with_unit
+from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Scene
 from satcheck.scene.glb_file import Node, glb, rounding
@@ -48,13 +38,7 @@ Told = tuple[list[str], list[str]]
     metavar="FILE",
     help="The file to write: a scene file (.toml, .json), or its meshes (.glb).",
 )
-@split_option
-@merge_option
-@package_option
-@geometry_options
-@one_pose_options
-@units_option
-@reading_options
+@one_scene_options
 @color_option
 @debug_option
 def command(output: Path, **options: Any) -> int:

@@ -24,16 +24,14 @@ from satcheck.cli.options import (
     debug_option,
     output_option,
     paths_argument,
-    reading_options,
     seconds_option,
-    split_option,
-    units_option,
 )
 from satcheck.cli.output import Document, Page, harmless, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import at_most, duration
 from satcheck.cli.report.words import counted, issue_line, with_unit
+from satcheck.cli.scene_options import reading_options, split_option, units_option
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step

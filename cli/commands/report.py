@@ -18,7 +18,6 @@ from satcheck.cli.options import (
     debug_option,
     exit_zero_option,
     output_option,
-    outside_option,
     root_option,
 )
 from satcheck.cli.output import Document
@@ -27,6 +26,7 @@ from satcheck.cli.results.difference import compare
 from satcheck.cli.results.query import FORMATS as QUERY_FORMATS
 from satcheck.cli.results.query import answer
 from satcheck.cli.results.report import TOP, Chosen, report
+from satcheck.cli.scene_options import outside_option
 
 FORMATS = (*REPORT_FORMATS, "html", "parquet")
 

@@ -19,23 +19,17 @@ from satcheck.cli.lengths import in_units_of, length, settings_of
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_options,
     jobs_option,
-    merge_option,
-    one_pose_options,
     open_option,
     output_option,
-    package_option,
     paths_argument,
-    reading_options,
-    split_option,
     tolerance_option,
-    units_option,
 )
 from satcheck.cli.output import Document, Page, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.words import issue_line
+from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
@@ -84,13 +78,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @jobs_option
 @form_option
 @output_option
-@split_option
-@merge_option
-@package_option
-@geometry_options
-@one_pose_options
-@units_option
-@reading_options
+@one_scene_options
 @color_option
 @debug_option
 def command(

@@ -12,16 +12,10 @@ from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.forms import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    output_option,
-    paths_argument,
-    reading_options,
-    units_option,
-)
+from satcheck.cli.options import color_option, debug_option, output_option, paths_argument
 from satcheck.cli.output import Document, Page
 from satcheck.cli.progress import Bar
+from satcheck.cli.scene_options import reading_options, units_option
 from satcheck.report.json import document as json_document
 from satcheck.studies.stability import Stability, probe
 

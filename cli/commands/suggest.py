@@ -17,22 +17,24 @@ from satcheck.cli.lengths import settings_of
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    geometry_options,
-    merge_option,
     output_option,
-    package_option,
     paths_argument,
     planar_option,
-    pose_options,
-    reading_options,
-    split_option,
-    units_option,
 )
 from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.suggest import chosen, remark, srdf, toml
 from satcheck.cli.report.words import issue_line
+from satcheck.cli.scene_options import (
+    geometry_options,
+    merge_option,
+    package_option,
+    pose_options,
+    reading_options,
+    split_option,
+    units_option,
+)
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed

@@ -15,18 +15,15 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
     debug_option,
-    merge_option,
     method_option,
     output_option,
     paths_argument,
-    reading_options,
     seconds_option,
-    split_option,
-    units_option,
 )
 from satcheck.cli.output import Document, Page
 from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
 from satcheck.cli.progress import Bar
+from satcheck.cli.scene_options import merge_option, reading_options, split_option, units_option
 from satcheck.report.json import document as json_document
 from satcheck.studies.tradeoff import Tradeoff, tradeoff
 

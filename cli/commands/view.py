@@ -22,7 +22,6 @@ from satcheck.cli.options import (
     color_option,
     debug_option,
     output_option,
-    outside_option,
     picture_options,
     root_option,
 )
@@ -31,6 +30,7 @@ from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, w
 from satcheck.cli.report.picture import render
 from satcheck.cli.report.words import issue_line
 from satcheck.cli.report_file import read_report
+from satcheck.cli.scene_options import outside_option
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report

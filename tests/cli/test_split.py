@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from satcheck.cli.options import SPLITS
+from satcheck.cli.scene_options import SPLITS
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.scene import files, graphs
