@@ -82,6 +82,8 @@ class SupportedBody(Value, frozen=True):
 
 
 Degrees = Annotated[float, Meta(ge=0, le=90)]
+# Gravity may tilt by no more than this about a body that is only balanced.
+BALANCED_DEGREES = 1e-4
 
 
 class BodyIsland(Value, frozen=True):
@@ -100,6 +102,15 @@ class BodyIsland(Value, frozen=True):
     least_friction: Length | None = None
     squeezed: bool | None = None
     reason: str | None = None
+
+    @property
+    def balanced(self) -> bool:
+        return self.margin is not None and self.margin[1] <= BALANCED_DEGREES
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether its bodies may fall although forces hold them."""
+        return bool(self.squeezed) or self.balanced
 
 
 class SupportFinding(Value, frozen=True):

@@ -24,7 +24,7 @@ class Curved:
     image: ShapeImage
 
     def __post_init__(self) -> None:
-        if self._determinant == 0:
+        if self.determinant == 0:
             raise Rejected("its placement flattens it")
 
     def moved(self, offset: list[float]) -> Curved:
@@ -50,7 +50,8 @@ class Curved:
         return cross(y, z), cross(z, x), cross(x, y)  # type: ignore[arg-type, return-value]
 
     @cached_property
-    def _determinant(self) -> Fraction:
+    def determinant(self) -> Fraction:
+        """Of the matrix."""
         return Fraction(dot(self._columns[0], self._rows[0]))
 
     def reach(self, n: Point) -> Reach:
@@ -80,7 +81,7 @@ class Curved:
     def side(self, p: Point) -> int:
         """1 inside, 0 on its border, -1 outside."""
         step = tuple(c - d for c, d in zip(p, self._origin, strict=True))
-        x, y, z = (Fraction(dot(row, step)) / self._determinant for row in self._rows)
+        x, y, z = (Fraction(dot(row, step)) / self.determinant for row in self._rows)
         across = x * x + y * y
         match self.image.primitive:
             case Sphere(radius):

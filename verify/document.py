@@ -10,14 +10,14 @@ from typing import Any
 
 from msgspec import to_builtins
 
-from satcheck.report.report import OVERLAPS, Finding, Report
+from satcheck.report.report import OVERLAPS, SUPPORT_OPEN, UNSUPPORTED, Finding, Report
 from satcheck.report.settings import StatedSettings
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, Uncovered
 from satcheck.scene.read_options import as_stated
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.boxes import boxes_apart
 from satcheck.verify.coverage import uncovered
-from satcheck.verify.exact import Rejected
+from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import ACROSS
@@ -25,6 +25,8 @@ from satcheck.verify.published import IllFormed, report_of
 from satcheck.verify.rules import TERMS, Request, Rules
 from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
+
+SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,10 +121,6 @@ class _NoFile(Exception):
     """The claim may be true, but the file of a body is missing."""
 
 
-class _NotCertified(Exception):
-    """The claim may be true, but no certificate proves it."""
-
-
 class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         self.report, self.findings = report_of(document)
@@ -161,7 +159,7 @@ class _Report:
             return Checked(a, b, relation, "rejected", f"not by the schema: {finding.reason}")
         try:
             proven = self._check(finding)
-        except _NotCertified as why:
+        except NotCertified as why:
             return Checked(a, b, relation, "not certified", str(why))
         except _NoFile as why:
             return Checked(a, b, relation, "no file", str(why))
@@ -194,7 +192,7 @@ class _Report:
         if (finding.motion is None) is not (finding.placed_relation is None):
             raise Rejected("the relation as placed comes with a motion")
         if finding.motion is not None:
-            raise _NotCertified("what happens while bodies move is not certified")
+            raise NotCertified("what happens while bodies move is not certified")
         request = self.request_of(a, b)
         unknown = any(body.claims and body.bounds is None for body in (a, b))
         self.listed_apart += unknown or boxes_apart(a, b, request)
@@ -241,6 +239,8 @@ class _Report:
     def check_support(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
         """The answers about the support of bodies; none if a file is missing."""
         statics = self.report.support
+        if statics is None and any(i.code in SUPPORT_CODES for i in self.report.issues):
+            faults.append("issues are about the support of bodies, and its section is missing")
         if statics is None or self.missing:
             return ()
         from satcheck.verify.statics.claims import Claims

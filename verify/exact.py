@@ -24,6 +24,10 @@ class Rejected(Exception):
     """A claim that its certificate does not prove, in one sentence."""
 
 
+class NotCertified(Exception):
+    """A claim that may be true, but that nothing here proves."""
+
+
 def lattice(*arrays: Floats) -> int:
     """The least k >= 0 such that all these numbers times 2**k are integers."""
     numbers = np.concatenate([array.ravel() for array in arrays])

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 NO_CHAIN = "it floats: no chain of contacts leads to a fixed body"
 NOT_LET_GO = "squeeze not looked for: its island has too many contact points"
+NOT_DECIDED = "squeeze not decided: the search for the first motion did not end"
 FALLS = "no contact forces hold it: it starts to move"
 
 
@@ -48,8 +49,10 @@ def answer_to(
     return "open", outcome.reason
 
 
-def doubt_about(margins: Margins) -> str | None:
+def doubt_about(margins: Margins | None) -> str | None:
     """Why a body may fall although forces exist that hold it; None: no such reason is known."""
+    if margins is None:
+        return None
     if margins.squeezed:
         return "squeeze only: forces hold it if something presses it, else it falls"
     if margins.balanced:

@@ -20,6 +20,7 @@ from satcheck.audit.statics.programme import (
     positive,
     zeros,
 )
+from satcheck.report.statics import BALANCED_DEGREES
 
 # The most contact points of all islands together whose tilt and friction are looked for, by some
 # twenty programmes each, and the most of one island whose first step is.
@@ -28,7 +29,6 @@ MOST_OF_STEP = 2000
 DIRECTIONS = 8
 # The largest tilt that is looked for, as a tangent: 89.4 degrees.
 MOST_TILT = 100.0
-BALANCED_DEGREES = 1e-4
 HALVINGS = 12
 # The fixed point of the first step: at most so many rounds, and an acceleration, as a share of
 # gravity, below which a body rests.

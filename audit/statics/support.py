@@ -10,6 +10,7 @@ import numpy as np
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE, PlacedBodies
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.statics.answers import (
+    NOT_DECIDED,
     NOT_LET_GO,
     answer_to,
     asks,
@@ -246,9 +247,10 @@ class Support:
         outcome = None if subject.fixed is not None else self.outcomes[graph.island[k]]
         answer, reason = answer_to(question, k, subject, graph, outcome)
         margins = None if subject.fixed is not None else self.margins[graph.island[k]]
-        if answer == "yes" and margins is not None:
+        if answer == "yes" and outcome is not None:
             reason = doubt_about(margins)
-        if answer == "yes" and outcome is not None and margins is None and outcome.beside_walls:
-            answer = "open" if question == "stable" else "yes"
-            reason = NOT_LET_GO
+            undecided = margins is None or margins.squeezed is None
+            if reason is None and undecided and outcome.beside_walls:
+                answer = "open" if question == "stable" else "yes"
+                reason = NOT_LET_GO if margins is None else NOT_DECIDED
         return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from satcheck.report.statics import (
     BodyContact,
+    BodyIsland,
     ContactPoint,
     FirstMotion,
     Statics,
@@ -20,16 +19,9 @@ from satcheck.report.statics import (
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Floats, Point, Rejected
-from satcheck.verify.rules import selected_by
+from satcheck.verify.exact import NotCertified, Point, Rejected
+from satcheck.verify.statics.contacts import ROUNDING, Contacts
 from satcheck.verify.statics.gaps import check_apart
-from satcheck.verify.statics.places import (
-    Place,
-    Surface,
-    place_of_balls,
-    places_of,
-    places_of_ball,
-)
 from satcheck.verify.statics.sums import (
     Push,
     check_balance,
@@ -38,20 +30,12 @@ from satcheck.verify.statics.sums import (
     resistance,
     velocity_at,
 )
-from satcheck.verify.statics.weights import Weight, ball, covers_once, weight_of
+from satcheck.verify.statics.terms import Terms
+from satcheck.verify.statics.weights import Weight, covers_once
 
-QUESTIONS = ("supported", "stable")
-KEYS = (*QUESTIONS, "mounted", "density", "mass", "friction", "severity")
-# How far two computations of one contact may be off: of the largest coordinate, and of a normal.
-SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6
-# Of the rounding of coordinates, as in the search for contacts, and as much to spare.
-ROUNDING, SHARE = 2.0**-46, 0.02
 SAME_WEIGHT = 1e-9  # relative
 FASTEST = 1e100  # of a motion, whose squares are floats
-
-
-class _NotCertified(Exception):
-    """The claim may be true, but it cannot be proven here."""
+STEEP = np.sqrt(0.5)  # the cosine of 45 degrees: bodies beside such contacts may be squeezed
 
 
 class Claims:
@@ -60,15 +44,14 @@ class Claims:
 
     def __init__(self, statics: Statics, bodies: Mapping[str, Placed]) -> None:
         self.statics, self.bodies = statics, bodies
-        self.terms = _terms(statics, bodies)
+        self.terms = Terms(statics, bodies)
+        self.contacts = Contacts(bodies, statics.tolerance)
         self.down = vector(statics.gravity)
         self.usable = {id_: body for id_, body in bodies.items() if body.claims}
         self.stated = {body.id: body for body in statics.bodies}
-        self._places: dict[tuple[str, str], list[Place]] = {}
-        self._balanced: dict[tuple[int, bool], str | None] = {}
-        self._moving: dict[int, str | None] = {}
-        self._worst: dict[int, float] = {}
-        self._afloat: str | bool | None = False
+        self._balanced = _Once()
+        self._moving = _Once()
+        self._afloat = _Once()
         self._check_section()
 
     def judged(self) -> Iterator[CheckedSupport]:
@@ -80,7 +63,7 @@ class Claims:
     def _outcome(self, finding: SupportFinding) -> tuple[Outcome, str | None]:
         try:
             self._check(finding)
-        except _NotCertified as why:
+        except NotCertified as why:
             return "not certified", str(why)
         except Rejected as why:
             return "rejected", str(why)
@@ -88,13 +71,8 @@ class Claims:
 
     def _check_section(self) -> None:
         """Rejects questions, fixed bodies, weights and frictions that do not follow."""
-        asked = [
-            (id_, question)
-            for id_ in self.bodies
-            for question in QUESTIONS
-            if self.terms[id_].get(question)
-        ]
-        if sorted(asked) != sorted((f.body, f.question) for f in self.statics.findings):
+        answered = sorted((f.body, f.question) for f in self.statics.findings)
+        if sorted(self.terms.asked()) != answered:
             raise Rejected("the questions are not those that rules ask")
         if set(self.stated) != set(self.usable) or len(self.stated) < len(self.statics.bodies):
             raise Rejected("the bodies of the support are not those of the report")
@@ -105,57 +83,73 @@ class Claims:
         for contact in self.statics.contacts:
             if contact.a not in self.stated or contact.b not in self.stated:
                 raise Rejected("a contact of a body that the report does not have")
-            if contact.friction != self._friction(contact.a, contact.b):
+            if contact.friction != self.terms.friction(contact.a, contact.b):
                 raise Rejected("the friction of a contact is not that of the rules")
 
     def _check_body(self, body: SupportedBody) -> None:
         static = self.bodies[body.id].static
-        mounted = bool(self.terms[body.id].get("mounted"))
+        mounted = bool(self.terms.value(body.id, "mounted"))
         if body.fixed != ("static" if static else "mounted" if mounted else None):
             raise Rejected(f"{body.id}: whether it is fixed does not follow from the rules")
         if (body.mass is None) is not (body.centre is None):
             raise Rejected(f"{body.id}: a mass has a centre")
         if body.mass is None or body.centre is None:
             return
-        weight, size = self.weight(body.id), self._size(body.id)
+        weight, size = self.terms.weight(body.id), self.contacts.size(body.id)
         if abs(float(weight.mass) - body.mass) > SAME_WEIGHT * body.mass:
             raise Rejected(f"{body.id}: its mass is {float(weight.mass):.9g}")
         off = max(abs(float(c) - s) for c, s in zip(weight.centre, body.centre, strict=True))
-        if off > SAME_WEIGHT * size + 4 * ROUNDING * self._largest(body.id):
+        if off > SAME_WEIGHT * size + 4 * ROUNDING * self.contacts.largest(body.id):
             raise Rejected(f"{body.id}: its centre of mass is elsewhere")
 
     def _check(self, finding: SupportFinding) -> None:
-        terms = self.terms[finding.body]
-        if finding.rule != terms["names"][finding.question]:
+        if finding.rule != self.terms.rule(finding.body, finding.question):
             raise Rejected("another rule asks this")
-        doubted = finding.answer == "yes" and finding.reason and finding.severity == "warning"
-        if not doubted and finding.severity != _severity(finding.answer, terms.get("severity")):
+        body = self.stated.get(finding.body)
+        doubted = finding.answer == "yes" and self._is_doubted(finding, body)
+        if not doubted and finding.severity != _severity(finding.answer, self._own(finding)):
             raise Rejected("the severity does not follow from the answer and the rules")
         if finding.answer == "open":
             return
-        body = self.stated.get(finding.body)
         if body is None:
             raise Rejected("nothing is known about this body")
         if finding.answer == "yes":
             if body.fixed is None:
                 self._check_held(body, strict=finding.question == "stable")
         elif body.floating == "yes":
-            self._check_afloat()
+            self._afloat.check(None, self._check_afloat)
         else:
             self._check_moves(body)
+
+    def _own(self, finding: SupportFinding) -> str | None:
+        """The severity that rules give the errors of this body."""
+        own: str | None = self.terms.value(finding.body, "severity")
+        return own
+
+    def _is_doubted(self, finding: SupportFinding, body: SupportedBody | None) -> bool:
+        """Whether a yes comes with a warning. Rejects one that hides its doubt."""
+        if finding.severity == "warning" and finding.reason:
+            return True
+        if body is None or body.fixed is not None:
+            return False
+        island = self.statics.islands[self._island(body)]
+        if island.doubtful or (island.squeezed is None and self._is_beside_walls(island)):
+            raise Rejected("a body that may fall although forces hold it has a warning")
+        return False
+
+    def _is_beside_walls(self, island: BodyIsland) -> bool:
+        down, members = np.array(self.statics.gravity), set(island.bodies)
+        return any(
+            abs(np.array(point.normal) @ down) < STEEP
+            for contact in self.statics.contacts
+            if members & {contact.a, contact.b}
+            for point in contact.points
+        )
 
     def _check_held(self, body: SupportedBody, *, strict: bool) -> None:
         """By forces on all bodies of its island."""
         number = self._island(body)
-        key = number, strict
-        if key not in self._balanced:
-            try:
-                self._check_island(number, strict)
-                self._balanced[key] = None
-            except Rejected as why:
-                self._balanced[key] = str(why)
-        if self._balanced[key] is not None:
-            raise Rejected(str(self._balanced[key]))
+        self._balanced.check((number, strict), lambda: self._check_island(number, strict))
 
     def _check_island(self, number: int, strict: bool) -> None:
         members = set(self.statics.islands[number].bodies)
@@ -175,79 +169,58 @@ class Claims:
                         raise Rejected(f"{name} holds a body, and is not in its island")
         for name, own in pushes.items():
             if not covers_once(self.bodies[name]):
-                raise _NotCertified(f"{name}: its parts may overlap, so its mass is not certified")
-            size = Fraction(self._size(name))
-            check_balance(name, self.weight(name), self.down, size, own)
+                raise NotCertified(f"{name}: its parts may overlap, so its mass is not certified")
+            size = Fraction(self.contacts.size(name))
+            check_balance(name, self.terms.weight(name), self.down, size, own)
+            for other in self.contacts.near(name):
+                if self.bodies[other].bounds is not None:
+                    self.contacts.check_shallow(name, other)
 
     def _check_force(self, contact: BodyContact, point: ContactPoint, strict: bool) -> None:
-        place = self._place(contact, point)
-        if strict and not self._is_strict(contact, place):
+        place = self.contacts.at(contact, point)
+        if strict and not self.contacts.is_strict(contact.a, contact.b, place):
             raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
-        friction = Fraction(self._friction(contact.a, contact.b))
+        friction = Fraction(self.terms.friction(contact.a, contact.b))
         check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
 
-    def _place(self, contact: BodyContact, point: ContactPoint) -> Place:
-        """The contact of the bodies at this point and along this normal."""
-        far = SAME_PLACE * max(self._largest(contact.a), self._largest(contact.b))
-        at, normal = np.array(point.at), np.array(point.normal)
-        same = [
-            place
-            for place in self.places(contact.a, contact.b)
-            if np.abs(place.at - at).max() <= far
-            and np.abs(place.normal - normal).max() <= SAME_NORMAL
-        ]
-        if not same:
-            raise Rejected(f"{contact.a} and {contact.b} have no contact where a force acts")
-        return min(same, key=lambda place: (not place.exact, np.abs(place.normal - normal).max()))
-
-    def _is_strict(self, contact: BodyContact, place: Place) -> bool:
-        rounding = self._rounding(contact.a, contact.b)
-        exact = [p.height for p in self.places(contact.a, contact.b) if p.exact]
-        return place.exact and place.height <= min(exact) + 4 * rounding
-
     def _check_moves(self, body: SupportedBody) -> None:
-        """By the motion of its island."""
+        """By a motion of all that moves in contact with it: no forces hold these bodies."""
         if body.motion is None:
-            raise _NotCertified(f"{body.id}: no motion shows that it falls")
-        if not any((*body.motion.velocity, *body.motion.angular)):
+            raise NotCertified(f"{body.id}: no motion shows that it falls")
+        if not _is_moving(body):
             raise Rejected(f"{body.id} is at rest in the motion that shows its fall")
-        number = self._island(body)
-        for name in self.statics.islands[number].bodies:
-            moves = self.stated[name].motion
-            if moves and max(map(abs, (*moves.velocity, *moves.angular))) > FASTEST:
-                raise Rejected(f"{name}: a motion this fast cannot be checked")
-        if number not in self._moving:
-            try:
-                self._worst[number] = self._check_motion(number)
-                self._moving[number] = None
-            except Rejected as why:
-                self._moving[number] = str(why)
-        if self._moving[number] is not None:
-            raise Rejected(str(self._moving[number]))
-        self._check_falls(body.id, body.motion, self._worst[number])
+        together = self._moving_with(body.id)
+        self._moving.check(together, lambda: self._check_motion(together))
 
-    def _check_falls(self, name: str, motion: FirstMotion, worst: float) -> None:
-        """That the motion is the fall of this body too: others of its island may pay for it."""
-        try:
-            check_power({name: motion}, {name: self.weight(name)}, self.down, worst)
-        except Rejected as why:
-            raise _NotCertified(f"{name}, by itself: {why}") from None
+    def _moving_with(self, name: str) -> frozenset[str]:
+        """The bodies that move and are connected with this one by contacts of each other."""
+        together, pending = {name}, [name]
+        while pending:
+            body = pending.pop()
+            for other in set(self.contacts.near(body)) - together:
+                stated = self.stated.get(other)
+                if stated and _is_moving(stated) and self.contacts.between(body, other):
+                    together.add(other)
+                    pending.append(other)
+        return frozenset(together)
 
-    def _check_motion(self, number: int) -> float:
-        """The largest resistance of a contact."""
+    def _check_motion(self, together: frozenset[str]) -> None:
+        """That gravity does work along it, and that no contact resists."""
         motions = {
             name: motion
-            for name in self.statics.islands[number].bodies
+            for name in sorted(together)
             if (motion := self.stated[name].motion) is not None
         }
-        weights = {name: self.weight(name) for name in motions}
+        weights = {name: self.terms.weight(name) for name in motions}
         worst = 0.0
-        for name in motions:
-            for other in self.bodies:
-                if other != name and not (other in motions and other < name):
+        for name, motion in motions.items():
+            if max(map(abs, (*motion.velocity, *motion.angular))) > FASTEST:
+                raise Rejected(f"{name}: a motion this fast cannot be checked")
+            for other in self.contacts.near(name):
+                if not (other in motions and other < name):
                     worst = max(worst, self._resistance(name, other, motions, weights))
+                    self.contacts.check_shallow(name, other)
         check_power(motions, weights, self.down, worst)
-        return worst
 
     def _resistance(
         self,
@@ -256,9 +229,10 @@ class Claims:
         motions: Mapping[str, FirstMotion],
         weights: Mapping[str, Weight],
     ) -> float:
-        friction = self._friction(name, other)
+        """The largest one of their contacts."""
+        friction = self.terms.friction(name, other)
         worst = 0.0
-        for place in self.places(name, other):
+        for place in self.contacts.between(name, other):
             at = vector(place.at.tolist())
             own = velocity_at(motions.get(name), self._centre(name, weights), at)
             against = velocity_at(motions.get(other), self._centre(other, weights), at)
@@ -272,63 +246,13 @@ class Claims:
 
     def _check_afloat(self) -> None:
         """All bodies that float, together: none of them touches another one."""
-        if self._afloat is False:
-            afloat = {body.id for body in self.statics.bodies if body.floating == "yes"}
-            try:
-                if any(self.stated[name].fixed is not None for name in afloat):
-                    raise Rejected("a fixed body floats")
-                for name in afloat:
-                    for other in self.bodies.keys() - afloat:
-                        check_apart(self.bodies[name], self.bodies[other], self.statics.tolerance)
-                self._afloat = None
-            except Rejected as why:
-                self._afloat = str(why)
-        if self._afloat is not None:
-            raise Rejected(str(self._afloat))
-
-    def places(self, a: str, b: str) -> list[Place]:
-        """Contacts of A and B, normals from B to A."""
-        if (a, b) not in self._places:
-            if (b, a) in self._places:
-                turned = self._places[b, a]
-                self._places[a, b] = [Place(p.at, -p.normal, p.height, p.exact) for p in turned]
-            else:
-                try:
-                    self._places[a, b] = self._found(a, b)
-                except Rejected as why:
-                    raise _NotCertified(f"the contacts of {a} and {b}: {why}") from None
-        return self._places[a, b]
-
-    def _found(self, a: str, b: str) -> list[Place]:
-        one, other = self.bodies[a], self.bodies[b]
-        if one.bounds is None or other.bounds is None:
-            raise Rejected("a body that cannot be read may hold others")
-        tolerance, rounding = self.statics.tolerance, self._rounding(a, b)
-        gap = np.maximum(one.bounds[0] - other.bounds[1], other.bounds[0] - one.bounds[1])
-        if float(gap.max()) > tolerance * (1 + 1e-6):
-            return []
-        of_a, of_b = self._surfaces.get(a), self._surfaces.get(b)
-        if of_a is not None and of_b is not None:
-            return places_of(of_a, of_b, tolerance, rounding)
-        if of_b is not None:
-            centre, radius = ball(one)
-            return places_of_ball(np.array(centre), radius, of_b, tolerance, rounding)
-        if of_a is not None:
-            centre, radius = ball(other)
-            found = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
-            return [Place(p.at, -p.normal, p.height, p.exact) for p in found]
-        (p, r), (q, s) = ball(one), ball(other)
-        return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
-
-    @cached_property
-    def _surfaces(self) -> dict[str, Surface]:
-        return {
-            id_: Surface(body.world) for id_, body in self.bodies.items() if body.world is not None
-        }
-
-    def weight(self, name: str) -> Weight:
-        terms = self.terms[name]
-        return weight_of(self.bodies[name], terms.get("mass"), terms.get("density"))
+        afloat = {body.id for body in self.statics.bodies if body.floating == "yes"}
+        if any(self.stated[name].fixed is not None for name in afloat):
+            raise Rejected("a fixed body floats")
+        for name in afloat:
+            for other in self.contacts.near(name):
+                if other not in afloat:
+                    check_apart(self.bodies[name], self.bodies[other], self.statics.tolerance)
 
     def _island(self, body: SupportedBody) -> int:
         number = body.island
@@ -340,41 +264,28 @@ class Claims:
             raise Rejected("an island has free bodies of the report only")
         return number
 
-    def _friction(self, a: str, b: str) -> float:
-        own = [self.terms[name].get("friction") for name in (a, b)]
-        return min([value for value in own if value is not None], default=self.statics.friction)
 
-    def _largest(self, name: str) -> float:
-        low, high = self._bounds(name)
-        return float(max(np.abs(low).max(), np.abs(high).max()))
+class _Once:
+    """Checks that several answers share: each is made once."""
 
-    def _size(self, name: str) -> float:
-        low, high = self._bounds(name)
-        return float(np.linalg.norm(high - low))
+    def __init__(self) -> None:
+        self._results: dict[object, Rejected | NotCertified | None] = {}
 
-    def _bounds(self, name: str) -> tuple[Floats, Floats]:
-        bounds = self.bodies[name].bounds
-        if bounds is None:
-            raise Rejected(f"{name} cannot be read")
-        return bounds
-
-    def _rounding(self, a: str, b: str) -> float:
-        written = self.bodies[a].resolution + self.bodies[b].resolution
-        largest = max(self._largest(a), self._largest(b))
-        return min(2 * written, SHARE * self.statics.tolerance) + ROUNDING * largest
+    def check(self, key: object, check: Callable[[], None]) -> None:
+        """Raises what the check of this key raises."""
+        if key not in self._results:
+            try:
+                check()
+                self._results[key] = None
+            except (Rejected, NotCertified) as why:
+                self._results[key] = why
+        result = self._results[key]
+        if result is not None:
+            raise type(result)(str(result))
 
 
-def _terms(statics: Statics, bodies: Mapping[str, Placed]) -> dict[str, dict[str, Any]]:
-    """id -> key -> the value of the last rule that sets it; `names`: key -> that rule."""
-    terms: dict[str, dict[str, Any]] = {id_: {"names": {}} for id_ in bodies}
-    select = selected_by(bodies)
-    for rule in statics.rules:
-        values = {key: getattr(rule, key) for key in KEYS}
-        said = {key: value for key, value in values.items() if value is not None}
-        for id_ in select(rule.bodies):
-            terms[id_] |= said
-            terms[id_]["names"] |= dict.fromkeys(said, rule.where or rule.bodies)
-    return terms
+def _is_moving(body: SupportedBody) -> bool:
+    return body.motion is not None and any((*body.motion.velocity, *body.motion.angular))
 
 
 def _severity(answer: str, own: str | None) -> str:

@@ -17,7 +17,8 @@ MOST_NEAR = 2_000_000
 
 
 def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
-    """Rejects bodies that are not farther apart than the tolerance."""
+    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
+    may be negative: then the bodies may overlap by less than that."""
     if _boxes_apart(a, b, tolerance):
         return
     if a.world is not None and b.world is not None:
@@ -62,8 +63,8 @@ def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
     at = np.array([centre])
     k = max(world.lattice, lattice(at))
     mesh, [c] = Exact(world, k), integers(at, k)
-    reach = (Fraction(radius) + Fraction(tolerance)) * (1 << k)
-    span = np.nextafter(radius + tolerance, np.inf)
+    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0)) * (1 << k)
+    span = np.nextafter(max(radius + tolerance, 0.0), np.inf)
     near = ((world.low <= at + span) & (world.high >= at - span)).all(axis=1)
     for t in np.flatnonzero(near).tolist():
         x, _ = nearest_to_origin([sub(p, c) for p in mesh.corners(t)])
@@ -77,6 +78,6 @@ def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
 def _balls_apart(a: Placed, b: Placed, tolerance: float) -> None:
     (p, r), (q, s) = ball(a), ball(b)
     step = [Fraction(x) - Fraction(y) for x, y in zip(p, q, strict=True)]
-    reach = Fraction(r) + Fraction(s) + Fraction(tolerance)
+    reach = max(Fraction(r) + Fraction(s) + Fraction(tolerance), Fraction(0))
     if dot(step, step) <= reach * reach:
         raise Rejected("bodies that should be apart are within the tolerance")

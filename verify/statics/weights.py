@@ -14,10 +14,20 @@ from fractions import Fraction
 
 import numpy as np
 
-from satcheck.core.shapes import Sphere
+from satcheck.core.shapes import (
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Primitive,
+    Sphere,
+    sizes_of,
+)
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import Point, Rejected, cross, dot, integers
-from satcheck.verify.world import World
+from satcheck.verify.curved import Curved
+from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, integers
+from satcheck.verify.surfaces import meeting
+from satcheck.verify.world import Exact, World
 
 MOST_PARTS = 500  # of a mesh, whose boxes are compared in pairs
 
@@ -34,7 +44,7 @@ def weight_of(body: Placed, mass: float | None, density: float | None) -> Weight
     """mass, density: as rules state them; the density is 1 by default. Rejects a body without a
     known volume."""
     if body.curved is not None:
-        volume, centre = _of_ball(body)
+        volume, centre = _of_shape(body.curved)
     elif body.world is not None and body.world.solid and not body.holed:
         volume, centre = _of_mesh(body.world)
     else:
@@ -45,19 +55,37 @@ def weight_of(body: Placed, mass: float | None, density: float | None) -> Weight
 
 
 def covers_once(body: Placed) -> bool:
-    """Whether no two parts of a mesh share space, as far as their boxes tell."""
+    """Whether no two parts of a mesh share space, and parts within others bound voids."""
     if body.world is None:
         return True
     world = body.world
     labels = world.labels(world.triangles)[world.triangles[:, 0]]
-    parts = [labels == label for label in np.unique(labels)]
-    if len(parts) > MOST_PARTS:
-        return False
-    boxes = [(world.low[p].min(axis=0), world.high[p].max(axis=0)) for p in parts]
-    return not any(
-        ((low < high_2) & (low_2 < high)).all()
-        for (low, high), (low_2, high_2) in itertools.combinations(boxes, 2)
-    )
+    parts = [world.triangles[labels == label] for label in np.unique(labels)]
+    if not 1 < len(parts) <= MOST_PARTS:
+        return len(parts) == 1
+    shells = [Exact(World(world.vertices, part, solid=True), world.lattice) for part in parts]
+    beside: list[list[Exact]] = [[] for _ in shells]
+    for (i, one), (j, other) in itertools.combinations(enumerate(shells), 2):
+        if _boxes_meet(one.world, other.world):
+            if meeting(one, other):
+                return False
+            beside[i].append(other)
+            beside[j].append(one)
+    return all(_bounds_once(shell, others) for shell, others in zip(shells, beside, strict=True))
+
+
+def _boxes_meet(a: World, b: World) -> bool:
+    (low, high), (low_b, high_b) = a.bounds, b.bounds
+    return bool(((low < high_b) & (low_b < high)).all())
+
+
+def _bounds_once(shell: Exact, others: list[Exact]) -> bool:
+    """Whether the others, which the shell does not meet, leave the winding numbers on both sides of
+    it 0 and 1."""
+    x, y, z = map(Fraction, shell.points[shell.world.triangles[0, 0]])
+    outside = sum(other.winding((x, y, z)) or 0 for other in others)
+    six = sum(dot(a, cross(b, c)) for a, b, c in map(shell.corners, range(len(shell.world.low))))
+    return {outside, outside + (1 if six > 0 else -1)} == {0, 1}
 
 
 def _of_mesh(world: World) -> tuple[Fraction, Point]:
@@ -77,19 +105,45 @@ def _of_mesh(world: World) -> tuple[Fraction, Point]:
     return Fraction(six, 6 * scale**3), (x, y, z)
 
 
-def _of_ball(body: Placed) -> tuple[Fraction, Point]:
+def _of_shape(shape: Curved) -> tuple[Fraction, Point]:
     """The volume up to the rounding of pi: forces are compared with it up to more than that."""
-    centre, radius = ball(body)
-    x, y, z = map(Fraction, centre)
-    return Fraction(4, 3) * Fraction(math.pi) * Fraction(radius) ** 3, (x, y, z)
+    volume, above = _unplaced(shape.image.primitive)
+    x, y, z = (
+        Fraction(o) + above * Fraction(axis)
+        for o, axis in zip(shape.image.origin, shape.image.columns[2], strict=True)
+    )
+    return abs(shape.determinant) * volume, (x, y, z)
+
+
+def _unplaced(shape: Primitive) -> tuple[Fraction, Fraction]:
+    """The volume of a curved shape, and the height of its centre of mass along its axis."""
+    ball = Fraction(4, 3) * Fraction(math.pi)
+    circle, sizes = Fraction(math.pi), tuple(map(Fraction, sizes_of(shape)))
+    match shape:
+        case Sphere():
+            return ball * sizes[0] ** 3, Fraction(0)
+        case Ellipsoid():
+            return ball * sizes[0] * sizes[1] * sizes[2], Fraction(0)
+        case Capsule():
+            radius, length = sizes
+            return ball * radius**3 + circle * radius**2 * length, Fraction(0)
+        case Cylinder():
+            radius, height = sizes
+            return circle * radius**2 * height, Fraction(0)
+        case Cone():
+            radius, height = sizes
+            return circle * radius**2 * height / 3, -height / 4
+        case _:
+            raise Rejected("a box is no curved shape")
 
 
 def ball(body: Placed) -> tuple[tuple[float, float, float], float]:
-    """(centre, radius). Rejects other curved shapes, and balls that are scaled unevenly."""
+    """(centre, radius). Raises NotCertified for other curved shapes, and for balls that are scaled
+    unevenly."""
     image = None if body.curved is None else body.curved.image
     if image is None or not isinstance(image.primitive, Sphere):
-        raise Rejected(f"{body.id}: the contacts of such a shape are not certified")
+        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
     stretch = [math.hypot(*column) for column in image.columns]
     if max(stretch) - min(stretch) > 1e-12 * max(stretch):
-        raise Rejected(f"{body.id}: the contacts of such a shape are not certified")
+        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
     return image.origin, image.primitive.radius * stretch[0]
