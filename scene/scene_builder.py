@@ -337,7 +337,8 @@ class SceneBuilder:
         """Those of documents first, so that a rule of a scene can override them."""
         everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
         stated = self._scenes.rules(everybody, scales) if self._scenes else ()
-        return (*self._document_rules, *stated)
+        own = (rule.scaled(scales.get(rule.file or "", 1.0)) for rule in self._document_rules)
+        return (*own, *stated)
 
     def _body_rules(self, scales: Mapping[str, float]) -> tuple[BodyRule, ...]:
         if self._scenes is None:

@@ -28,12 +28,13 @@ def read_ifc(data: memoryview) -> RawScene:
     """The bodies in metres, z up, sorted by GlobalId. Raises MeshFileError without a file name."""
     model = open_model(data)
     elements = elements_of(model)
-    bodies = elements.with_shape
+    bodies = elements.bodies
     if not bodies:
         raise MeshFileError("empty-mesh", "no element of the file has a shape")
-    shapes = shapes_of(model, bodies)
+    read = [body for body in bodies if body.id() not in elements.unread]
+    shapes = {**shapes_of(model, read), **elements.unread}
     paths = path_names(bodies)
-    relations = relations_of(model, bodies, paths)
+    relations = relations_of(model, bodies, paths, shapes)
     groups = groups_of(model, bodies)
     parts, places = _parts(bodies, shapes, paths)
     nodes = (

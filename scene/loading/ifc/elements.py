@@ -7,12 +7,13 @@ ports, structural analysis and terrain are not.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
 
 from satcheck.scene.loading.placing import tidy_name
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.plain_ids import UniqueNames
 
 _BODIES = ("IfcElement", "IfcProxy")
@@ -27,12 +28,16 @@ _OTHER_VIEWS = frozenset(
 )  # fmt: skip
 
 
-class Elements(Struct, frozen=True):
-    """with_shape: the bodies, by GlobalId. without: elements that have neither a shape nor parts.
-    wholes: elements whose parts have the shape. left_out: class -> number of other products with
-    a shape."""
+_ONLY_EXTENT = {"Box": "a bounding box", "Clearance": "a clearance"}
 
-    with_shape: tuple[Any, ...]
+
+class Elements(Struct, frozen=True):
+    """bodies: by GlobalId. unread: the number of a body -> why its shape is not read. without:
+    elements that have neither a shape nor parts. wholes: elements whose parts have the shape.
+    left_out: class -> number of other products with a shape."""
+
+    bodies: tuple[Any, ...]
+    unread: Mapping[int, Refusal]
     without: tuple[Any, ...]
     wholes: tuple[Any, ...]
     left_out: Counter[str]
@@ -40,6 +45,7 @@ class Elements(Struct, frozen=True):
 
 def elements_of(model: Any) -> Elements:
     bodies, without, wholes = [], [], []
+    unread: dict[int, Refusal] = {}
     left_out: Counter[str] = Counter()
     for product in sorted(model.by_type("IfcProduct"), key=_order):
         if not _is_body(product):
@@ -49,9 +55,12 @@ def elements_of(model: Any) -> Elements:
             bodies.append(product)
         elif any(True for _ in parts_of(product)):
             wholes.append(product)
+        elif (reason := _unread_shape(product)) is not None:
+            bodies.append(product)
+            unread[product.id()] = Refusal("unsupported-feature", reason)
         else:
             without.append(product)
-    return Elements(tuple(bodies), tuple(without), tuple(wholes), left_out)
+    return Elements(tuple(bodies), unread, tuple(without), tuple(wholes), left_out)
 
 
 def path_names(bodies: Sequence[Any]) -> dict[int, str]:
@@ -75,6 +84,22 @@ def rank_of(identifier: str | None) -> int | None:
     if identifier in _OTHER_VIEWS:
         return None
     return _MATERIAL.index(identifier) if identifier in _MATERIAL else len(_MATERIAL)
+
+
+def _unread_shape(element: Any) -> str | None:
+    """How a file states that an element takes up space, without its shape; None: it does not."""
+    from ifcopenshell.util.element import get_type
+
+    shape = element.Representation
+    stated = {each.RepresentationIdentifier for each in shape.Representations} if shape else set()
+    for identifier, what in _ONLY_EXTENT.items():
+        if identifier in stated:
+            return f"it has no shape, only {what} ({identifier})"
+    kind = get_type(element)
+    for each in getattr(kind, "RepresentationMaps", None) or ():
+        if rank_of(each.MappedRepresentation.RepresentationIdentifier) is not None:
+            return f"only its type {kind.GlobalId} has a shape, and the file does not place it"
+    return None
 
 
 def parts_of(whole: Any) -> Iterator[Any]:

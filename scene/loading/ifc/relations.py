@@ -2,7 +2,8 @@
 
 What fills an opening, covers an element or is part of one assembly touches its neighbours. An
 overlap there is a note. Nothing is checked between a whole and its parts, which are the same
-material, and between walls that a path connects, whose corners most programs export overlapping.
+material. Walls that a path connects may overlap in their corner, as many programs export them, but
+not by most of one of them.
 """
 
 from __future__ import annotations
@@ -14,9 +15,12 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.scene.loading.ifc.elements import parts_of
-from satcheck.scene.loading.raw_mesh import RawRule, RuleSeverity
+from satcheck.scene.loading.ifc.shape import Shape
+from satcheck.scene.loading.raw_mesh import RawRule, Refusal, RuleSeverity
 
 _NOTE: RuleSeverity = "note"
+# Of the smaller of two walls that a path connects: less than what a duplicate shares with its twin.
+_CORNER_SHARE = 0.5
 _BARS, _CONCRETE = "reinforcement", "reinforced"
 _BAR = "IfcReinforcingElement"
 # What reinforcement lies in. In IFC2X3 reinforcement is itself a building element.
@@ -39,17 +43,25 @@ class _Pair(Struct, frozen=True):
     b: Any
     reason: str
     severity: RuleSeverity | None = _NOTE
+    is_corner: bool = False
 
 
-def relations_of(model: Any, bodies: Sequence[Any], paths: Mapping[int, str]) -> Relations:
-    """paths: the number of each body -> the path of its node."""
+def relations_of(
+    model: Any,
+    bodies: Sequence[Any],
+    paths: Mapping[int, str],
+    shapes: Mapping[int, Shape | Refusal],
+) -> Relations:
+    """paths, shapes: of each body, by its number."""
     groups: dict[int, list[str]] = {}
     rules = [*_reinforcement(bodies, groups), *_assemblies(model, paths, groups)]
     rules += _wholes(bodies, paths)
     for pair in _pairs(model):
         for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
             if a != b:
-                rules.append(RawRule(paths[a], paths[b], pair.reason, severity=pair.severity))
+                most = _most_common(shapes[a], shapes[b]) if pair.is_corner else None
+                severity = pair.severity if most is None else None
+                rules.append(RawRule(paths[a], paths[b], pair.reason, False, severity, most))
     return Relations(
         tuple(dict.fromkeys(rules)), {body: tuple(names) for body, names in groups.items()}
     )
@@ -101,7 +113,7 @@ def _pairs(model: Any) -> Iterator[_Pair]:
         is_path = relation.is_a("IfcRelConnectsPathElements")
         reason = f"connected ({relation.is_a()})"
         ends = relation.RelatingElement, relation.RelatedElement
-        yield _Pair(*ends, reason, None if is_path else _NOTE)
+        yield _Pair(*ends, reason, is_corner=is_path)
         for real in getattr(relation, "RealizingElements", ()):
             yield from (_Pair(real, end, reason) for end in ends)
     for relation in _all(model, "IfcRelCoversBldgElements"):
@@ -135,6 +147,14 @@ def _ports(model: Any) -> Iterator[_Pair]:
         a, b = map(get_port_element, (relation.RelatingPort, relation.RelatedPort))
         if a is not None and b is not None:
             yield _Pair(a, b, "connected by ports (IfcRelConnectsPorts)")
+
+
+def _most_common(*shapes: Shape | Refusal) -> float | None:
+    """The most common volume of two joined walls; None: a wall has no volume."""
+    volumes = [shape.volume for shape in shapes if isinstance(shape, Shape)]
+    return (
+        _CORNER_SHARE * min(volumes) if len(volumes) == len(shapes) and min(volumes) > 0 else None
+    )
 
 
 def _all(model: Any, name: str) -> list[Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
@@ -17,6 +18,13 @@ class Shape(Struct, frozen=True):
     matrix: Transform | None
     decimals: int
     warnings: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def volume(self) -> float:
+        """Of a closed mesh, cubic metres: the sum of the tetrahedra from one of its vertices."""
+        points = np.frombuffer(self.vertices, "<f8").reshape(-1, 3)
+        corners = (points - points[0])[np.frombuffer(self.triangles, "<u4").reshape(-1, 3)]
+        return float(abs(np.linalg.det(corners).sum()) / 6)
 
     def mesh(self, units: str) -> RawMesh:
         return RawMesh(

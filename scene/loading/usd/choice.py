@@ -26,15 +26,16 @@ class Choice:
         """Why this prim is no body, for `Remarks`; None: it is one. lost: something in it or below
         is not known."""
         if self.colliders:
-            known = not lost and not self._collides(found.prim)
+            known = not lost and not self.collides(found.prim)
             return "no enabled collider" if known else None
         if self._is_hidden(found):
             return "invisible"
         purpose = _purpose(found)
         return None if purpose in self.purposes else f"of purpose {purpose} (--purpose)"
 
-    def _collides(self, prim: Any) -> bool:
-        if not prim.HasAPI(UsdPhysics.CollisionAPI):
+    def collides(self, prim: Any) -> bool:
+        """Whether colliders are checked, and the prim is an enabled one."""
+        if not self.colliders or not prim.HasAPI(UsdPhysics.CollisionAPI):
             return False
         return bool(UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get(self.time))
 

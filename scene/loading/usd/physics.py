@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import combinations_with_replacement
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, combinations_with_replacement
 from typing import Any
 
 from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
-from satcheck.scene.loading.usd.walk import Found
+from satcheck.scene.loading.usd.walk import WORLD, Found, Frame, of_prototype
 
 
 def with_physics(
@@ -22,7 +22,7 @@ def with_physics(
     FilteredPairs, members of CollisionGroups that filter each other, and bodies that a joint
     connects without collisionEnabled. Visual geometry below these prims is treated alike.
     """
-    sources = _Sources(stage)
+    sources = _Sources(stage, found)
     if not sources:
         return tuple(nodes), ()
     made = _Rules(sources, _Members(stage, found), len(nodes))
@@ -34,11 +34,11 @@ def with_physics(
 class _Sources:
     """The prims of a stage that make rules."""
 
-    def __init__(self, stage: Any) -> None:
+    def __init__(self, stage: Any, found: Sequence[Found]) -> None:
         self.filters: list[Any] = []
         self.joints: list[Any] = []
         self.has_bodies = False
-        for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(found)):
             if prim.HasAPI(UsdPhysics.RigidBodyAPI):
                 self.has_bodies = True
             if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
@@ -52,27 +52,62 @@ class _Sources:
         return bool(self.has_bodies or self.filters or self.joints or self.table.GetGroups())
 
 
+def _undefined(found: Sequence[Found]) -> Iterator[Any]:
+    """Ranges of the prims of prototypes below an `over`, which a walk of the stage leaves out."""
+    roots = {root.GetPath(): root for each in found if (root := each.frame.root) is not None}
+    yield from (of_prototype(root) for root in roots.values() if not root.IsDefined())
+
+
 class _Members:
-    """Which nodes are below a prim, or in a rigid body."""
+    """Which nodes are below a prim, or in a rigid body. Both have a name in each instance."""
 
     def __init__(self, stage: Any, found: Sequence[Found]) -> None:
         self._stage = stage
         self._found = found
         self._below: dict[str, list[int]] = {}
+        self._names: dict[str, dict[str, str]] = {}  # path of a prim -> frame -> name there
+        self._around: dict[str, str] = {}  # frame -> the one around it
         self.of_body: dict[str, list[int]] = {}
         for number, each in enumerate(found):
             if each.prim is None:  # of an unresolved reference
                 self._below.setdefault(each.name, []).append(number)
+                self._names.setdefault(each.name, {})[WORLD.name] = each.name
                 continue
             body = None
-            for name, prim in each.frame.ancestors(each.prim):
+            for name, prim, frame in each.frame.ancestors(each.prim):
                 self._below.setdefault(name, []).append(number)
+                self._names.setdefault(str(prim.GetPath()), {})[frame.name] = name
+                self._note(frame)
                 body = body or (name if _is_body(prim) else None)
             if body is not None:
                 self.of_body.setdefault(body, []).append(number)
 
-    def below(self, path: Any) -> list[int]:
-        return self._below.get(str(path), [])
+    def _note(self, frame: Frame) -> None:
+        if frame.instancer is not None:
+            self._around[frame.name] = frame.instancer[1].name
+
+    def below(self, name: str) -> list[int]:
+        return self._below.get(name, [])
+
+    def pairs(self, one: str, other: str) -> Iterator[tuple[str, str]]:
+        """The names of two prims in each instance: the other one is in the same instance, or in
+        one around it, or outside of all. Prims that share no instance are no pair."""
+        others = self._names.get(other, {})
+        swapped = self._names.get(one, {})
+        for frame, name in self._names.get(one, {}).items():
+            if (around := self._nearest(frame, others)) is not None:
+                yield name, others[around]
+        for frame, name in others.items():
+            around = self._nearest(frame, swapped)
+            if around is not None and around != frame:
+                yield swapped[around], name
+
+    def _nearest(self, frame: str, known: Mapping[str, str]) -> str | None:
+        """The frame, or the first around it, that is among the known ones."""
+        place: str | None = frame
+        while place is not None and place not in known:
+            place = self._around.get(place)
+        return place
 
     def of_collision_group(self, path: Any) -> list[int]:
         api = UsdPhysics.CollisionGroup.Get(self._stage, path).GetCollidersCollectionAPI()
@@ -119,11 +154,9 @@ class _Rules:
 
     def _of_filter(self, prim: Any) -> Iterator[RawRule]:
         path = prim.GetPath()
-        own = self._members.below(path)
         for other in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetForwardedTargets():
-            others = self._members.below(other)
-            if own and others:
-                a, b = self._group(f"below {path}", own), self._group(f"below {other}", others)
+            for pair in self._members.pairs(str(path), str(other)):
+                a, b = (self._group(f"below {name}", self._members.below(name)) for name in pair)
                 yield _rule(a, b, f"filteredPairs of {path}")
 
     def _of_joint(self, joint: Any) -> Iterator[RawRule]:
@@ -131,10 +164,13 @@ class _Rules:
             return
         stage = self._sources.stage
         ends = [_body_at(stage, end) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
-        held = [(end, self._members.of_body.get(end, [])) for end in ends if end is not None]
-        if len(held) == 2 and all(numbers for _, numbers in held):
-            a, b = (self._group(f"rigid body {end}", numbers) for end, numbers in held)
-            yield _rule(a, b, f"joint {joint.GetPath()}")
+        if ends[0] is None or ends[1] is None:
+            return
+        for pair in self._members.pairs(ends[0], ends[1]):
+            held = [self._members.of_body.get(end, []) for end in pair]
+            if all(held):
+                a, b = map(self._group, [f"rigid body {end}" for end in pair], held)
+                yield _rule(a, b, f"joint {joint.GetPath()}")
 
     def _of_collision_groups(self) -> Iterator[RawRule]:
         """As the table of the stage says, with merged and inverted groups."""

@@ -11,24 +11,17 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import (
-    NO_SURFACE,
-    RawMesh,
-    RawNode,
-    RawPart,
-    RawScene,
-    Refusal,
-)
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.usd.choice import Choice
 from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
 from satcheck.scene.loading.usd.shapes import flat_faces, placed_shape, shape_of
-from satcheck.scene.loading.usd.stage import Stage, said
+from satcheck.scene.loading.usd.stage import Stage, said, unknown_variants
+from satcheck.scene.loading.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.scene.loading.usd.walk import WORLD, Found, Walk, type_of
 from satcheck.scene.read_options import ReadOptions
 
-_NO_SURFACE = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points", "Volume"))
 _NOT_TURNED = Gf.Matrix4d(1.0)
 Content = RawMesh | Primitive | Refusal
 
@@ -52,6 +45,7 @@ class _Reading:
 
     def scene(self) -> RawScene:
         self._refuse_lost_in_instances()
+        self._lost |= unknown_variants(self._stage.stage)
         for found in Walk(self._stage.stage, self._choice.time).prims():
             self._take(found)
         for name, reason in self._lost.items():
@@ -86,26 +80,30 @@ class _Reading:
         prim, name = found.prim, found.name
         refusal = found.refusal or self._lost.pop(name, None)
         if not prim.IsA(UsdGeom.Gprim) and refusal is None:
-            self._look_at_other(prim, name)
+            self._look_at_other(found)
         elif (reason := self._choice.why_not(found, lost=refusal is not None)) is not None:
             self._said.add("not-a-body", reason, name)
         elif refusal is not None:
             self._add(found, refusal, None)
-        elif type_of(prim) in _NO_SURFACE:
-            words = f"of type {type_of(prim)}, without a surface of triangles"
+        elif (words := without_extent(prim, self._choice)) is not None:
             self._said.add("ignored-geometry", words, name)
-        elif type_of(prim) == "Plane" and self._choice.colliders:
-            self._said.add("half-space", "a half space, nothing is checked against it", name)
+        elif (unread := not_read(prim, self._choice)) is not None:
+            self._add(found, unread, None)
         else:
             self._place(found)
 
-    def _look_at_other(self, prim: Any, name: str) -> None:
-        kind = prim.GetTypeName()
-        if kind and not type_of(prim):
-            words = f"of type {kind}, which is not known"
+    def _look_at_other(self, found: Found) -> None:
+        """At a prim that is no known geometry."""
+        prim, name = found.prim, found.name
+        if (reason := hidden_geometry(prim, self._choice)) is not None:
+            if self._choice.why_not(found, lost=True) is None:
+                self._add(found, reason, None)
+        elif prim.GetTypeName() and not type_of(prim):
+            words = f"of type {prim.GetTypeName()}, which is not known"
             self._said.add("unknown-element", words, name)
-        elif self._choice.colliders and prim.HasAPI(UsdPhysics.CollisionAPI):
-            self._said.add("ignored-geometry", f"a collider of type {kind}, without geometry", name)
+        elif self._choice.collides(prim):
+            words = f"a collider of type {prim.GetTypeName()}, without geometry"
+            self._said.add("ignored-geometry", words, name)
 
     def _place(self, found: Found) -> None:
         prim = found.prim
@@ -116,9 +114,6 @@ class _Reading:
         number, turn = self._read[key]
         content = self._parts[number].mesh
         if isinstance(content, Refusal):
-            if content.code == NO_SURFACE:
-                self._said.add(NO_SURFACE, "a mesh without faces", found.name)
-                return
             self._node(found, number, None)
             return
         matrix = self._matrix(turn * found.matrix)

@@ -15,6 +15,7 @@ from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.path_kind import followed
 from satcheck.scene.units import unit_of
+from satcheck.scene.words import listed
 
 _METRE = "m"
 _DIGITS = 7  # that float32 keeps
@@ -121,6 +122,24 @@ def _may_hold_bodies(prim: Any) -> bool:
     if prim.IsAbstract():
         return False
     return prim.GetTypeName() not in ("Material", "Shader", "NodeGraph", "Camera")
+
+
+def unknown_variants(stage: Any) -> dict[str, Refusal]:
+    """Prim -> why a variant that it selects is missing. USD says nothing of these."""
+    from pxr import Usd
+
+    lost: dict[str, Refusal] = {}
+    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        if not prim.HasVariantSets() or not _may_hold_bodies(prim):
+            continue
+        sets = prim.GetVariantSets()
+        for name in sets.GetNames():
+            variants = sets.GetVariantSet(name)
+            selected, known = variants.GetVariantSelection(), variants.GetVariantNames()
+            if selected and selected not in known:
+                message = f"variant set {name!r} has no variant {selected!r} ({listed(known)})"
+                lost.setdefault(str(prim.GetPath()), Refusal("missing-resource", message))
+    return lost
 
 
 def _lost_clips(stage: Any) -> dict[str, Refusal]:

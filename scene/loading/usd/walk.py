@@ -33,12 +33,12 @@ class Frame(Struct, frozen=True):
         below = path.MakeRelativePath(self.root.GetPath())
         return self.name if path == self.root.GetPath() else f"{self.name}/{below}"
 
-    def ancestors(self, prim: Any) -> Iterator[tuple[str, Any]]:
-        """The prim and those above it, each with its name, through point instancers."""
+    def ancestors(self, prim: Any) -> Iterator[tuple[str, Any, Frame]]:
+        """The prim and those above it, through point instancers, each with its name and frame."""
         frame = self
         while True:
             while prim and not prim.IsPseudoRoot():
-                yield frame.name_of(prim), prim
+                yield frame.name_of(prim), prim, frame
                 if prim == frame.root:
                     break
                 prim = prim.GetParent()
@@ -118,7 +118,7 @@ class Walk:
         for index, root, matrix in placed:
             name = f"{own.name}[{index}]:{root.GetName()}"
             inside = Frame(root, matrix * own.matrix, name, (prim, frame))
-            yield from self._below(Usd.PrimRange(root, _OF_PROTOTYPES), inside)
+            yield from self._below(of_prototype(root), inside)
 
     def _placed(self, prim: Any, frame: Frame) -> list[tuple[int, Any, Any]]:
         """(number, prototype, placement in the space of the instancer) of each instance that is not
@@ -175,6 +175,11 @@ _WITH_INSTANCES = Usd.TraverseInstanceProxies()
 _OF_PROTOTYPES = Usd.TraverseInstanceProxies(
     Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
 )
+
+
+def of_prototype(root: Any) -> Any:
+    """The range of the prims of a prototype."""
+    return Usd.PrimRange(root, _OF_PROTOTYPES)
 
 
 def type_of(prim: Any) -> str:

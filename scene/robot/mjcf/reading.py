@@ -1,7 +1,6 @@
 """Makes the robot of a compiled MJCF file.
 
-MuJoCo refuses a file that is wrong. Geometry that satcheck does not check is an unreadable body,
-except planes, which a warning names.
+MuJoCo refuses a file that is wrong. Geometry that satcheck does not check is an unreadable body.
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -27,7 +25,6 @@ from satcheck.scene.robot.model import (
     Robot,
     State,
 )
-from satcheck.scene.words import listed
 
 _FLEX = RefusedShape("unsupported-feature", "a deformable body (flex) is not read")
 
@@ -90,8 +87,7 @@ class _Reader:
         rest = rest_poses(self._model.bodies)
         of_body: dict[int, list[Collision]] = {}
         for number, geom in self._checked:
-            if not isinstance(geom.shape, Plane):
-                of_body.setdefault(geom.body, []).append(self._collision(number, geom))
+            of_body.setdefault(geom.body, []).append(self._collision(number, geom))
         checked = {number for number, _ in self._checked}
         others = {g.body for k, g in enumerate(self._model.geoms) if k not in checked}
         for number, body in enumerate(self._model.bodies):
@@ -126,13 +122,13 @@ class _Reader:
         return Collision(
             name=geom.name,
             origin=pose_of(geom.place),
-            geometry=self._shape(geom.shape),
+            geometry=self._shape(geom),
             line=geom.line,
             groups=self._exemptions.groups(body, _mask(geom), number),
         )
 
-    def _shape(self, shape: Primitive | FileMesh | OwnMesh | Plane | Refusal) -> Geometry:
-        match shape:
+    def _shape(self, geom: Geom) -> Geometry:
+        match geom.shape:
             case Refusal(code, message):
                 return RefusedShape(code, message)
             case OwnMesh(part):
@@ -141,15 +137,12 @@ class _Reader:
             case FileMesh(file, scale, place):
                 start = inverse(pose_of(place))
                 return MeshReference(file, scale, start=start, hull=self._hulls)
-        assert not isinstance(shape, Plane)
-        return shape
+            case Plane():
+                reason = f"plane {geom.name} is a half space, not a finite body: it is not checked"
+                return RefusedShape("half-space", reason)
+        return geom.shape
 
     def _issues(self) -> Iterator[Issue]:
-        planes = [geom.name for _, geom in self._checked if isinstance(geom.shape, Plane)]
-        if planes:
-            one = "a plane is a half space, not a finite body"
-            message = f"{one}: nothing is checked against {listed(planes)}"
-            yield issue("half-space", message, file=self._path)
         meshes = any(isinstance(geom.shape, FileMesh | OwnMesh) for _, geom in self._checked)
         if meshes and self._geometry == "collision":
             yield issue("mesh-or-hull", self._which_is_checked(), file=self._path)

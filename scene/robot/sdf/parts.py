@@ -75,9 +75,9 @@ def _shape(element: Element, slips: Slips) -> Element | None:
         if not element.need("geometry").all("empty"):
             slips.note("no-shape", element, f"a <{element.tag}> without geometry: no body")
     elif shape.tag == PLANE:
-        cause = "a <plane> is a half space, not a finite body: nothing is checked against it"
-        slips.note("half-space", shape, cause)
-        return None
+        shape.refuse(
+            "a <plane> is a half space, not a finite body: it is not checked", "half-space"
+        )
     elif shape.attributes.get("optimization"):
         how = shape.attributes["optimization"]
         cause = f"a simulator replaces this mesh ({how}): the mesh itself is checked"

@@ -97,6 +97,32 @@ def test_what_is_no_body_is_counted(tmp_path: Path) -> None:
     assert "IfcWall 1abcdefghijklmnopqrst$" in codes(scene)["no-shape"]
 
 
+@pytest.mark.parametrize("identifier", ["Box", "Clearance"])
+def test_an_element_with_an_extent_and_no_shape_cannot_be_checked(
+    tmp_path: Path, identifier: str
+) -> None:
+    model = Model()
+    model.box((1, 1, 1))
+    model.element(model.shape(model.block((1, 1, 1)), identifier=f"'{identifier}'"))
+    (lost,) = scene_of(tmp_path, model).unreadable
+    assert lost.issue.code == "unsupported-feature"
+    assert identifier in lost.issue.message
+
+
+def test_an_element_whose_type_alone_has_a_shape_cannot_be_checked(tmp_path: Path) -> None:
+    model = Model()
+    model.box((1, 1, 1))
+    pipe = model.element(None, kind="IFCPIPESEGMENT", more=",$,$")
+    shape = model.shape(model.block((1, 1, 1)))
+    mapped = model.add(f"IFCREPRESENTATIONMAP({model.origin},{shape})")
+    kind = model.add(
+        f"IFCPIPESEGMENTTYPE('{model.guid()}',$,'DN 50',$,$,$,({mapped}),$,$,.RIGIDSEGMENT.)"
+    )
+    model.relation("IFCRELDEFINESBYTYPE", f"({pipe}),{kind}")
+    (lost,) = scene_of(tmp_path, model).unreadable
+    assert "only its type" in lost.issue.message
+
+
 def test_the_body_of_several_representations_counts(tmp_path: Path) -> None:
     """A clearance, and a coarser shape, stand beside the body; they are no material."""
     model = Model()

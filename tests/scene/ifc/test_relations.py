@@ -45,7 +45,7 @@ def test_an_overlap_of_a_window_and_its_host_is_a_note(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "rest", "expected"),
     [
-        ("IFCRELCONNECTSPATHELEMENTS", "$,{a},{b},(),(),.ATEND.,.ATSTART.", []),
+        ("IFCRELCONNECTSPATHELEMENTS", "$,{a},{b},(),(),.ATEND.,.ATSTART.", ["note"]),
         ("IFCRELCONNECTSELEMENTS", "$,{a},{b}", ["note"]),
         ("IFCRELCOVERSBLDGELEMENTS", "{a},({b})", ["note"]),
         ("IFCRELAGGREGATES", "{a},({b})", []),
@@ -61,6 +61,24 @@ def test_a_relation_of_two_elements_is_a_rule(
     assert severities(tmp_path, model) == expected
     (rule,) = scene_of(tmp_path, model).rules
     assert kind.lower() in rule.reason.lower()
+
+
+@pytest.mark.parametrize(
+    ("size", "at", "expected"),
+    [
+        ((1, 4, 2), (0, 0, 0), "note"),  # a quarter of either wall is in the corner
+        ((4, 1, 2), (0, 0, 0), "error"),  # twice the same wall
+        ((4, 1, 2), (0, 0.125, 0), "error"),  # nearly the same wall
+    ],
+)
+def test_joined_walls_overlap_in_a_corner_only(
+    tmp_path: Path, size: tuple[float, ...], at: tuple[float, ...], expected: str
+) -> None:
+    model = Model()
+    a, b = model.box((4, 1, 2), **WALL), model.box(size, at, **WALL)
+    model.relation("IFCRELCONNECTSPATHELEMENTS", f"$,{a},{b},(),(),.ATEND.,.ATSTART.")
+    report = check(scene_of(tmp_path, model), Settings(depth=False))
+    assert [finding.severity for finding in report.findings] == [expected]
 
 
 def test_parts_of_one_whole_meet_by_design(tmp_path: Path) -> None:

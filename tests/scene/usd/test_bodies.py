@@ -187,6 +187,36 @@ def test_geometry_without_a_surface_is_named(tmp_path: Path, kind: str) -> None:
     assert "/Line" in said(scene)["ignored-geometry"]
 
 
+SOLID = '(\n prepend apiSchemas = ["PhysicsCollisionAPI"]\n)\n{\n}'
+
+
+@pytest.mark.parametrize(
+    ("prim", "geometry"),
+    [
+        ('def BasisCurves "X" {\n float[] widths = [0.5]\n}', None),
+        ('def Points "X" {\n float[] widths = [0, 0.5]\n}', None),
+        ('def Volume "X" {\n}', None),
+        ('def Mesh "X" {\n point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]\n}', None),
+        ('def Gadget "X" {\n float3[] extent = [(0,0,0), (1,1,1)]\n}', None),
+        (f'def BasisCurves "X" {SOLID}', "collision"),
+        (f'def Gadget "X" {SOLID}', "collision"),
+    ],
+)  # fmt: skip
+def test_what_takes_up_space_and_is_not_read_is_a_body_that_cannot_be_checked(
+    tmp_path: Path, prim: str, geometry: str | None
+) -> None:
+    others = cube("A", api='"PhysicsCollisionAPI"')
+    scene = load(tmp_path, stage(others, prim), geometry=geometry)
+    assert [body.id for body in scene.bodies] == ["/A"]
+    assert [body.id for body in scene.unreadable] == ["/X"]
+
+
+def test_a_mesh_of_nothing_is_named(tmp_path: Path) -> None:
+    scene = load(tmp_path, stage(cube("A"), 'def Mesh "Nothing" {\n}'))
+    assert scene.unreadable == ()
+    assert "/Nothing" in said(scene)["ignored-geometry"]
+
+
 def test_a_surface_that_is_not_read_is_a_body_that_is_not_read(tmp_path: Path) -> None:
     scene = load(tmp_path, stage(cube("A"), 'def NurbsPatch "Sail" {\n}'))
     assert [(body.id, body.issue.code) for body in scene.unreadable] == [

@@ -78,12 +78,6 @@ def test_a_broken_mesh_is_refused_and_the_others_are_checked(
     assert [(body.id, body.issue.code) for body in scene.unreadable] == [("/A", code)]
 
 
-def test_a_mesh_without_faces_is_named(tmp_path: Path) -> None:
-    scene = load(tmp_path, stage(cube("A"), 'def Mesh "Empty" {\n}'))
-    assert [body.id for body in scene.bodies] == ["/A"]
-    assert "/Empty" in said(scene)["no-surface"]
-
-
 def test_a_tetrahedron_has_its_outer_faces(tmp_path: Path) -> None:
     tetrahedron = """def TetMesh "T" {
         int4[] tetVertexIndices = [(0, 1, 2, 3)]

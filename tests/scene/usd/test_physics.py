@@ -23,6 +23,7 @@ def body(name: str, *content: str, more: str = "") -> str:
     )
 
 
+FILTER = '"PhysicsFilteredPairsAPI"'
 A, B = body("A", cube("Box", api=COLLIDER)), body("B", cube("Box", api=COLLIDER))
 FILTERED = A.replace(
     '"PhysicsRigidBodyAPI"]\n)\n{',
@@ -126,7 +127,49 @@ def test_a_plane_is_a_half_space_to_a_simulator(tmp_path: Path) -> None:
     plane = 'def Plane "Floor" (\n prepend apiSchemas = ["PhysicsCollisionAPI"]\n)\n{\n}\n'
     scene = load(tmp_path, stage(plane, A), geometry="collision")
     assert list(bounds_of(scene)) == ["/A/Box"]
-    assert "/Floor" in said(scene)["half-space"]
+    assert [(lost.id, lost.issue.code) for lost in scene.unreadable] == [("/Floor", "half-space")]
+
+
+def scattered(*prims: str, more: str = "") -> str:
+    """A point instancer with two instances of a prototype of these prims."""
+    inside = f'def Xform "Post"\n{{\n{"".join(prims)}}}\n{more}'
+    places = (
+        "int[] protoIndices = [0, 0]\npoint3f[] positions = [(0,0,0), (0.5,0,0)]\n"
+        "rel prototypes = </Scatter/Post>\n"
+    )
+    return f'def PointInstancer "Scatter"\n{{\n{places}{inside}}}\n'
+
+
+def excused(scene: Scene) -> set[tuple[str, str]]:
+    return {
+        (a.id, b.id)
+        for rule in scene.rules
+        for a in rule.a.select(scene.bodies)
+        for b in rule.b.select(scene.bodies)
+    }
+
+
+def test_filtered_pairs_of_a_prototype_hold_within_each_instance(tmp_path: Path) -> None:
+    filtered = cube("A", "rel physics:filteredPairs = </Scatter/Post/B>", FILTER)
+    scene = load(tmp_path, stage(scattered(filtered, cube("B"))))
+    first, second = (f"/Scatter[{k}]:Post" for k in range(2))
+    assert excused(scene) == {(f"{one}/A", f"{one}/B") for one in (first, second)}
+
+
+def test_filtered_pairs_of_a_prototype_and_a_prim_outside(tmp_path: Path) -> None:
+    filtered = cube("A", "rel physics:filteredPairs = </Wall>", FILTER)
+    scene = load(tmp_path, stage(scattered(filtered), cube("Wall")))
+    assert excused(scene) == {(f"/Scatter[{k}]:Post/A", "/Wall") for k in range(2)}
+    back = cube("Wall", "rel physics:filteredPairs = </Scatter/Post/A>", FILTER)
+    scene = load(tmp_path, stage(scattered(cube("A")), back))
+    assert excused(scene) == {("/Wall", f"/Scatter[{k}]:Post/A") for k in range(2)}
+
+
+def test_a_collider_that_joins_what_is_below_cannot_be_checked(tmp_path: Path) -> None:
+    merged = f'def Xform "M" (\n prepend apiSchemas = [{COLLIDER}]\n)\n{{\n{cube("A")}}}\n'
+    scene = load(tmp_path, stage(merged, cube("B", api=COLLIDER)), geometry="collision")
+    assert [lost.id for lost in scene.unreadable] == ["/M"]
+    assert list(bounds_of(scene)) == ["/B"]
 
 
 def test_the_options_of_the_command_reach_the_reader(tmp_path: Path) -> None:

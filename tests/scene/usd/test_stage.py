@@ -120,6 +120,18 @@ def test_the_selected_variant_counts(tmp_path: Path) -> None:
     assert list(bounds_of(load(tmp_path, text))) == ["/A/thin"]
 
 
+def test_a_variant_that_is_missing_leaves_a_body_that_is_not_read(tmp_path: Path) -> None:
+    variants = f'variantSet "shape" = {{\n "box" {{\n{cube("Box")}}}\n}}\n'
+    head = 'variants = {\n string shape = "%s"\n}\n prepend variantSets = ["shape"]'
+    for selected, bodies in (("box", ["/A/Box"]), ("ball", ["/A"])):
+        prim = f'def Xform "A" (\n{head % selected}\n)\n{{\n{variants}}}\n'
+        scene = load(tmp_path, stage(prim, cube("B")))
+        assert [body.id for body in scene.in_order()] == [*bodies, "/B"]
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.issue.code) == ("/A", "missing-resource")
+    assert "'ball'" in lost.issue.message
+
+
 def test_all_endings_hold_the_same_stage(tmp_path: Path) -> None:
     wanted = bounds_of(load(tmp_path, stage(PART)))
     source = tmp_path / "stage.usda"

@@ -150,11 +150,13 @@ def test_visual_geometry_is_what_collides_with_nothing(tmp_path: Path) -> None:
     assert "no-collision-geometry" in codes(visual)
 
 
-def test_a_plane_is_no_body_and_a_warning_names_it(tmp_path: Path) -> None:
-    scene = load(tmp_path, model(geom("floor", kind="plane", size="1 1 1"), body("b", geom("g"))))
-    assert [each.id for each in scene.bodies] == ["b"]
-    (remark,) = (issue for issue in scene.issues if issue.code == "half-space")
-    assert "floor" in remark.message
+def test_a_plane_is_a_half_space_and_an_unreadable_body(tmp_path: Path) -> None:
+    floor = geom("floor", kind="plane", size="1 1 1")
+    scene = load(tmp_path, model(floor, body("b", geom("g"), "<freejoint/>")))
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.issue.code) == ("world", "half-space")
+    assert "floor" in lost.issue.message
+    assert set(relations(scene).values()) == {"indeterminate"}
 
 
 def test_a_height_field_is_an_unreadable_body(tmp_path: Path) -> None:
