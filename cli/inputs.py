@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -36,6 +36,10 @@ from satcheck.scene.read_options import (
 from satcheck.scene.scene_builder import Split
 
 _HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD or glTF file
+# Issues about what has no body.
+_OF_NO_BODY = frozenset(
+    ("not-a-body", "left-out", "no-shape", "ignored-geometry", "no-collision-geometry")
+) | {"no-surface", "unknown-element"}
 _GLTF = frozenset(("glb", "gltf"))
 
 
@@ -172,6 +176,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
         if scene.unreadable:
             said = "an input could not be used: there is no pair to check"
             raise click.ClickException("\n".join([said, *advice]))
+        for line in _why_gone(scene):
+            talk(line)
         if not scene.bodies:
             raise click.UsageError(f"there is no body: {_more(inputs)}")
         raise _one_body(inputs, scene)
@@ -210,6 +216,13 @@ def _more(inputs: Inputs) -> str:
     if mesh is None:
         return f"give mesh files beside {inputs.paths[0]}, or a scene of two bodies"
     return "give two or more mesh files, or a scene file"
+
+
+def _why_gone(scene: Scene) -> Iterator[str]:
+    """What in the inputs is no body, and why."""
+    for issue in scene.issues:
+        if issue.code in _OF_NO_BODY:
+            yield f"satcheck: {issue_line(issue)}"
 
 
 def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES
+from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES, is_model
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.path_kind import exists, is_folder
@@ -16,6 +16,7 @@ _ALWAYS = ROBOT_SUFFIXES.union(FORMATS)
 # Most files with these endings are something else, unless they hold one of these texts.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
 _SDF_MARKS = (b"<sdf", b"<gazebo")
+_XML = ".xml"
 _MARKS = {
     **dict.fromkeys(SCENE_SUFFIXES, _SCENE_MARKS),
     **dict.fromkeys(SDF_SUFFIXES, _SDF_MARKS),
@@ -100,6 +101,8 @@ def _below(folder: str, endings: frozenset[str]) -> Iterator[str]:
 
 def _is_asset(path: Path, endings: frozenset[str]) -> bool:
     ending = path.suffix.lower()
+    if ending == _XML:  # reports of tests and much else
+        return is_model(path)
     if ending not in _MARKS:
         return ending in endings
     content = content_of(path)

@@ -41,6 +41,11 @@ def kind_of(path: str) -> InputKind:
     return "robot" if root in ("sdf", "mujoco") or suffix == _XACRO else "mesh"
 
 
+def is_model(location: Path) -> bool:
+    """Whether it is an MJCF file."""
+    return _first_elements(location)[0] == "mujoco"
+
+
 def _first_elements(location: Path) -> list[str]:
     """The names of the root and of its first element; [""] if the file is not XML."""
     try:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
+from satcheck.scene.errors import SceneFileError
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -73,7 +74,8 @@ def load_scene(
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
     known: mesh files that stay in memory from scene to scene.
-    reading: options for formats that leave a choice, such as the time of an animation.
+    reading: options for formats that leave a choice, such as the time of an animation. A scene may
+    state those that are not given here.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
     is loaded. Raises SceneFileError for an invalid scene file or robot.
@@ -81,6 +83,8 @@ def load_scene(
     given = _as_texts(paths)
     if geometry is not None:
         reading = replace(reading, geometry=geometry)
+    scenes = _read_scenes(given, allow_outside)
+    reading = reading.beside(_stated_reading(scenes.values()))
     files = MeshFiles(
         seconds_per_file,
         megabytes_per_file,
@@ -90,7 +94,6 @@ def load_scene(
         options=reading,
     )
     builder = SceneBuilder(files, None if units is None else _unit(units), reading)
-    scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     document_ids = iter(plain_ids([path for path in given if kind_of(path) == "document"]))
     alone = sum(_has_bodies(path, scenes) for path in given) == 1
@@ -138,6 +141,17 @@ def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFi
     from satcheck.scene.format.reading import read_scene_file
 
     return {path: read_scene_file(path, Path(path), allow_outside=allow_outside) for path in paths}
+
+
+def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
+    """The options that scenes state. Raises SceneFileError if two of them differ."""
+    stated: dict[str, Any] = {}
+    for scene in scenes:
+        for name, value in scene.reading.items():
+            if stated.setdefault(name, value) != value:
+                message = f"reading.{name} differs from that of another scene"
+                raise SceneFileError("bad-scene", message, file=scene.path)
+    return stated
 
 
 def read_rules(path: str) -> SceneFile:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
+_CHOSEN = frozenset(("usd",))  # formats whose parts depend on options
 MODEL_SUFFIX = ".xml"  # of MJCF files
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
@@ -169,6 +170,8 @@ class MeshFiles:
         if part in by_path:
             return by_path[part]
         message = f"there is no part {part!r} in the file{meant(part, filter(None, by_path))}"
+        if FORMATS.get(location.suffix.lower()) in _CHOSEN:
+            message += "; --geometry, --purpose and `reading` of a scene choose its parts"
         return MeshFileError("unknown-part", message, file=path)
 
     def _hull(self, path: str, location: Path, part: str) -> Node | MeshFileError:

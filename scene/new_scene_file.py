@@ -55,6 +55,8 @@ def new_scene_file(
     head: dict[str, Any] = {"schema": SCENE_1}
     if scene.units:
         head["units"] = scene.units
+    if reading := scene.reading.changed({body.file.format for body in scene.bodies}):
+        head["reading"] = to_builtins(reading)
     if scene.check_static and any(body.static for body in scene.in_order()):
         head["check_static"] = True
     if scene.ignore_within_groups:

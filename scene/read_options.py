@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 from msgspec import Struct, convert
+from msgspec.structs import replace
 
 GeometryKind = Literal["collision", "visual"]
 Purpose = Literal["render", "proxy", "guide"]
@@ -42,11 +43,27 @@ class ReadOptions(Struct, frozen=True):
     chord_tolerance: float = CHORD_TOLERANCE
     angular_tolerance: float = ANGULAR_TOLERANCE
 
+    def beside(self, stated: Mapping[str, Any]) -> ReadOptions:
+        """These options, those that have their default as stated."""
+        free = {name for name in stated if getattr(self, name) == getattr(_DEFAULTS, name)}
+        return replace(self, **{name: stated[name] for name in free})
+
+    def changed(self, formats: Iterable[str]) -> dict[str, Any]:
+        """The options that count for files of these formats and differ from their defaults."""
+        return {
+            name: value
+            for name, value in (self.stated(formats) or {}).items()
+            if value != getattr(_DEFAULTS, name)
+        }
+
     def stated(self, formats: Iterable[str]) -> dict[str, Any] | None:
         """The options that count for files of these formats, by name; None: no option counts."""
         names = {name for each in formats for name in OPTIONS_OF.get(each, ())}
         values = {name: getattr(self, name) for name in names}
         return values if any(value is not None for value in values.values()) else None
+
+
+_DEFAULTS = ReadOptions()
 
 
 def as_stated(stated: Mapping[str, Any] | None) -> ReadOptions:

@@ -84,16 +84,7 @@ def _write_scene(output: Path, scene: Scene, inputs: Inputs) -> Told:
         lines.append(f"note: to read {output} give --allow-outside, because of {stray}")
     if scene.robots:
         lines.append("note: joints are not written: the links stand where the pose puts them")
-    formats = {body.file.format for body in scene.bodies}
-    for option, value in (scene.reading.stated(formats) or {}).items():
-        if getattr(inputs, option) is not None:
-            flag = f"--{option.replace('_', '-')}"
-            lines.append(f"note: to read {output} give {flag} {_words(value)} again")
     return lines, lost
-
-
-def _words(value: Any) -> str:
-    return " ".join(value) if isinstance(value, tuple) else str(value)
 
 
 def _write_glb(output: Path, scene: Scene, inputs: Inputs) -> Told:

@@ -3,7 +3,7 @@ together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from heapq import nsmallest
 from math import inf
 from typing import TYPE_CHECKING, TypeVar
@@ -34,12 +34,16 @@ def worst_first(findings: Iterable[Finding]) -> list[Finding]:
     return sorted(findings, key=rank)
 
 
-def groups_of(findings: Iterable[Finding]) -> list[list[Finding]]:
+def groups_of(
+    findings: Iterable[Finding], alone: Collection[str] = frozenset()
+) -> list[list[Finding]]:
     """Findings that are the worst first: of one severity, all pairs between two parts in a group,
-    which stands where its worst finding stands."""
+    which stands where its worst finding stands. alone: ids of bodies that are parts of their
+    own."""
     groups: dict[tuple[str, frozenset[str]], list[Finding]] = {}
     for finding in findings:
-        parts = frozenset((_part(finding.a), _part(finding.b)))
+        ids = finding.a, finding.b
+        parts = frozenset(id_ if id_ in alone else _part(id_) for id_ in ids)
         groups.setdefault((severity(finding), parts), []).append(finding)
     return list(groups.values())
 

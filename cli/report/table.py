@@ -48,7 +48,7 @@ def render(
     top: how many pairs at most; all count in the summary.
     """
     rows = worst_first(_listed(report))
-    groups = groups_of(rows[:top])
+    groups = groups_of(rows[:top], _titled(report))
     shown = list(chain.from_iterable(groups))
     lines: list[str] = []
     if shown:
@@ -96,6 +96,11 @@ def _is_told(finding: Finding) -> bool:
     if finding.relation != "separated":
         return True
     return finding.reason is not None and not past_holes(finding)
+
+
+def _titled(report: Report) -> set[str]:
+    """The ids of elements that have names of their own, such as those of IFC files."""
+    return {body.id for body in report.bodies if body.path is not None and body.name != body.id}
 
 
 def _style(finding: Finding) -> str:

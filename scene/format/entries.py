@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
@@ -55,7 +55,8 @@ class BodyEntry(Struct, frozen=True):
 
 
 class SceneFile(Struct, frozen=True):
-    """ids: as written. Rules and motions refer to bodies of this file only."""
+    """ids: as written. Rules and motions refer to bodies of this file only. reading: the options
+    with which its mesh files are read, by their names in `ReadOptions`."""
 
     path: str
     name: str
@@ -68,6 +69,7 @@ class SceneFile(Struct, frozen=True):
     issues: tuple[Issue, ...]
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
+    reading: Mapping[str, Any] = {}
 
 
 def unknown_units(units: str | None, path: str) -> list[Issue]:

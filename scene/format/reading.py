@@ -11,16 +11,19 @@ from satcheck.scene.format.values import shown
 
 
 def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -> SceneFile:
-    """Reads and checks a scene file.
+    """Reads and checks a scene file. One with rules and without bodies is a file of rules.
 
     path: for messages; location: where it lies. allow_outside: a scene of the form satcheck.scene/1
     may name meshes outside of its folder. Raises SceneFileError.
     """
     parsed = parse(path, location)
     schema = _schema_of(parsed)
-    if schema == SCENE_1:
+    if schema in (None, SCENE_1):
         from satcheck.scene.format import scene_1
 
+        if scene_1.has_only_rules(parsed.document):
+            return scene_1.read_rules(parsed)
+    if schema == SCENE_1:
         return scene_1.read_scene(parsed, allow_outside=allow_outside)
     if schema == SIMPLE and not is_toml(location):
         from satcheck.scene.format import simple

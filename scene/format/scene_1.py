@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _RULES_KEYS = frozenset(
     ("schema", "$schema", "name", "description", "units", "bodies", "rules", "statics")
 )
-_KEYS = _RULES_KEYS | {"check_static", "ignore_within_groups", "motion"}
+_KEYS = _RULES_KEYS | {"check_static", "ignore_within_groups", "motion", "reading"}
 _BODY_KEYS = PLACEMENT_KEYS | {
     *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
 }
@@ -48,6 +48,15 @@ def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     scene = _Reader(parsed, problems, allow_outside).read()
     problems.raise_any(parsed.path, lambda: parsed.positions)
     return scene
+
+
+def has_only_rules(document: Any) -> bool:
+    """Whether it has rules, and no key that only a scene with bodies has."""
+    return (
+        isinstance(document, dict)
+        and "rules" in document
+        and document.keys() <= _RULES_KEYS - {"bodies"}
+    )
 
 
 def read_rules(parsed: Parsed) -> SceneFile:
@@ -94,6 +103,7 @@ class _Reader:
             body_rules=body_rules,
             statics=self._statics(top, units),
             motions=self._motions(top, bodies if are_sound else None),
+            reading=self._reading(top),
             issues=(
                 *unknown_units(units, self._parsed.path),
                 *unknown_groups(ignored, bodies, self._parsed.path),
@@ -153,6 +163,14 @@ class _Reader:
             else:
                 of_pairs.append(read_rule(table, units, path, self._line(table)))
         return tuple(filter(None, of_pairs)), tuple(filter(None, of_bodies))
+
+    def _reading(self, top: Table) -> dict[str, Any]:
+        table = top.table("reading")
+        if table is None:
+            return {}
+        from satcheck.scene.format.reading_keys import read_reading
+
+        return read_reading(table)
 
     def _statics(self, top: Table, units: str | None) -> StaticsTerms | None:
         table = top.table("statics")

@@ -76,17 +76,17 @@ def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     assert scene.read_bytes() == before
 
 
-def test_colliders_are_written_where_they_stand_and_the_option_is_named(tmp_path: Path) -> None:
+def test_a_scene_keeps_the_options_with_which_its_files_are_read(tmp_path: Path) -> None:
     api, hidden = '"PhysicsCollisionAPI"', 'token purpose = "guide"\n'
     source = tmp_path / "stage.usda"
     source.write_text(stage(*(cube(n, hidden + at(x), api) for n, x in (("E", 20), ("F", 20.5)))))
-    output = str(tmp_path / "made.toml")
-    ran = satcheck("convert", str(source), "--geometry", "collision", "-o", output)
-    assert ran.code == 0
-    assert "give --geometry collision again" in ran.err
-    again = satcheck(output, "--geometry", "collision", "--format", "json")
-    assert again.code == 1
-    assert again.document["findings"][0]["relation"] == "penetrating"
+    for ending in ("toml", "json"):
+        output = str(tmp_path / f"made.{ending}")
+        assert satcheck("convert", str(source), "--geometry", "collision", "-o", output).code == 0
+        again = satcheck(output, "--format", "json")
+        assert again.code == 1
+        assert again.document["findings"][0]["relation"] == "penetrating"
+        assert again.document["reading"]["geometry"] == "collision"
 
 
 def test_what_a_scene_leaves_out_is_told(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from satcheck.cli.scene_options import SPLITS
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.scene import files, graphs
+from tests.scene.usd.files import cube, stage
 
 
 def test_the_choices_are_those_of_the_loader() -> None:
@@ -105,3 +106,11 @@ def test_the_command_for_connected_pieces_works() -> None:
     told = satcheck("gripper.glb", "--split", "none").err.splitlines()[-1]
     ran = satcheck("--format", "json", *told.replace("satcheck:", "").split()[1:])
     assert len(ran.document["bodies"]) == 4
+
+
+def test_one_body_alone_is_told_why_the_others_are_gone(tmp_path: Path) -> None:
+    hidden = cube("Ghost", 'token visibility = "invisible"')
+    (tmp_path / "a.usda").write_text(stage(cube("A"), hidden))
+    ran = satcheck("a.usda", cwd=tmp_path)
+    assert ran.code == 2
+    assert "/Ghost: invisible" in ran.err

@@ -188,7 +188,7 @@ def test_a_rule_about_no_body_is_a_warning(tmp_path: Path) -> None:
     ],
 )
 def test_rules_are_no_second_body(inputs: tuple[str, ...], complaint: str, tmp_path: Path) -> None:
-    (tmp_path / "rules.toml").write_text('schema = "satcheck.scene/1"\nbodies = []\n')
+    (tmp_path / "rules.toml").write_text('schema = "satcheck.scene/1"\nrules = []\n')
     (tmp_path / "cube.obj").write_bytes(files.obj())
     ran = satcheck(*inputs, cwd=tmp_path)
     assert ran.code == 2

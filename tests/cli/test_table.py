@@ -11,6 +11,7 @@ from satcheck.audit import Component, Components, Contacts
 from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
+from satcheck.cli.report.order import groups_of
 from satcheck.cli.report.table import render
 from satcheck.report.report import (
     INTERNAL_ERROR,
@@ -224,6 +225,12 @@ def test_pairs_of_parts_are_grouped_in_either_order() -> None:
     between = replace(PENETRATING, a="arm", b="box", depth=0.75, depth_bounds=(0.75, 0.75))
     rows = [row for row in shown(turned, between, third).splitlines() if row.startswith("│")]
     assert ["hand/y" in row for row in rows[1:]] == [False, True, False]
+
+
+def test_elements_of_two_files_are_groups_of_their_own() -> None:
+    pairs = [replace(PENETRATING, a=f"house/{k}", b=f"pipes/{k}") for k in range(2)]
+    assert len(groups_of(pairs)) == 1
+    assert len(groups_of(pairs, {"house/0", "house/1", "pipes/0", "pipes/1"})) == 2
 
 
 def test_rules_that_share_a_line_are_not_taken_for_each_other() -> None:

@@ -70,3 +70,10 @@ def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.Mon
     unreadable: Callable[[Path], None] = lambda _: None  # noqa: E731
     monkeypatch.setattr(module, "content_of", unreadable)
     assert asset_files([str(tmp_path)]) == [(tmp_path / "scene.toml").as_posix()]
+
+
+def test_xml_is_an_asset_if_it_is_a_model_of_mujoco(tmp_path: Path) -> None:
+    (tmp_path / "junit.xml").write_text("<testsuites/>")
+    (tmp_path / "notes.xml").write_text("mujoco")
+    (tmp_path / "arm.xml").write_text('<?xml version="1.0"?>\n<!-- a --><mujoco model="arm"/>')
+    assert asset_files([str(tmp_path)]) == [(tmp_path / "arm.xml").as_posix()]

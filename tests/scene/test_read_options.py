@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
 from msgspec.structs import replace
 
 from satcheck.batch.check_options import CheckOptions
 from satcheck.batch.key import terms_of
+from satcheck.scene import load_scene
+from satcheck.scene.errors import SceneFileError
 from satcheck.scene.read_options import OPTIONS_OF, ReadOptions, as_stated
 
 
@@ -28,3 +33,13 @@ def test_the_options_of_a_report_are_those_of_its_check() -> None:
 def test_a_result_of_a_batch_depends_on_them() -> None:
     options = CheckOptions()
     assert terms_of(options) != terms_of(replace(options, reading=ReadOptions(time=2.5)))
+
+
+def test_a_scene_states_what_is_not_given(tmp_path: Path) -> None:
+    for name, time in (("a", 1), ("b", 2)):
+        text = f'schema = "satcheck.scene/1"\nreading.time = {time}\nbodies = []\n'
+        (tmp_path / f"{name}.toml").write_text(text)
+    assert load_scene([tmp_path / "a.toml"]).reading.time == 1
+    assert load_scene([tmp_path / "a.toml"], reading=ReadOptions(time=5)).reading.time == 5
+    with pytest.raises(SceneFileError, match="differs"):
+        load_scene([tmp_path / "a.toml", tmp_path / "b.toml"])
