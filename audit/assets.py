@@ -71,7 +71,7 @@ def _passing_by_rules(report: Report, scene: Scene) -> Report:
     """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
     Robots are left out, as their own pairs are allowed without any rule."""
     pairs = report.summary.pairs
-    if report.support is not None:
+    if report.answers:
         return report
     if scene.robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:
         return report

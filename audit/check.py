@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import UNSET, Struct
+from msgspec import UNSET, Struct, UnsetType
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from satcheck.core import Climb
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
+    from satcheck.report.regions import Regions
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
@@ -136,9 +137,13 @@ def _check(
     support = _support(scene, bodies, planner.settings)
     statics = None if support is None else support.stated()
     support_issues = [] if support is None or statics is None else support.issues(scene, statics)
+    regions, region_issues = _regions(scene, bodies, planner.settings)
     size_issues = doubtful_sizes(bodies, findings, settings.planar)
     issues = issues_of(
-        scene, bodies, counts, (*size_issues, *motion_issues, *support_issues, *pair_issues)
+        scene,
+        bodies,
+        counts,
+        (*size_issues, *motion_issues, *support_issues, *region_issues, *pair_issues),
     )
     return Report(
         tool=tool(),
@@ -148,8 +153,11 @@ def _check(
             counts,
             findings,
             settings.fail_on,
-            alone=len(bodies.placed) == len(bodies.ids) == 1,
-            statics=statics,
+            alone=len(bodies.placed) == len(bodies.ids) == 1 or bool(regions),
+            answers=(
+                *(() if statics is None else statics.findings),
+                *(regions.findings if regions else ()),
+            ),
         ),
         reading=stated_reading(scene),
         bodies=body_reports(bodies),
@@ -167,6 +175,7 @@ def _check(
         issues=issues,
         truncated=truncated_of(counts, findings),
         statics=UNSET if statics is None else statics,
+        regions=regions,
     )
 
 
@@ -208,6 +217,18 @@ def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support 
     from satcheck.audit.statics.support import Support
 
     return Support(scene, bodies, settings)
+
+
+def _regions(
+    scene: Scene, bodies: PlacedBodies, settings: Settings
+) -> tuple[Regions | UnsetType, list[Issue]]:
+    """UNSET: no rule asks whether a body lies in a region."""
+    if all(rule.inside is None for rule in scene.body_rules):
+        return UNSET, []
+    from satcheck.audit.regions import region_issues, regions_of
+
+    regions = regions_of(scene, bodies, settings)
+    return regions, list(region_issues(regions))
 
 
 def _examine_all(

@@ -22,8 +22,8 @@ from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 if TYPE_CHECKING:
     from satcheck.audit.answer import Answer
     from satcheck.audit.request.settings import FailOn
-    from satcheck.report.report import Finding
-    from satcheck.report.statics import SupportFinding
+    from satcheck.report.report import BodyAnswer, Finding
+    from satcheck.report.statics import State
 
 CLEARANCE_RULE = "clearance"
 
@@ -97,8 +97,18 @@ def is_failure(finding: Finding, fail_on: FailOn) -> bool:
     return fails(finding, fail_on) and finding.baseline_state != "unchanged"
 
 
-def is_unsupported(finding: SupportFinding, fail_on: FailOn) -> bool:
-    """Whether the check fails by the answer to a question of support."""
+def severity_of_answer(answer: State, own: str | None) -> Severity:
+    """Of an answer to a question about a single body, without a doubt. own: the severity that rules
+    give the errors of the body."""
+    if answer == "yes":
+        return "none"
+    if answer == "open":
+        return "error" if own == "error" else "warning"
+    return "silenced" if own == "none" else own or "error"  # type: ignore[return-value]
+
+
+def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
+    """Whether the check fails by the answer to a question about a single body."""
     level = SEVERITIES.index(fail_on)
     return finding.answer != "open" and SEVERITIES.index(finding.severity) <= level
 

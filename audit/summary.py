@@ -12,7 +12,7 @@ from msgspec import convert, to_builtins
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.severity import is_failure, is_unsupported
+from satcheck.audit.severity import is_failure, is_unmet
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
@@ -20,6 +20,7 @@ from satcheck.report.reading import StatedReading
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
+    BodyAnswer,
     BodyReport,
     Exempt,
     Finding,
@@ -34,7 +35,6 @@ from satcheck.report.report import (
     Truncated,
     Verdict,
 )
-from satcheck.report.statics import Statics
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
@@ -92,17 +92,17 @@ def summarise(
     fail_on: FailOn,
     *,
     alone: bool = False,
-    statics: Statics | None = None,
+    answers: Sequence[BodyAnswer] = (),
 ) -> Summary:
-    """alone: the scene is one usable body, which has nothing to collide with. statics: the support
-    of bodies; None: no rule asks."""
+    """alone: no pair has to be checked, because the scene is one usable body, or because rules ask
+    for regions only. answers: to questions about single bodies."""
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     unlisted_open = unlisted_indeterminate(counts, findings)
     by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
     by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)
     return Summary(
-        verdict=_worse("pass" if alone else _verdict(counts, findings, fail_on), statics, fail_on),
+        verdict=_worse(_verdict(counts, findings, fail_on, alone=alone), answers, fail_on),
         pairs=counts,
         by_relation={relation: by_relation[relation] for relation in RELATIONS},
         surfaces_only=undecided["inside"],
@@ -118,10 +118,14 @@ def verdict_of(report: Report) -> Verdict:
     if summary.verdict == "pass":
         return "pass"
     fail_on = report.settings.fail_on
-    return _worse(_verdict(summary.pairs, report.findings, fail_on), report.support, fail_on)
+    alone = bool(report.regions)
+    verdict = _verdict(summary.pairs, report.findings, fail_on, alone=alone)
+    return _worse(verdict, report.answers, fail_on)
 
 
-def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
+def _verdict(
+    counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn, *, alone: bool
+) -> Verdict:
     """A failure stays a failure even if other pairs are undecided. A check without pairs never
     passes. A finding that a baseline contains, unchanged, does not fail."""
     if any(is_failure(finding, fail_on) for finding in findings):
@@ -129,16 +133,15 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
     unchecked = unlisted_indeterminate(counts, findings) or any(
         finding.undecided is not None for finding in findings
     )
-    return "incomplete" if unchecked or not counts.asked else "pass"
+    return "incomplete" if unchecked or not (counts.asked or alone) else "pass"
 
 
-def _worse(verdict: Verdict, statics: Statics | None, fail_on: FailOn) -> Verdict:
-    """The verdict on pairs and on the support of bodies together."""
-    if statics is None or verdict == "fail":
-        return verdict
-    if any(is_unsupported(finding, fail_on) for finding in statics.findings):
+def _worse(verdict: Verdict, answers: Sequence[BodyAnswer], fail_on: FailOn) -> Verdict:
+    """The verdict on pairs and on single bodies together."""
+    if any(is_unmet(answer, fail_on) for answer in answers):
         return "fail"
-    return "incomplete" if statics.is_open else verdict
+    is_open = any(answer.answer == "open" for answer in answers)
+    return "incomplete" if is_open and verdict == "pass" else verdict
 
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
@@ -261,7 +264,8 @@ def issues_of(
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    empty = [] if counts.asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
+    asked = counts.asked or any(rule.inside is not None for rule in scene.body_rules)
+    empty = [] if asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
     return tuple(dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs)))
 
 

@@ -24,8 +24,9 @@ from satcheck.report.config import StatedConfig
 from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
 from satcheck.report.reading import StatedReading
+from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.settings import StatedSettings
-from satcheck.report.statics import Statics
+from satcheck.report.statics import Statics, SupportFinding
 from satcheck.report.sweep import Sweep
 from satcheck.report.values import Code, Count, Interval, Length, Value
 from satcheck.report.values import Quality as Quality
@@ -33,6 +34,9 @@ from satcheck.report.values import Relation as Relation
 from satcheck.report.values import Tool as Tool
 from satcheck.report.values import Vector as Vector
 from satcheck.report.values import Verdict as Verdict
+
+# The answer to a question of a rule about a single body.
+BodyAnswer = SupportFinding | InsideFinding
 
 SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
@@ -71,6 +75,8 @@ NOTHING_TO_CHECK = "nothing-to-check"
 # The codes of issues about bodies that nothing holds, and of which that is open.
 UNSUPPORTED = "unsupported"
 SUPPORT_OPEN = "support-open"
+OUTSIDE_REGION = "outside-region"
+REGION_OPEN = "region-open"
 # Codes of warnings about sizes that make an answer doubtful.
 TOLERANCE_LARGE = "tolerance-large"
 SIZES_DIFFER = "sizes-differ"
@@ -311,7 +317,8 @@ class Report(Value, frozen=True, kw_only=True):
     the same key, the last one counts. findings: one for every checked pair, except those that
     `truncated` counts, in the order of the bodies. truncated: the pairs with separate boxes that
     are not listed, if there are more than 60 pairs; None: all pairs are listed. statics: the
-    support of bodies; absent if no rule asks. reading: options with which the files were read;
+    support of bodies; absent if no rule asks. regions: which bodies lie in which region; absent if
+    no rule asks. reading: options with which the files were read;
     None: their formats leave no choice, or the defaults apply. baseline: that the check was
     compared with; None: none. config: the options that a config file set; None: no config file took
     effect.
@@ -333,6 +340,7 @@ class Report(Value, frozen=True, kw_only=True):
     issues: tuple[Issue, ...]
     truncated: Truncated | None = None
     statics: Statics | UnsetType = UNSET
+    regions: Regions | UnsetType = UNSET
     baseline: StatedBaseline | None = None
     config: StatedConfig | None = None
 
@@ -340,6 +348,12 @@ class Report(Value, frozen=True, kw_only=True):
     def support(self) -> Statics | None:
         """None: no rule asks."""
         return self.statics or None
+
+    @property
+    def answers(self) -> tuple[BodyAnswer, ...]:
+        """To all questions of rules about single bodies."""
+        held = () if self.support is None else self.support.findings
+        return held + (self.regions.findings if self.regions else ())
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

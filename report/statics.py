@@ -27,6 +27,8 @@ class BodyRuleReport(Value, frozen=True):
     supported: bool | None
     stable: bool | None
     mounted: bool | None
+    inside: str | None
+    region: bool | None
     density: Size | None
     mass: Size | None
     friction: Length | None

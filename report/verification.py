@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, UnsetType
 
-from satcheck.report.statics import Question, State
+from satcheck.report.statics import State
 from satcheck.report.values import Count, Tool, Value
 
 Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
@@ -37,10 +37,11 @@ class Checked(Value, frozen=True):
 
 
 class CheckedSupport(Value, frozen=True):
-    """One answer about the support of a body. reason: why it is not accepted."""
+    """One answer to a question about a single body: whether it is supported, stable, or inside a
+    region. reason: why it is not accepted."""
 
     body: str
-    question: Question
+    question: str
     answer: State
     outcome: Outcome
     reason: str | None = None

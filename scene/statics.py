@@ -15,15 +15,15 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.rules import Selectable, Selector, Severity, require_effect
+from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Scene
 
 # What a body rule asks of a body, and what it states about a body.
 QUESTIONS: tuple[Literal["supported", "stable"], ...] = ("supported", "stable")
-FACTS = ("mounted", "density", "mass", "friction")
-KEYS = (*QUESTIONS, *FACTS, "severity")
+FACTS = ("mounted", "region", "density", "mass", "friction")
+KEYS = (*QUESTIONS, "inside", *FACTS, "severity")
 
 _DOWN_Z: Vector = (0.0, 0.0, -1.0)
 _DOWN_Y: Vector = (0.0, -1.0, 0.0)
@@ -38,7 +38,9 @@ class BodyRule(Struct, frozen=True, kw_only=True):
 
     supported: contacts within the tolerance must be able to carry the body. stable: so must its
     nearest contacts alone. False revokes an earlier question. mounted: fixed to something, as a
-    lamp to its ceiling; holds like a static body and is never asked to stand. density: mass by
+    lamp to its ceiling; holds like a static body and is never asked to stand. inside: the id of a
+    body in which these bodies must lie. region: they bound space, as a room or a drawer does, and
+    have no material: they collide with nothing and hold nothing. density: mass by
     cubed unit of the scene. mass: of each of these bodies; overrides the density. friction: of its
     contacts; of two bodies the smaller one counts. severity: of a failed question.
     reason, where, file, line: as for a `Rule`.
@@ -50,6 +52,8 @@ class BodyRule(Struct, frozen=True, kw_only=True):
     supported: bool | None = None
     stable: bool | None = None
     mounted: bool | None = None
+    inside: str | None = None
+    region: bool | None = None
     density: float | None = None
     mass: float | None = None
     friction: float | None = None
@@ -73,6 +77,19 @@ class BodyRule(Struct, frozen=True, kw_only=True):
         if scale == 1.0 or self.density is None:
             return self
         return replace(self, density=self.density / scale**3)
+
+    @property
+    def permission(self) -> Rule:
+        """That other bodies may overlap with a region."""
+        return Rule(
+            a=self.bodies,
+            b=Selector("*"),
+            allowed=True,
+            reason=self.reason or "a region has no material",
+            where=self.where,
+            file=self.file,
+            line=self.line,
+        )
 
     @property
     def name(self) -> str:

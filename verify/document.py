@@ -92,7 +92,7 @@ def verify(
         if progress is not None:
             progress(done, count)
     faults = list(report.faults)
-    support = report.check_support(faults)
+    support = report.check_support(faults) + report.check_regions(faults)
     pruned = exempt = 0
     if not report.missing:
         pruned, exempt, left_open = report.check_unlisted(faults)
@@ -245,13 +245,16 @@ class _Report:
             return ()
         from satcheck.verify.statics.claims import Claims
 
-        try:
-            return tuple(Claims(statics, self.bodies).judged())
-        except Rejected as why:
-            faults.append(f"support: {why}")
-        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
-            faults.append(f"support cannot be checked: {type(error).__name__}: {error}")
-        return ()
+        return _judged("support", lambda: Claims(statics, self.bodies).judged(), faults)
+
+    def check_regions(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
+        """The answers about bodies in regions; none if a file is missing."""
+        regions = self.report.regions
+        if not regions or self.missing:
+            return ()
+        from satcheck.verify.inside import judged
+
+        return _judged("regions", lambda: judged(regions, self.bodies), faults)
 
     def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the
@@ -260,6 +263,19 @@ class _Report:
         if len(findings) == len(self.findings):
             listed_apart = self.listed_apart
             check_summary(self.report, findings, self.rules, pruned, listed_apart, left_open)
+
+
+def _judged(
+    name: str, judge: Callable[[], Iterator[CheckedSupport]], faults: list[str]
+) -> tuple[CheckedSupport, ...]:
+    """What a part of the report claims about single bodies."""
+    try:
+        return tuple(judge())
+    except Rejected as why:
+        faults.append(f"{name}: {why}")
+    except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+        faults.append(f"{name} cannot be checked: {type(error).__name__}: {error}")
+    return ()
 
 
 def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:

@@ -115,6 +115,11 @@ def common_point(ends: Ends, pair: Pair, *, of_hulls: bool) -> None:
         raise Rejected("the common point is not the same point on both bodies")
 
 
+def check_within(pair: Pair) -> None:
+    """Rejects bodies of which a point of A lies outside of B, which is solid."""
+    _nowhere({A_ALONE}, pair, meeting(pair.a, pair.b))
+
+
 def _separated_by_axis(proof: AxisProof, pair: Pair, beyond: Fraction, least: Fraction) -> None:
     n = axis(proof.axis)
     gap = gap_along(pair.a, pair.b, n)

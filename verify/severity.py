@@ -160,3 +160,12 @@ def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
         move = vector(finding.mtv)
         bounds.append(root_above(dot(move, move)))
     return min(bounds, default=None)
+
+
+def severity_of_answer(answer: str, own: str | None) -> str:
+    """Of an answer about a single body. own: the severity that rules give its errors."""
+    if answer == "yes":
+        return "none"
+    if answer == "open":
+        return "error" if own == "error" else "warning"
+    return "silenced" if own == "none" else own or "error"

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from satcheck.report.report import EFFECTS, Finding, Report
-from satcheck.report.statics import SupportFinding
+from satcheck.report.report import EFFECTS, BodyAnswer, Finding, Report
 from satcheck.verify.exact import Rejected
 from satcheck.verify.rules import SEVERITIES, Rules
 
@@ -50,11 +49,11 @@ def check_summary(
     new = (finding for finding in findings if finding.baseline_state != "unchanged")
     failed = any(_fails(finding, least) for finding in new)
     alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
-    open_ = left_open or undecided.total() > undecided[None] or (total == allowed and not alone)
-    support = report.support
-    if support is not None:
-        failed = failed or any(_is_unsupported(answer, least) for answer in support.findings)
-        open_ = open_ or support.is_open
+    answers = report.answers
+    nothing = total == allowed and not (alone or report.regions)
+    open_ = left_open or undecided.total() > undecided[None] or nothing
+    failed = failed or any(_is_no(answer, least) for answer in answers)
+    open_ = open_ or any(answer.answer == "open" for answer in answers)
     verdict = "fail" if failed else "incomplete" if open_ else "pass"
     if report.summary.verdict != verdict:
         raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
@@ -101,7 +100,7 @@ def _check_baseline(report: Report, findings: Sequence[Finding], least: int) -> 
         raise Rejected(f"the baseline accepts {accepted} findings")
 
 
-def _is_unsupported(answer: SupportFinding, least: int) -> bool:
+def _is_no(answer: BodyAnswer, least: int) -> bool:
     return answer.answer != "open" and answer.severity in SEVERITIES[least:]
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from satcheck.audit.severity import severity_of_answer
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.margins import Margins
 from satcheck.audit.statics.subjects import Subject
-from satcheck.report.report import Severity
 from satcheck.report.statics import (
     BodyIsland,
     BodyRuleReport,
@@ -70,11 +70,9 @@ def finding(
 ) -> SupportFinding:
     """reason: of a yes, a doubt, which is a warning. severity: that a rule gives the errors of this
     body; None: the default."""
-    level: Severity = "none" if reason is None else "warning"
-    if answer == "open":
-        level = "error" if severity == "error" else "warning"
-    elif answer == "no":
-        level = "silenced" if severity == "none" else severity or "error"  # type: ignore[assignment]
+    level = severity_of_answer(answer, severity)
+    if answer == "yes" and reason is not None:
+        level = "warning"
     return SupportFinding(body, question, rule.name, level, answer, reason)
 
 
@@ -102,6 +100,8 @@ def rule_report(rule: BodyRule) -> BodyRuleReport:
         supported=rule.supported,
         stable=rule.stable,
         mounted=rule.mounted,
+        inside=rule.inside,
+        region=rule.region,
         density=rule.density,
         mass=rule.mass,
         friction=rule.friction,

@@ -61,7 +61,7 @@ class Support:
         self.rules = scene.body_rules
         members = scene.in_order()
         everything = terms_of(members, scene.body_rules)
-        index = list(bodies.placed)
+        index = [k for k in bodies.placed if not everything[k].value("region")]
         self.unusable = {
             body.id: (body.reason, everything[k]) for k, body in bodies.unusable.items()
         }

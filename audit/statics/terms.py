@@ -42,19 +42,19 @@ def terms_for(scene: Scene, free: Sequence[PlacedBody]) -> Terms:
     gravity = stated.gravity or down_of(scene)
     size = math.hypot(*gravity)
     x, y, z = (c / size for c in gravity)
-    tolerance = stated.tolerance
-    if tolerance is None:
-        tolerance = _tolerance(scene, free)
     names: tuple[Stated, ...] = ("gravity", "friction", "tolerance")
     return Terms(
         (x, y, z),
         FRICTION if stated.friction is None else stated.friction,
-        tolerance,
+        contact_tolerance(scene, free),
         tuple(name for name in names if getattr(stated, name) is not None),
     )
 
 
-def _tolerance(scene: Scene, free: Sequence[PlacedBody]) -> float:
+def contact_tolerance(scene: Scene, free: Sequence[PlacedBody]) -> float:
+    """As stated, else by the unit of length, else by the smallest of these bodies."""
+    if scene.statics is not None and scene.statics.tolerance is not None:
+        return scene.statics.tolerance
     unit = unit_of(scene.units)
     if unit is not None:
         return TOLERANCE_MICROMETRES / MICROMETRES[unit]

@@ -167,7 +167,7 @@ def _summary(result: Verification) -> str:
             parts.append(f"{count:,} {called}")
     if result.support:
         held = sum(answer.outcome == "accepted" for answer in result.support)
-        parts.append(f"{held:,} of {counted(len(result.support), 'answer')} about support accepted")
+        parts.append(f"{held:,} of {counted(len(result.support), 'answer')} about bodies accepted")
     if result.faults:
         parts.append(f"{counted(len(result.faults), 'fault')} in the rest of the report")
     if result.pruned:

@@ -14,6 +14,7 @@ from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
+    from satcheck.report.regions import Regions
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
     from satcheck.report.statics import Statics
 
@@ -30,6 +31,8 @@ def explanation(
     canvas.print(_effects(report.effects, timings=timings))
     if report.support is not None:
         canvas.print(_support(report.support, timings=timings))
+    if report.regions:
+        canvas.print(_in_regions(report.regions, timings=timings))
     canvas.print()
     canvas.print(_bodies(report.bodies))
     for finding in findings:
@@ -65,6 +68,16 @@ def _support(statics: Statics, *, timings: bool) -> Table:
     found = f"{counted(points, 'contact point')}, {islands}"
     name = Text("support", style="bold")
     table.add_row("", name, counted(statics.pairs, "pair"), *cost, f"{who}; {found}")
+    return table
+
+
+def _in_regions(regions: Regions, *, timings: bool) -> Table:
+    table = _grid(columns=4 if timings else 3)
+    cost = [duration(regions.microseconds)] if timings else []
+    names = dict.fromkeys(finding.region for finding in regions.findings)
+    name = Text("inside", style="bold")
+    bodies = counted(len(regions.findings), "body", "bodies")
+    table.add_row("", name, bodies, *cost, ", ".join(names))
     return table
 
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import is_unsupported
 from satcheck.cli.report.lines import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.cli.report.numbers import number, vector
 from satcheck.cli.report.words import counted, with_unit
@@ -45,19 +44,6 @@ def support_lines(report: Report, page: Page) -> list[str]:
     return lines
 
 
-def failed_support(report: Report) -> list[str]:
-    """`top is not stable: no contact forces hold it`, of each failing body once."""
-    statics = report.support
-    if statics is None:
-        return []
-    fail_on = report.settings.fail_on
-    said = {}
-    for finding in statics.findings:
-        if is_unsupported(finding, fail_on) and finding.body not in said:
-            said[finding.body] = f"{finding.body} is not {finding.question}: {finding.reason}"
-    return list(said.values())
-
-
 def held(statics: Statics) -> str:
     """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
     many have none, which a severity makes no failure."""
@@ -74,13 +60,6 @@ def held(statics: Statics) -> str:
 def warned(statics: Statics) -> int:
     """The number of answers that are yes, with a warning."""
     return sum(f.answer == "yes" and f.severity == "warning" for f in statics.findings)
-
-
-def open_support(report: Report) -> list[str]:
-    """`the support of 2 bodies is open`."""
-    statics = report.support
-    count = len({f.body for f in statics.findings if f.answer == "open"}) if statics else 0
-    return [f"the support of {counted(count, 'body', 'bodies')} is open"] if count else []
 
 
 def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:

@@ -69,6 +69,10 @@ def render(
         from satcheck.cli.report.support import support_lines
 
         lines += support_lines(report, page)
+    if report.regions:
+        from satcheck.cli.report.body_answers import region_lines
+
+        lines += region_lines(report, page)
     if explain:
         from satcheck.cli.report.explain import explanation  # rich's tables
 

@@ -73,7 +73,7 @@ def next_step(report: Report, *, written: bool = False) -> list[str]:
 
 
 def _passed(report: Report) -> str:
-    if not report.summary.pairs.asked:
+    if not report.summary.pairs.asked and not report.regions:
         return "no pair to check"
     warnings = sum(severity(finding) == "warning" for finding in report.findings)
     said = _no_collision(report)
@@ -82,6 +82,9 @@ def _passed(report: Report) -> str:
 
         said += f", {held(report.support)}"
         warnings += warned(report.support)
+    if report.regions:
+        lying = sum(answer.answer == "yes" for answer in report.regions.findings)
+        said += f", {counted(lying, 'body', 'bodies')} inside the region"
     return said + (f", {counted(warnings, 'warning')}" if warnings else "")
 
 
@@ -110,17 +113,17 @@ def _failed(report: Report) -> str:
     said = [_failure(finding, report) for finding in failing[:NAMED]]
     if more := len(failing) - len(said):
         said.append(f"and {counted(more, 'more pair')}")
-    if report.support is not None:
-        said += _unsupported(report)
+    if report.answers:
+        said += _unmet(report)
     if failing and all(finding.severity != "error" for finding in failing):
         said.append(f"failed by --fail-on {report.settings.fail_on}")
     return "; ".join(said)
 
 
-def _unsupported(report: Report) -> list[str]:
-    from satcheck.cli.report.support import failed_support
+def _unmet(report: Report) -> list[str]:
+    from satcheck.cli.report.body_answers import unmet
 
-    failed = failed_support(report)
+    failed = unmet(report)
     more = len(failed) - NAMED
     rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
     return failed[:NAMED] + rest
@@ -195,10 +198,10 @@ def _left_open(report: Report) -> list[str]:
         said.append(_of_pairs(moving, "may hit while moving", "may hit while moving"))
     if disputed := summary.disputed:
         said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
-    if report.support is not None:
-        from satcheck.cli.report.support import open_support
+    if report.answers:
+        from satcheck.cli.report.body_answers import undecided as undecided_bodies
 
-        said += open_support(report)
+        said += undecided_bodies(report)
     return said
 
 

@@ -33,10 +33,11 @@ def read_body_rule(table: Table, file: str, line: int) -> BodyRule | None:
     found_before = table.problem_count
     table.only(_KNOWN)
     values: dict[str, Any] = {
-        key: table.read(key, boolean, None) for key in ("supported", "stable", "mounted")
+        key: table.read(key, boolean, None) for key in ("supported", "stable", "mounted", "region")
     }
     values |= {
         "bodies": table.required("bodies", selector, None),
+        "inside": table.read("inside", text, None),
         "density": table.read("density", number, None),
         "mass": table.read("mass", number, None),
         "friction": table.read("friction", _friction, None),

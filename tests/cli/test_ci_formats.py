@@ -335,3 +335,28 @@ def test_a_body_that_is_not_supported_fails_its_test_case(tmp_path: Path) -> Non
     assert isinstance(failed["lamp is supported"], Failure)
     assert "it floats" in failed["lamp is supported"].message
     assert "cube is supported" in [case.name for case in suite]
+
+
+def test_a_body_that_leaves_its_region_fails_in_every_format(tmp_path: Path) -> None:
+    """One body and its room: there is no pair to check, and an answer all the same."""
+    scene = tmp_path / "scene.toml"
+    text = (
+        'schema = "satcheck.scene/1"\nunits = "m"\n'
+        '[[bodies]]\nid = "room"\nshape = { type = "box", size = [4, 4, 4] }\n'
+        '[[bodies]]\nid = "lamp"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [0, 0, 1.75]\n"
+        '[[rules]]\nbodies = "room"\nregion = true\n'
+        '[[rules]]\nbodies = "*"\ninside = "room"\n'
+    )
+    scene.write_text(text)
+    table = satcheck(str(scene), "--explain")
+    assert table.code == 1
+    assert "lamp: not inside: it sticks out by 0.25" in table.out
+    assert "FAIL: lamp is not inside room" in table.out
+    (suite,) = JUnitXml.fromstring(satcheck(str(scene), "--format", "junit").out.encode())
+    assert [case.name for case in suite if case.result] == ["lamp is inside room"]
+    for form in ("sarif", "github", "markdown"):
+        assert "lamp is not inside room" in satcheck(str(scene), "--format", form).out
+    scene.write_text(text.replace("1.75", "1.5"))
+    passed = satcheck(str(scene))
+    assert (passed.code, "1 body inside the region" in passed.out) == (0, True)

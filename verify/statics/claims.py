@@ -20,6 +20,7 @@ from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import NotCertified, Point, Rejected
+from satcheck.verify.severity import severity_of_answer
 from satcheck.verify.statics.contacts import ROUNDING, Contacts
 from satcheck.verify.statics.gaps import check_apart
 from satcheck.verify.statics.sums import (
@@ -43,11 +44,13 @@ class Claims:
     fit the bodies or its own rules."""
 
     def __init__(self, statics: Statics, bodies: Mapping[str, Placed]) -> None:
-        self.statics, self.bodies = statics, bodies
-        self.terms = Terms(statics, bodies)
-        self.contacts = Contacts(bodies, statics.tolerance)
+        self.statics, self.terms = statics, Terms(statics, bodies)
+        self.bodies = {
+            id_: body for id_, body in bodies.items() if not self.terms.value(id_, "region")
+        }
+        self.contacts = Contacts(self.bodies, statics.tolerance)
         self.down = vector(statics.gravity)
-        self.usable = {id_: body for id_, body in bodies.items() if body.claims}
+        self.usable = {id_: body for id_, body in self.bodies.items() if body.claims}
         self.stated = {body.id: body for body in statics.bodies}
         self._balanced = _Once()
         self._moving = _Once()
@@ -107,7 +110,8 @@ class Claims:
             raise Rejected("another rule asks this")
         body = self.stated.get(finding.body)
         doubted = finding.answer == "yes" and self._is_doubted(finding, body)
-        if not doubted and finding.severity != _severity(finding.answer, self._own(finding)):
+        own = self.terms.value(finding.body, "severity")
+        if not doubted and finding.severity != severity_of_answer(finding.answer, own):
             raise Rejected("the severity does not follow from the answer and the rules")
         if finding.answer == "open":
             return
@@ -120,11 +124,6 @@ class Claims:
             self._afloat.check(None, self._check_afloat)
         else:
             self._check_moves(body)
-
-    def _own(self, finding: SupportFinding) -> str | None:
-        """The severity that rules give the errors of this body."""
-        own: str | None = self.terms.value(finding.body, "severity")
-        return own
 
     def _is_doubted(self, finding: SupportFinding, body: SupportedBody | None) -> bool:
         """Whether a yes comes with a warning. Rejects one that hides its doubt."""
@@ -286,11 +285,3 @@ class _Once:
 
 def _is_moving(body: SupportedBody) -> bool:
     return body.motion is not None and any((*body.motion.velocity, *body.motion.angular))
-
-
-def _severity(answer: str, own: str | None) -> str:
-    if answer == "yes":
-        return "none"
-    if answer == "open":
-        return "error" if own == "error" else "warning"
-    return "silenced" if own == "none" else own or "error"

@@ -11,7 +11,7 @@ from satcheck.verify.rules import selected_by
 from satcheck.verify.statics.weights import Weight, weight_of
 
 QUESTIONS = ("supported", "stable")
-KEYS = (*QUESTIONS, "mounted", "density", "mass", "friction", "severity")
+KEYS = (*QUESTIONS, "mounted", "region", "density", "mass", "friction", "severity")
 
 
 class Terms:

@@ -11,21 +11,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.audit.severity import fails, is_unsupported
+from satcheck.audit.severity import fails, is_unmet
 from satcheck.cli.output import harmless
 from satcheck.cli.report.ci.problems import kind_of, sentence
 from satcheck.cli.report.config import config_line
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, issue_line
-from satcheck.report.report import UNSUPPORTED
+from satcheck.report.regions import InsideFinding
+from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from satcheck.cli.report.ci import Reports
-    from satcheck.report.report import Finding, Report
-    from satcheck.report.statics import SupportFinding
+    from satcheck.report.report import BodyAnswer, Finding, Report
 
 
 def render(reports: Reports) -> Iterator[str]:
@@ -47,10 +47,9 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
     for finding in report.findings:
         case = _case(suite, files[finding.a], f"{finding.a} and {finding.b}")
         _judge(case, finding, report)
-    if report.support is not None:
-        for answer in report.support.findings:
-            case = _case(suite, files[answer.body], f"{answer.body} is {answer.question}")
-            _judge_support(case, answer, report)
+    for answer in report.answers:
+        case = _case(suite, files[answer.body], f"{answer.body} is {answer.question}")
+        _judge_answer(case, answer, report)
     if report.truncated is not None:
         pairs = counted(report.truncated.pairs, "more pair")
         _case(suite, name, f"{pairs}: {report.truncated.reason}")
@@ -84,14 +83,15 @@ def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
         _say(case, "failure", kind_of(finding), text)
 
 
-def _judge_support(case: ElementTree.Element, answer: SupportFinding, report: Report) -> None:
+def _judge_answer(case: ElementTree.Element, answer: BodyAnswer, report: Report) -> None:
     if answer.answer == "open":
         text = f"whether {answer.body} is {answer.question} is open: {answer.reason}"
         _say(case, "error", "undecided", text)
-    elif is_unsupported(answer, report.settings.fail_on):
+    elif is_unmet(answer, report.settings.fail_on):
         is_not = "is not" if answer.answer == "no" else "is"
         text = f"{answer.body} {is_not} {answer.question}: {answer.reason}"
-        _say(case, "failure", UNSUPPORTED, text)
+        inside = isinstance(answer, InsideFinding)
+        _say(case, "failure", OUTSIDE_REGION if inside else UNSUPPORTED, text)
 
 
 def _say(case: ElementTree.Element, name: str, kind: str, text: str) -> None:

@@ -1,0 +1,197 @@
+"""Whether bodies lie in their regions up to a tolerance, checked in exact arithmetic.
+
+In a convex region a body lies if no point of it is farther beyond a face than the tolerance. In
+another region it lies if a shift by at most the tolerance brings all of it into the region, and it
+does not if one of its points is outside and farther than the tolerance from the surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+
+import numpy as np
+
+from satcheck.report.regions import InsideFinding, Regions
+from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.verify.bodies import Placed
+from satcheck.verify.evidence import on_body, vector
+from satcheck.verify.exact import (
+    IntVector,
+    NotCertified,
+    Rejected,
+    cross,
+    dot,
+    nearest_to_origin,
+    sub,
+)
+from satcheck.verify.relations import check_within, pair_of
+from satcheck.verify.roots import sign_of
+from satcheck.verify.rules import selected_by
+from satcheck.verify.severity import severity_of_answer
+from satcheck.verify.world import Exact, World
+
+
+def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSupport]:
+    """Each answer, in the order of the report. Rejects a list of other questions than those that
+    the rules ask."""
+    asked = _asked(regions, bodies)
+    if [(f.body, f.region) for f in regions.findings] != list(asked):
+        raise Rejected("the questions about regions are not those that rules ask")
+    for finding in regions.findings:
+        rule, severity = asked[finding.body, finding.region]
+        try:
+            _check_words(finding, rule, severity)
+            if finding.answer != "open":
+                body, region = bodies[finding.body], bodies[finding.region]
+                check_answer(finding, body, region, regions.tolerance)
+        except NotCertified as why:
+            yield _checked(finding, "not certified", str(why))
+        except Rejected as why:
+            yield _checked(finding, "rejected", str(why))
+        else:
+            is_open = finding.answer == "open"
+            yield _checked(finding, "open" if is_open else "accepted", finding.reason)
+
+
+def _checked(finding: InsideFinding, outcome: Outcome, reason: str | None) -> CheckedSupport:
+    return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
+
+
+def _asked(
+    regions: Regions, bodies: Mapping[str, Placed]
+) -> dict[tuple[str, str], tuple[str, str | None]]:
+    """(body, region) -> the rule that asks, and the severity that rules give the errors of the
+    body."""
+    inside: dict[str, tuple[str, str]] = {}
+    severity: dict[str, str] = {}
+    spaces: dict[str, bool] = {}
+    select = selected_by(bodies)
+    for rule in regions.rules:
+        for id_ in select(rule.bodies):
+            if rule.inside is not None:
+                inside[id_] = rule.inside, rule.where or rule.bodies
+            if rule.severity is not None:
+                severity[id_] = rule.severity
+            if rule.region is not None:
+                spaces[id_] = rule.region
+    return {
+        (id_, inside[id_][0]): (inside[id_][1], severity.get(id_))
+        for id_ in bodies
+        if id_ in inside and inside[id_][0] != id_ and not spaces.get(id_)
+    }
+
+
+def _check_words(finding: InsideFinding, rule: str, severity: str | None) -> None:
+    if finding.rule != rule:
+        raise Rejected("another rule asks this")
+    if finding.severity != severity_of_answer(finding.answer, severity):
+        raise Rejected("the severity does not follow from the answer and the rules")
+
+
+def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
+    """Rejects a yes or a no that is not proven by what the finding states."""
+    if region.world is None or not region.world.solid or region.holed:
+        raise Rejected("a region is a closed mesh")
+    if region.convex:
+        _check_beyond_faces(finding, body, region.world, tolerance)
+        return
+    if body.world is None or body.holed:
+        raise NotCertified(
+            "curved shapes and meshes with holes are certified in convex regions only"
+        )
+    if finding.answer == "yes":
+        _check_shifted(finding, body, region, tolerance)
+    else:
+        _check_point(finding, body.world, region.world, tolerance)
+
+
+def _check_beyond_faces(
+    finding: InsideFinding, body: Placed, region: World, tolerance: float
+) -> None:
+    if (finding.answer == "yes") is _is_beyond(body, region, tolerance):
+        raise Rejected(
+            "how far the body lies beyond the faces of the region contradicts the answer"
+        )
+    if finding.sticks_out and not _is_beyond(body, region, finding.sticks_out):
+        raise Rejected("the body does not stick out as far as that")
+
+
+def _is_beyond(body: Placed, region: World, limit: float) -> bool:
+    """Whether a point of the body lies farther beyond a face of the convex region than the limit,
+    or as far and the limit is not 0."""
+    k = region.lattice if body.world is None else max(region.lattice, body.world.lattice)
+    faces = Exact(region, k)
+    mesh = None if body.world is None else Exact(body.world, k)
+    return any(
+        _reaches(body, mesh, normal, at, k, Fraction(limit)) for normal, at in _planes(faces)
+    )
+
+
+def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
+    """The plane of each face that has an area, once: its outward normal, and a point of it."""
+    seen = set()
+    for t in range(len(faces.world.triangles)):
+        a, b, c = faces.corners(t)
+        normal = cross(sub(b, a), sub(c, a))
+        if any(normal):
+            divisor = int(np.gcd.reduce(np.array(normal, dtype=object)))
+            x, y, z = (n // divisor for n in normal)
+            if ((x, y, z), dot((x, y, z), a)) not in seen:
+                seen.add(((x, y, z), dot((x, y, z), a)))
+                yield (x, y, z), a
+
+
+def _reaches(
+    body: Placed, mesh: Exact | None, normal: IntVector, at: IntVector, k: int, limit: Fraction
+) -> bool:
+    """Whether the body reaches beyond the plane by more than the limit."""
+    squared = (limit * (1 << k)) ** 2 * dot(normal, normal)
+    if mesh is not None:
+        height = mesh.extent(normal) - dot(normal, at)
+        return bool(height > 0 and height * height > squared)
+    assert body.curved is not None
+    x, y, z = map(Fraction, normal)
+    reach = body.curved.reach((x, y, z))
+    scale = 1 << k
+    # q + root(p) > level + root(limit): the sign of their difference, on the lattice.
+    return sign_of(reach.q * scale - dot(normal, at), [squared], [reach.p * scale * scale]) > 0
+
+
+def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
+    if finding.shift is None:
+        raise NotCertified("no shift shows that it lies in the region")
+    move = vector(finding.shift)
+    if dot(move, move) > Fraction(tolerance) ** 2:
+        raise Rejected("the shift is longer than the tolerance")
+    moved = body.moved([float(c) for c in move])
+    assert moved.world is not None
+    assert region.world is not None
+    check_within(pair_of(moved, region, moved.world, region.world))
+
+
+def _check_point(finding: InsideFinding, body: World, region: World, tolerance: float) -> None:
+    if finding.point is None:
+        raise NotCertified("no point shows that it is outside of the region")
+    k = max(body.lattice, region.lattice)
+    p, surface = on_body(finding.point, Exact(body, k), of_hull=False), Exact(region, k)
+    if surface.winding(p) != 0:
+        raise Rejected("the point is not outside of the region")
+    reach = max(tolerance, finding.sticks_out or 0.0)
+    if _is_near(p, surface, Fraction(reach)):
+        raise Rejected("the point is closer to the region than claimed")
+
+
+def _is_near(p: tuple[Fraction, ...], surface: Exact, reach: Fraction) -> bool:
+    """Whether the surface is closer than `reach`, or as close as the tolerance."""
+    scale = 1 << surface.k
+    at = np.array([float(c / scale) for c in p])
+    wide = np.nextafter(float(reach), np.inf) + np.spacing(np.abs(at))
+    world = surface.world
+    near = ((world.low <= at + wide) & (world.high >= at - wide)).all(axis=1)
+    within = (reach * scale) ** 2
+    for t in np.flatnonzero(near).tolist():
+        x, _ = nearest_to_origin([sub(c, p) for c in surface.corners(t)])  # type: ignore[arg-type]
+        if dot(x, x) < within:
+            return True
+    return False
