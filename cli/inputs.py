@@ -28,7 +28,6 @@ from satcheck.scene.mesh_files import (
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,
-    CHORD_TOLERANCE,
     GeometryKind,
     Purpose,
     ReadOptions,
@@ -60,7 +59,7 @@ class Inputs(Struct, frozen=True):
     time: float | None = None
     purpose: tuple[Purpose, ...] = ()
     mesh_hulls: bool = False
-    chord_tolerance: float = CHORD_TOLERANCE
+    chord_tolerance: float | None = None
     angular_tolerance: float = ANGULAR_TOLERANCE
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE

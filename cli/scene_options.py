@@ -16,7 +16,7 @@ from satcheck.cli.options import DEFAULTS, seconds_option, together
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,
-    CHORD_TOLERANCE,
+    CHORD_TOLERANCES,
     GeometryKind,
     Purpose,
 )
@@ -49,9 +49,8 @@ reading_options = together(
         "--chord-tolerance",
         type=millimetres,
         metavar="LENGTH",
-        default=f"{CHORD_TOLERANCE:g}mm",
-        show_default=True,
-        help="How far facets of curved STEP faces may be off: their surface tolerance.",
+        help="How far facets of curved faces may be off "
+        f"[STEP: {CHORD_TOLERANCES['step']:g}mm, IFC: {CHORD_TOLERANCES['ifc']:g}mm].",
     ),
     click.option(
         "--angular-tolerance",

@@ -13,7 +13,8 @@ class StatedReading(Value, frozen=True, kw_only=True):
     time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
     the first samples. geometry: of USD, "collision" or "visual". purpose: of the prims of USD that
     are drawn, beside those without a purpose. chord_tolerance: of the facets of curved faces in
-    STEP files, in millimetres. angular_tolerance: of the same, in radians.
+    STEP and IFC files, in millimetres; None beside such files: that of each format.
+    angular_tolerance: of the same, in radians.
     """
 
     time: float | None = None

@@ -17,9 +17,11 @@ OPTIONS_OF: dict[str, tuple[str, ...]] = {
     "gltf": ("time",),
     "usd": ("time", "geometry", "purpose"),
     "step": ("chord_tolerance", "angular_tolerance"),
+    "ifc": ("chord_tolerance", "angular_tolerance"),
 }
-# Press fits of 0.02 mm are common. Facets hide overlaps up to twice their tolerance.
-CHORD_TOLERANCE = 0.005  # mm
+# Of each format, in mm. In machines press fits of 0.02 mm are common, and facets hide overlaps up
+# to twice their tolerance. Buildings are drawn to about 1 mm.
+CHORD_TOLERANCES = {"step": 0.005, "ifc": 1.0}
 ANGULAR_TOLERANCE = 0.5  # radians
 
 
@@ -32,15 +34,15 @@ class ReadOptions(Struct, frozen=True):
     None: what is drawn. purpose: of the prims that are drawn, beside those without a purpose; None:
     render. mesh_hulls: the collision meshes of MJCF files are convex hulls; the parts that bodies
     name say so. chord_tolerance: how far facets may be off a curved face for which a reader makes
-    them, in millimetres. angular_tolerance: the largest angle between neighbouring facets of such a
-    face, in radians.
+    them, in millimetres; None: as in `CHORD_TOLERANCES`. angular_tolerance: the largest angle
+    between neighbouring facets of such a face, in radians.
     """
 
     time: float | None = None
     geometry: GeometryKind | None = None
     purpose: tuple[Purpose, ...] | None = None
     mesh_hulls: bool | None = None
-    chord_tolerance: float = CHORD_TOLERANCE
+    chord_tolerance: float | None = None
     angular_tolerance: float = ANGULAR_TOLERANCE
 
     def beside(self, stated: Mapping[str, Any]) -> ReadOptions:
@@ -50,20 +52,30 @@ class ReadOptions(Struct, frozen=True):
 
     def changed(self, formats: Iterable[str]) -> dict[str, Any]:
         """The options that count for files of these formats and differ from their defaults."""
-        return {
-            name: value
-            for name, value in (self.stated(formats) or {}).items()
-            if value != getattr(_DEFAULTS, name)
-        }
+        values = {name: getattr(self, name) for name in _names(formats)}
+        return {k: value for k, value in values.items() if value != getattr(_DEFAULTS, k)}
+
+    def chord_of(self, file_format: str) -> float:
+        """The chord tolerance of a format, in millimetres."""
+        own = self.chord_tolerance
+        return CHORD_TOLERANCES[file_format] if own is None else own
 
     def stated(self, formats: Iterable[str]) -> dict[str, Any] | None:
-        """The options that count for files of these formats, by name; None: no option counts."""
-        names = {name for each in formats for name in OPTIONS_OF.get(each, ())}
-        values = {name: getattr(self, name) for name in names}
+        """The options that count for files of these formats, by name; None: no option counts. The
+        chord tolerance is None if these formats have different ones."""
+        formats = set(formats)
+        values = {name: getattr(self, name) for name in _names(formats)}
+        chords = {self.chord_of(each) for each in formats & CHORD_TOLERANCES.keys()}
+        if len(chords) == 1:
+            values["chord_tolerance"] = chords.pop()
         return values if any(value is not None for value in values.values()) else None
 
 
 _DEFAULTS = ReadOptions()
+
+
+def _names(formats: Iterable[str]) -> set[str]:
+    return {name for each in formats for name in OPTIONS_OF.get(each, ())}
 
 
 def as_stated(stated: Mapping[str, Any] | None) -> ReadOptions:

@@ -156,7 +156,7 @@ def _read(request: Request) -> RawScene:
         case "ifc":
             from satcheck.scene.loading.ifc import read_ifc
 
-            return read_ifc(data)
+            return read_ifc(data, request.options)
         case "zae":
             from satcheck.scene.loading.zae import read_zae
 

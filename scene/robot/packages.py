@@ -82,6 +82,8 @@ class MeshPlaces:
                 return named
             hint = f"--package {rest.partition('/')[0]}=DIR says where the files of this server lie"
             raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
+        if models and not scheme and (named := self._named(rest, models)):
+            return named
         place = self._plain(rest, models, quoted=scheme == "file")
         if _is_from_environment(place):
             return place

@@ -11,12 +11,13 @@ from satcheck.audit import Settings, check
 from satcheck.scene import MeshFile, MeshFileError, Scene, load_scene
 from satcheck.scene.loading.step.assembly import read_step
 from satcheck.scene.loading.step.exchange import read_exchange
-from satcheck.scene.read_options import CHORD_TOLERANCE, ReadOptions
+from satcheck.scene.read_options import CHORD_TOLERANCES, ReadOptions
 from satcheck.verify import verify
 from tests.scene.loading import refusal
 from tests.scene.step_files import StepFile, rig
 
 INCH = 25.4
+CHORD_TOLERANCE = CHORD_TOLERANCES["step"]
 
 
 def load(folder: Path, text: str, name: str = "a.step", **options: float) -> Scene:
@@ -173,6 +174,9 @@ REFUSED = {
     "dangling": (GOOD.replace("#1=", "#9999=", 1), "index-out-of-range", "#1"),
     "ifc": (BOX.text("IFC4"), "format-mismatch", "IFC"),
     "csg": (GOOD.replace("MANIFOLD_SOLID_BREP", "CSG_SOLID"), "unsupported-feature", "CSG_SOLID"),
+    "nan": (GOOD.replace("(1.0,", "(nan,", 1), "bad-record", "'nan' is no value"),
+    "-inf": (GOOD.replace("(1.0,", "(-inf,", 1), "bad-record", "'-inf' is no value"),
+    "unit": (GOOD.replace(".METRE.", ".CUBIT."), "bad-record", "CUBIT"),
     "empty": (StepFile().text(), "bad-record", "no product"),
 }
 

@@ -20,11 +20,12 @@ from satcheck.scene.loading.ifc.remarks import remarks_on
 from satcheck.scene.loading.ifc.shape import Shape
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.read_options import ReadOptions
 
 _LONGEST_NAME = 60
 
 
-def read_ifc(data: memoryview) -> RawScene:
+def read_ifc(data: memoryview, options: ReadOptions) -> RawScene:
     """The bodies in metres, z up, sorted by GlobalId. Raises MeshFileError without a file name."""
     model = open_model(data)
     elements = elements_of(model)
@@ -32,7 +33,7 @@ def read_ifc(data: memoryview) -> RawScene:
     if not bodies:
         raise MeshFileError("empty-mesh", "no element of the file has a shape")
     read = [body for body in bodies if body.id() not in elements.unread]
-    shapes = {**shapes_of(model, read), **elements.unread}
+    shapes = {**shapes_of(model, read, options), **elements.unread}
     paths = path_names(bodies)
     relations = relations_of(model, bodies, paths, shapes)
     groups = groups_of(model, bodies)
@@ -47,7 +48,9 @@ def read_ifc(data: memoryview) -> RawScene:
         )
         for body in bodies
     )
-    return RawScene(parts, tuple(nodes), remarks_on(model, elements), UNITS, relations.rules)
+    return RawScene(
+        parts, tuple(nodes), remarks_on(model, elements, shapes, options), UNITS, relations.rules
+    )
 
 
 def _parts(
@@ -60,7 +63,7 @@ def _parts(
     places = {}
     for body in bodies:
         shape = shapes[body.id()]
-        key = shape if isinstance(shape, Refusal) else (shape.vertices, shape.triangles)
+        key = shape if isinstance(shape, Refusal) else shape.key
         if isinstance(shape, Refusal) or key not in known:
             known[key] = len(parts)
             mesh = shape if isinstance(shape, Refusal) else shape.mesh(UNITS)

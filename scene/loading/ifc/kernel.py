@@ -13,14 +13,15 @@ from typing import Any
 
 from satcheck.core.transform import Transform
 from satcheck.scene.loading.flatten import concatenate
+from satcheck.scene.loading.ifc.curved import curved_bodies
 from satcheck.scene.loading.ifc.elements import material_of, rank_of
 from satcheck.scene.loading.ifc.failures import Failures, failures_in
 from satcheck.scene.loading.ifc.kernel_log import logged
 from satcheck.scene.loading.ifc.shape import Shape
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
+from satcheck.scene.read_options import ReadOptions
 
-LINEAR_DEFLECTION = 0.001  # metres: the largest distance from a curve to its facets
-ANGULAR_DEFLECTION = 0.5  # radians from facet to facet
+_METRES = 1e-3  # of a millimetre
 _LIBRARY = "opencascade"
 # More threads need more address space, which is limited. Their number changes no shape.
 _MOST_THREADS = 4
@@ -30,25 +31,32 @@ _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
-def shapes_of(model: Any, bodies: Sequence[Any]) -> dict[int, Shape | Refusal]:
+def shapes_of(
+    model: Any, bodies: Sequence[Any], options: ReadOptions
+) -> dict[int, Shape | Refusal]:
     """The number of each instance -> its shape, or why it has none."""
     shapes: dict[int, list[Shape]] = {body.id(): [] for body in bodies}
     ranks = {body.id(): rank_of(material_of(body)[0].RepresentationIdentifier) for body in bodies}
     decimals = _decimals(model)
-    for element in _elements(model, bodies):
+    for element in _elements(model, bodies, options):
         if rank_of(element.context) == ranks[element.id]:
             shapes[element.id].append(_shape(element, decimals))
     failures = failures_in(model, logged(), shapes)
-    return {body.id(): _whole(body, shapes[body.id()], failures) for body in bodies}
+    curved = curved_bodies(model, bodies)
+    chord = options.chord_of("ifc") * _METRES
+    return {
+        body.id(): _whole(body, shapes[body.id()], failures, chord if body.id() in curved else 0.0)
+        for body in bodies
+    }
 
 
-def _elements(model: Any, bodies: Sequence[Any]) -> Iterator[Any]:
+def _elements(model: Any, bodies: Sequence[Any], options: ReadOptions) -> Iterator[Any]:
     """The shapes of the representations of the bodies, as the kernel finishes them."""
     from ifcopenshell import geom
 
     settings = geom.settings()
-    settings.set("mesher-linear-deflection", LINEAR_DEFLECTION)
-    settings.set("mesher-angular-deflection", ANGULAR_DEFLECTION)
+    settings.set("mesher-linear-deflection", options.chord_of("ifc") * _METRES)
+    settings.set("mesher-angular-deflection", options.angular_tolerance)
     settings.set("no-normals", True)
     settings.set("apply-default-materials", False)
     threads = min(os.cpu_count() or 1, _MOST_THREADS)
@@ -77,7 +85,9 @@ def _matrix(columns: Sequence[float]) -> Transform | None:
     return None if rows == _IDENTITY else rows
 
 
-def _whole(body: Any, shapes: Sequence[Shape], failures: Failures) -> Shape | Refusal:
+def _whole(
+    body: Any, shapes: Sequence[Shape], failures: Failures, tolerance: float
+) -> Shape | Refusal:
     """The shapes of all representations of a body as one, or why it has none."""
     wanted = material_of(body)
     if failure := failures.fatal.get(body.id()):
@@ -91,7 +101,9 @@ def _whole(body: Any, shapes: Sequence[Shape], failures: Failures) -> Shape | Re
     warnings = _warnings(failures.faces.get(body.id(), 0))
     first = shapes[0]
     vertices, triangles = concatenate([(s.vertices, s.triangles, None) for s in shapes])
-    return Shape(bytes(vertices), bytes(triangles), first.matrix, first.decimals, warnings)
+    return Shape(
+        bytes(vertices), bytes(triangles), first.matrix, first.decimals, tolerance, warnings
+    )
 
 
 def _warnings(faces: int) -> tuple[tuple[str, str], ...]:

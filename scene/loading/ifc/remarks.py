@@ -3,36 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from satcheck.scene.loading.ifc.elements import Elements
-from satcheck.scene.loading.ifc.kernel import ANGULAR_DEFLECTION, LINEAR_DEFLECTION
+from satcheck.scene.loading.ifc.shape import Shape
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
-# Entities that make curved surfaces.
-_CURVED = (
-    "IfcConic",
-    "IfcBSplineCurve",
-    "IfcBSplineSurface",
-    "IfcCircleProfileDef",
-    "IfcEllipseProfileDef",
-    "IfcRevolvedAreaSolid",
-    "IfcSweptDiskSolid",
-    "IfcSphere",
-    "IfcRightCircularCone",
-    "IfcRightCircularCylinder",
-    "IfcArcIndex",
-    "IfcCylindricalSurface",
-    "IfcSphericalSurface",
-    "IfcToroidalSurface",
-    "IfcSurfaceOfRevolution",
-)
 
-
-def remarks_on(model: Any, elements: Elements) -> tuple[tuple[str, str], ...]:
-    """(code, message) of each."""
-    return tuple(_remarks(model, elements))
+def remarks_on(
+    model: Any,
+    elements: Elements,
+    shapes: Mapping[int, Shape | Refusal],
+    options: ReadOptions,
+) -> tuple[tuple[str, str], ...]:
+    """(code, message) of each. shapes: of the bodies."""
+    return (*_remarks(model, elements), *_facets(shapes, options))
 
 
 def _remarks(model: Any, elements: Elements) -> Iterator[tuple[str, str]]:
@@ -44,11 +32,17 @@ def _remarks(model: Any, elements: Elements) -> Iterator[tuple[str, str]]:
         yield "no-shape", f"{len(names)} elements without a shape are not checked: {listed(names)}"
     if _all_of(model, ("IfcMapConversion",)):
         yield "left-out", "IfcMapConversion is not applied: coordinates are those of the project"
-    if _all_of(model, _CURVED):
+
+
+def _facets(
+    shapes: Mapping[int, Shape | Refusal], options: ReadOptions
+) -> Iterator[tuple[str, str]]:
+    count = sum(isinstance(shape, Shape) and shape.tolerance > 0 for shape in shapes.values())
+    if count:
         yield (
             "faceted",
-            f"curved surfaces are checked as facets, up to {LINEAR_DEFLECTION * 1000:g} mm and "
-            f"{ANGULAR_DEFLECTION:g} rad off; --surface-tolerance allows for that",
+            f"curved surfaces of {count} bodies are checked as facets, up to about "
+            f"{options.chord_of('ifc'):g} mm off (--chord-tolerance)",
         )
 
 

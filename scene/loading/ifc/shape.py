@@ -11,12 +11,14 @@ from satcheck.scene.loading.raw_mesh import RawMesh
 
 class Shape(Struct, frozen=True):
     """vertices, triangles, decimals: as in RawMesh, in metres. matrix: the placement in the world;
-    None: identity. warnings: (code, message)."""
+    None: identity. tolerance: how far its facets may be off its surfaces, metres. warnings: (code,
+    message)."""
 
     vertices: bytes
     triangles: bytes
     matrix: Transform | None
     decimals: int
+    tolerance: float = 0.0
     warnings: tuple[tuple[str, str], ...] = ()
 
     @property
@@ -34,4 +36,10 @@ class Shape(Struct, frozen=True):
             decimals=self.decimals,
             units=units,
             warnings=self.warnings,
+            surface_tolerance=self.tolerance,
         )
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The same for bodies that share a mesh."""
+        return self.vertices, self.triangles, self.tolerance

@@ -70,7 +70,7 @@ def _tessellated(data: bytes, options: ReadOptions) -> bytes:
     run."""
     glb: bytes = imported("cascadio", "step", "STEP files").load(
         data,
-        tol_linear=options.chord_tolerance,
+        tol_linear=options.chord_of("step"),
         tol_angular=options.angular_tolerance,
         use_parallel=False,
         include_brep=True,
@@ -169,7 +169,7 @@ class _Assembly:
             raw,
             vertices=vertices.tobytes(),
             units="mm",
-            surface_tolerance=0.0 if flat else self._options.chord_tolerance,
+            surface_tolerance=0.0 if flat else self._options.chord_of("step"),
         )
 
     def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
@@ -215,7 +215,7 @@ class _Assembly:
         if faceted:
             message = (
                 f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
-                f"by up to about {self._options.chord_tolerance:g} mm (--chord-tolerance)"
+                f"by up to about {self._options.chord_of('step'):g} mm (--chord-tolerance)"
             )
             yield "faceted", message
 

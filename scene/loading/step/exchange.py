@@ -36,6 +36,18 @@ _OCCURRENCE = re.compile(
     + _NEXT
     + rb"(#\d+)"
 )
+# What stands for a parameter and is no value of the format, such as nan, -inf and 1.#QNAN.
+_NO_VALUE = re.compile(rb"[(,]\s*([A-Za-z_]\w*(?=\s*[,)])|[-+]\s*[A-Za-z]\w*|[-+]?[\d.]+#\w*)")
+_SI_UNIT = re.compile(rb"\bSI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.(\w+)\.\s*\)")
+# ISO 10303-41
+_PREFIX = re.compile(
+    rb"|EXA|PETA|TERA|GIGA|MEGA|KILO|HECTO|DECA|DECI|CENTI|MILLI|MICRO|NANO|PICO|FEMTO|ATTO"
+)
+_UNIT = re.compile(
+    rb"METRE|GRAM|SECOND|AMPERE|KELVIN|MOLE|CANDELA|RADIAN|STERADIAN|HERTZ|NEWTON|PASCAL|JOULE|WATT"
+    rb"|COULOMB|VOLT|FARAD|OHM|SIEMENS|WEBER|TESLA|HENRY|DEGREE_CELSIUS|LUMEN|LUX|BECQUEREL|GRAY"
+    rb"|SIEVERT"
+)
 _WIDE = re.compile(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\")
 _NARROW = re.compile(r"\\X\\([0-9A-F]{2})")
 # The curved surfaces of ISO 10303-42, also within records of several kinds.
@@ -83,8 +95,8 @@ class Exchange(Struct, frozen=True):
 
 
 def read_exchange(data: bytes) -> Exchange:
-    """Raises MeshFileError for a file that is cut off, that names records which it lacks, or that
-    has solids which are not read."""
+    """Raises MeshFileError for a file that is cut off, that names records which it lacks, that has
+    values or units which are none, or that has solids which are not read."""
     if not data.lstrip().startswith(_BEGIN.encode()):
         raise MeshFileError("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
     schema = _SCHEMA.search(data)
@@ -94,6 +106,7 @@ def read_exchange(data: bytes) -> Exchange:
     if _END.encode() not in bare or b"'" in bare:
         message = f"the file ends before {_END}, or within a text"
         raise MeshFileError("truncated", message)
+    _refuse_values(bare)
     kinds = _kinds(bare)
     unread = sorted(_UNREAD_SOLIDS & kinds.keys())
     if unread:
@@ -107,6 +120,17 @@ def read_exchange(data: bytes) -> Exchange:
         has_unit=b"LENGTH_UNIT" in bare,
         is_curved=_CURVED.search(bare) is not None,
     )
+
+
+def _refuse_values(bare: bytes) -> None:
+    """OpenCascade reads numbers that are none, and unknown units, as something else."""
+    if (wrong := _NO_VALUE.search(bare)) is not None:
+        message = f"{wrong[1].decode('ascii', 'replace')!r} is no value of a record"
+        raise MeshFileError("bad-record", message)
+    for prefix, unit in _SI_UNIT.findall(bare):
+        if not (_PREFIX.fullmatch(prefix) and _UNIT.fullmatch(unit)):
+            named = f"{prefix.decode()} {unit.decode()}".strip()
+            raise MeshFileError("bad-record", f"SI_UNIT: {named} is no unit")
 
 
 def _kinds(bare: bytes) -> Counter[str]:

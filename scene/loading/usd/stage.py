@@ -18,6 +18,7 @@ from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
 _METRE = "m"
+_PARSER = re.compile(r"parse error matching .*? at(?= ')")  # rules of the grammar in C++
 _DIGITS = 7  # that float32 keeps
 # What a reference to such a file lacks is no body.
 _ONLY_MATERIALS = re.compile(r"@[^@]*\.mtlx(\?[^@]*)?@")
@@ -69,6 +70,7 @@ def said(error: Exception) -> str:
         return "its text is no UTF-8"
     quoted = [line.partition(" : '")[2] for line in message.splitlines() if " : '" in line]
     text = next(filter(None, quoted), message).strip().rstrip("'")
+    text = _PARSER.sub("parse error at", text)
     return " ".join(text.split())
 
 

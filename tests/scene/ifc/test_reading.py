@@ -12,6 +12,7 @@ from satcheck.scene import Scene, load_scene
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.ifc import read_ifc
+from satcheck.scene.read_options import ReadOptions
 from tests.scene.ifc.models import METRES, MILLIMETRES, Model
 from tests.scene.loading import refusal
 
@@ -224,7 +225,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(extras, "import_module", missing)
     with pytest.raises(MeshFileError) as caught:
-        read_ifc(memoryview(good().encode()))
+        read_ifc(memoryview(good().encode()), ReadOptions())
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[ifc]'" in caught.value.message
 

@@ -58,9 +58,10 @@ def test_where_models_are_looked_for(tmp_path: Path, monkeypatch: pytest.MonkeyP
     for uri in ("model://crate", "crate", "model://crate/model.sdf"):
         ((id_, code, message),) = unreadable(here, world(include(uri)))
         assert (id_, code) == ("crate", "missing-resource"), message
-    text = world(include("model://crate"))
-    by_option = load_scene([write(here, text)], packages={"crate": there / "crate"})
-    assert by_option.order == ("crate::l", "crate::tip")
+    for uri in ("model://crate", "crate"):
+        place = write(here, world(include(uri)))
+        by_option = load_scene([place], packages={"crate": there / "crate"})
+        assert by_option.order == ("crate::l", "crate::tip")
     monkeypatch.setenv("GAZEBO_MODEL_PATH", str(there))
     for uri in ("model://crate", "crate", "model://crate/model.sdf"):
         assert unreadable(here, world(include(uri))) == []
