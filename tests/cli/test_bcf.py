@@ -24,22 +24,29 @@ from tests.cli.process import PUSHED, SAMPLES, satcheck
 from tests.scene.ifc.models import MILLIMETRES, Model
 
 WALL, PIPE, SLAB = (f"{name:0<22}" for name in ("1wall", "2pipe", "3slab"))
+PROJECT = "0000000000000000000001"  # of every Model
 VERSIONS: tuple[Version, ...] = ("2.1", "3.0")
 READERS = {"2.1": Bcf21, "3.0": Bcf30}
 
 
 @pytest.fixture
 def house(tmp_path: Path) -> Path:
-    """A pipe through a wall that stands on a slab, far from the origin, in millimetres."""
+    path = tmp_path / "house.ifc"
+    path.write_bytes(with_pipes(1))
+    return path
+
+
+def with_pipes(count: int) -> bytes:
+    """Pipes through a wall that stands on a slab, far from the origin, in millimetres."""
     model = Model(MILLIMETRES)
     at = (500_000, 200_000, 0)
     model.box((4000, 200, 2000), at, kind="IFCWALL", name="'South'", guid=WALL)
-    pipe = (500_500, 199_000, 900)
-    model.box((100, 2000, 100), pipe, kind="IFCPIPESEGMENT", name="'Water'", guid=PIPE)
+    for number in range(count):
+        pipe = (500_500 + 1000 * number, 199_000, 900)
+        guid = PIPE if not number else f"{PIPE[:-1]}{number}"
+        model.box((100, 2000, 100), pipe, kind="IFCPIPESEGMENT", name="'Water'", guid=guid)
     model.box((4000, 4000, 200), (500_000, 200_000, -200), kind="IFCSLAB", guid=SLAB)
-    path = tmp_path / "house.ifc"
-    path.write_bytes(model.bytes())
-    return path
+    return model.bytes()
 
 
 def checked(path: Path) -> tuple[Report, Scene]:
@@ -73,6 +80,8 @@ def test_a_program_reads_the_topic_and_finds_both_elements(
     assert topic.title == "IfcWall South / IfcPipeSegment Water"
     assert (topic.topic_type, topic.topic_status, topic.priority) == ("Clash", "Open", "High")
     assert "depth" in topic.description
+    (file,) = files_of(handler, version)
+    assert (file.filename, file.ifc_project) == ("house.ifc", PROJECT)
     (view,) = handler.viewpoints.values()
     components = view.visualization_info.components
     assert {each.ifc_guid for each in components.selection.component} == {WALL, PIPE}
@@ -101,6 +110,49 @@ def test_the_camera_sees_the_overlap_in_world_metres(house: Path) -> None:
     assert height < 100.0
     for body in scene.bodies[:2]:  # no part of the pair lies behind the eye
         assert ((np.asarray(body.world_mesh().vertices) - eye) @ ahead > 0.0).all()
+
+
+def files_of(handler: Any, version: Version) -> list[Any]:
+    header = handler.markup.header
+    return list(header.files.file if version == "3.0" else header.file)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_pairs_of_the_same_classes_are_one_topic_with_a_view_of_each(
+    house: Path, tmp_path: Path, version: Version
+) -> None:
+    house.write_bytes(with_pipes(2))
+    archive = read_back(render(*checked(house), version), version, tmp_path)
+    (handler,) = archive.topics.values()
+    assert handler.topic.title == "IfcPipeSegment / IfcWall: 2 pairs"
+    assert handler.topic.description.count("depth") == 2
+    seen = [
+        {each.ifc_guid for each in view.visualization_info.components.selection.component}
+        for view in handler.viewpoints.values()
+    ]
+    assert sorted(map(len, seen)) == [2, 2]
+    assert set.intersection(*seen) == {WALL}
+
+
+def test_a_topic_keeps_its_guid_while_its_pairs_change(house: Path) -> None:
+    guids = set()
+    for pipes in (1, 2):
+        house.write_bytes(with_pipes(pipes))
+        roots = parts(render(*checked(house), "3.0"), "markup.bcf")
+        guids |= {ElementTree.fromstring(root).find("Topic").get("Guid") for root in roots}  # type: ignore[union-attr]
+    assert len(guids) == 1
+
+
+def test_a_topic_shows_the_pairs_that_are_not_accepted(house: Path) -> None:
+    house.write_bytes(with_pipes(2))
+    report, scene = checked(house)
+    first, second = known_findings(report)
+    half = beside_baseline(report, Baseline(findings=(first,)), "b.json")
+    assert status(half, scene) == ["Open"]
+    assert len(parts(render(half, scene, "3.0"), ".bcfv")) == 1
+    whole = beside_baseline(report, Baseline(findings=(first, second)), "b.json")
+    assert status(whole, scene) == ["Closed"]
+    assert len(parts(render(whole, scene, "3.0"), ".bcfv")) == 2
 
 
 def test_a_second_run_updates_the_same_topic(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -175,6 +175,7 @@ REFUSED = {
     "ifc": (BOX.text("IFC4"), "format-mismatch", "IFC"),
     "csg": (GOOD.replace("MANIFOLD_SOLID_BREP", "CSG_SOLID"), "unsupported-feature", "CSG_SOLID"),
     "nan": (GOOD.replace("(1.0,", "(nan,", 1), "bad-record", "'nan' is no value"),
+    "nanE1": (GOOD.replace("(1.0,", "(nanE-17,", 1), "bad-record", "'nanE' is no value"),
     "-inf": (GOOD.replace("(1.0,", "(-inf,", 1), "bad-record", "'-inf' is no value"),
     "unit": (GOOD.replace(".METRE.", ".CUBIT."), "bad-record", "CUBIT"),
     "empty": (StepFile().text(), "bad-record", "no product"),

@@ -1,7 +1,7 @@
 """Findings as topics for coordination programs: BCF 2.1 and 3.0 (buildingSMART, BCF-XML).
 
-One topic for each finding. The order of XML elements is that of the schemas at tags v2.1 and v3.0
-of buildingSMART/BCF-XML.
+One topic for each group of findings, with a view of each pair. The order of XML elements is that of
+the schemas at tags v2.1 and v3.0 of buildingSMART/BCF-XML.
 """
 
 from __future__ import annotations
@@ -29,10 +29,11 @@ def render(report: Report, scene: Scene, version: Version) -> bytes:
         files["extensions.xml"] = extensions(topics)
     snapshots = Snapshots(scene)
     for topic in topics:
-        seen = snapshots.of(topic)
-        files[f"{topic.guid}/markup.bcf"] = markup(topic, version, has_view=seen is not None)
-        if seen is not None:
-            name = f"{topic.guid}/{topic.view_guid}"
-            files[f"{name}.bcfv"] = visualization(topic, seen, version)
-            files[f"{name}.png"] = seen.image
+        seen = {view.guid: snapshot for view in topic.views if (snapshot := snapshots.of(view))}
+        views = [view for view in topic.views if view.guid in seen]
+        files[f"{topic.guid}/markup.bcf"] = markup(topic, views, version)
+        for view in views:
+            name = f"{topic.guid}/{view.guid}"
+            files[f"{name}.bcfv"] = visualization(view, seen[view.guid], version)
+            files[f"{name}.png"] = seen[view.guid].image
     return archive(files)

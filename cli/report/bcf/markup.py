@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 
 from satcheck.cli.report.bcf.archive import date
 from satcheck.cli.report.bcf.text import Version, below, document
-from satcheck.cli.report.bcf.topics import PRIORITIES, STATUSES, TYPES, Topic
+from satcheck.cli.report.bcf.topics import PRIORITIES, STATUSES, TYPES, PairView, Topic
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -54,7 +54,8 @@ def extensions(topics: Sequence[Topic]) -> bytes:
     return document(root)
 
 
-def markup(topic: Topic, version: Version, *, has_view: bool) -> bytes:
+def markup(topic: Topic, views: Sequence[PairView], version: Version) -> bytes:
+    """views: of the topic, with a picture."""
     root = Element("Markup")
     _header(root, topic, version)
     element = below(root, "Topic", Guid=topic.guid, TopicType=topic.kind, TopicStatus=topic.status)
@@ -65,10 +66,11 @@ def markup(topic: Topic, version: Version, *, has_view: bool) -> bytes:
     below(element, "CreationDate", date())
     below(element, "CreationAuthor", AUTHOR)
     below(element, "Description", topic.description)
-    if has_view and version == "3.0":
-        _view(below(below(element, "Viewpoints"), "ViewPoint", Guid=topic.view_guid), topic)
-    elif has_view:
-        _view(below(root, "Viewpoints", Guid=topic.view_guid), topic)
+    parent, tag = root, "Viewpoints"
+    if views and version == "3.0":
+        parent, tag = below(element, "Viewpoints"), "ViewPoint"
+    for index, view in enumerate(views):
+        _view(below(parent, tag, Guid=view.guid), view, index)
     return document(root)
 
 
@@ -78,8 +80,12 @@ def _header(root: Element, topic: Topic, version: Version) -> None:
     attribute = "isExternal"
     if version == "3.0":
         parent, attribute = below(parent, "Files"), "IsExternal"
-    for file in dict.fromkeys(member.file for member in topic.members):
-        below(below(parent, "File", **{attribute: "true"}), "Filename", PurePath(file).name)
+    members = [member for view in topic.views for member in view.members]
+    for file, project in dict.fromkeys((member.file, member.project) for member in members):
+        known = {} if project is None else {"IfcProject": project}
+        below(
+            below(parent, "File", **known, **{attribute: "true"}), "Filename", PurePath(file).name
+        )
 
 
 def _labels(element: Element, topic: Topic, version: Version) -> None:
@@ -88,6 +94,7 @@ def _labels(element: Element, topic: Topic, version: Version) -> None:
         below(parent, "Label" if version == "3.0" else "Labels", label)
 
 
-def _view(parent: Element, topic: Topic) -> None:
-    below(parent, "Viewpoint", f"{topic.view_guid}.bcfv")
-    below(parent, "Snapshot", f"{topic.view_guid}.png")
+def _view(parent: Element, view: PairView, index: int) -> None:
+    below(parent, "Viewpoint", f"{view.guid}.bcfv")
+    below(parent, "Snapshot", f"{view.guid}.png")
+    below(parent, "Index", str(index))

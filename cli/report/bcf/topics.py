@@ -1,22 +1,26 @@
 """Which findings are topics, and their titles, states and labels.
 
-The GUID of a topic follows from the ids of its bodies. A second run updates the topic.
+Findings of one kind and severity between the same two classes of IFC elements on the same storeys
+are one topic, with a view of each pair. Each pair of other bodies is a topic. The GUID of a topic
+follows from what its pairs have in common, so a second run updates the topic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from itertools import count
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal
-from uuid import NAMESPACE_URL, UUID, uuid5
+from uuid import NAMESPACE_URL, uuid5
 
 from msgspec import Struct
 
+from satcheck.cli.report.bcf.projects import project_of
 from satcheck.cli.report.ci.problems import kind_of, measured
 from satcheck.cli.report.order import is_listed, worst_first
+from satcheck.cli.report.words import counted
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from satcheck.report.baseline import KnownFinding
     from satcheck.report.report import Finding, Report
     from satcheck.scene import Body, Scene
 
@@ -31,19 +35,61 @@ TYPES = {
 PRIORITIES = {"error": "High", "warning": "Medium", "note": "Low"}
 _SPACE = uuid5(NAMESPACE_URL, "satcheck:bcf")
 _STOREY = "storey:"
+_MOST_DESCRIBED = 100  # pairs of a topic
 
 
 class Member(Struct, frozen=True):
-    """A body of a topic. guid: its GlobalId; None: it is of no IFC file. name: for people."""
+    """A body of a topic. guid: its GlobalId; None: it is of no IFC file. name: for people. project:
+    the GlobalId of the IfcProject. kind: the class of an IFC element. storeys: of the same."""
 
     id: str
     file: str
     guid: str | None
     name: str
+    project: str | None = None
+    kind: str | None = None
+    storeys: tuple[str, ...] = ()
+
+
+class PairView(Struct, frozen=True):
+    """A pair of a topic. finding: None for a known finding that is gone."""
+
+    guid: str
+    members: tuple[Member, Member]
+    status: Status
+    priority: str
+    kind: str
+    description: str
+    finding: Finding | None
+
+    @property
+    def title(self) -> str:
+        return " / ".join(member.name for member in self.members)
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Of IFC elements, sorted; (): one body is none."""
+        kinds = [member.kind for member in self.members if member.kind is not None]
+        return tuple(sorted(kinds)) if len(kinds) == len(self.members) else ()
+
+    @property
+    def storeys(self) -> tuple[str, ...]:
+        return tuple(sorted({storey for member in self.members for storey in member.storeys}))
+
+    @property
+    def key(self) -> str:
+        """What the pairs of a topic have in common."""
+        if not self.classes:
+            return "\n".join(sorted(member.id for member in self.members))
+        projects = sorted(member.project or member.file for member in self.members)
+        return "\n".join(
+            ("group", self.kind, self.priority, *self.classes, "", *self.storeys, "", *projects)
+        )
 
 
 class Topic(Struct, frozen=True):
-    """finding: None for a known finding that is gone. labels: classes and storeys of the bodies."""
+    """views: of its pairs, the worst first; those that are to be shown. labels: classes and storeys
+    of the bodies."""
 
     guid: str
     index: int
@@ -53,69 +99,81 @@ class Topic(Struct, frozen=True):
     title: str
     description: str
     labels: tuple[str, ...]
-    members: tuple[Member, Member]
-    finding: Finding | None
-
-    @property
-    def view_guid(self) -> str:
-        return str(uuid5(UUID(self.guid), "view"))
+    views: tuple[PairView, ...]
 
 
 def topics_of(report: Report, scene: Scene) -> list[Topic]:
     """The worst first. Pairs that touch, and nothing else, are no topics."""
-    bodies = {body.id: body for body in scene.bodies}
-    members = _members(report, bodies)
-    numbers = count()
-    topics = [
-        _topic(finding, report, members, bodies, next(numbers))
-        for finding in worst_first(filter(_is_topic, report.findings))
-    ]
-    return [*topics, *_gone(report, members, numbers)]
+    groups: dict[str, list[PairView]] = {}
+    for view in _views(report, scene):
+        groups.setdefault(view.key, []).append(view)
+    return [_topic(key, views, index) for index, (key, views) in enumerate(groups.items())]
 
 
-def _is_topic(finding: Finding) -> bool:
+def _views(report: Report, scene: Scene) -> Iterator[PairView]:
+    members = _members(report, {body.id: body for body in scene.bodies})
+    for finding in worst_first(filter(_is_shown, report.findings)):
+        yield _of_finding(finding, report, members)
+    for known in report.baseline.absent if report.baseline else ():
+        yield _gone(known, members)
+
+
+def _is_shown(finding: Finding) -> bool:
     return is_listed(finding) and finding.severity in PRIORITIES and kind_of(finding) in TYPES
 
 
 def _members(report: Report, bodies: Mapping[str, Body]) -> dict[str, Member]:
+    known = {each.id: bodies.get(each.id) for each in report.bodies}
     return {
-        each.id: Member(
-            id=each.id,
-            file=each.file,
-            guid=each.path if each.id in bodies and bodies[each.id].file.format == "ifc" else None,
-            name=bodies[each.id].name if each.id in bodies else each.id,
-        )
-        for each in report.bodies
+        each.id: _member(each.id, each.file, each.path, known[each.id]) for each in report.bodies
     }
 
 
-def _topic(
-    finding: Finding,
-    report: Report,
-    members: Mapping[str, Member],
-    bodies: Mapping[str, Body],
-    number: int,
-) -> Topic:
-    a, b = members[finding.a], members[finding.b]
+def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
+    if body is None or body.file.format != "ifc":
+        return Member(id_, file, None, body.name if body else id_)
+    storeys = [group for group in body.groups if group.startswith(_STOREY)]
+    return Member(
+        id=id_,
+        file=file,
+        guid=path,
+        name=body.name,
+        project=project_of(file),
+        kind=body.name.partition(" ")[0],
+        storeys=tuple(storey.removeprefix(_STOREY) for storey in storeys),
+    )
+
+
+def _of_finding(finding: Finding, report: Report, members: Mapping[str, Member]) -> PairView:
     said = [measured(finding, unit_of(report.units))]
     said += [text for text in (finding.reason, finding.rule and f"rule: {finding.rule}") if text]
-    return Topic(
-        guid=_guid(finding.a, finding.b),
-        index=number,
-        kind=TYPES[kind_of(finding)],
+    return PairView(
+        guid=_view_guid(finding.a, finding.b),
+        members=(members[finding.a], members[finding.b]),
         status=_status(finding),
         priority=PRIORITIES[finding.severity],
-        title=f"{a.name} / {b.name}",
-        description="\n".join([*said, *(f"{each.name} ({each.id})" for each in (a, b))]),
-        labels=tuple(_labels([bodies[each.id] for each in (a, b) if each.id in bodies])),
-        members=(a, b),
+        kind=TYPES[kind_of(finding)],
+        description="; ".join(said),
         finding=finding,
     )
 
 
-def _guid(a: str, b: str) -> str:
+def _gone(known: KnownFinding, members: Mapping[str, Member]) -> PairView:
+    """Of a known finding of the baseline that is no finding any more."""
+    return PairView(
+        guid=_view_guid(known.a, known.b),
+        members=(members[known.a], members[known.b]),
+        status="Closed",
+        priority=PRIORITIES[known.severity],
+        kind=TYPES["overlap"],
+        description="no longer found",
+        finding=None,
+    )
+
+
+def _view_guid(a: str, b: str) -> str:
     """The same in either order of the bodies."""
-    return str(uuid5(_SPACE, "\n".join(sorted((a, b)))))
+    return str(uuid5(_SPACE, "\n".join(("view", *sorted((a, b))))))
 
 
 def _status(finding: Finding) -> Status:
@@ -125,27 +183,51 @@ def _status(finding: Finding) -> Status:
     return "ReOpened" if finding.baseline_state in ("worse", "undecided") else "Open"
 
 
-def _labels(bodies: list[Body]) -> Iterator[str]:
+def _topic(key: str, views: Sequence[PairView], index: int) -> Topic:
+    first = views[0]
+    status = _common_status(view.status for view in views)
+    shown = tuple(view for view in views if status == "Closed" or view.status != "Closed")
+    return Topic(
+        guid=str(uuid5(_SPACE, key)),
+        index=index,
+        kind=first.kind,
+        status=status,
+        priority=first.priority,
+        title=_title(shown),
+        description=_description(views),
+        labels=_labels(first),
+        views=shown,
+    )
+
+
+def _common_status(states: Iterable[Status]) -> Status:
+    """Closed only if all are."""
+    left = set(states) - {"Closed"}
+    if not left:
+        return "Closed"
+    return "ReOpened" if "ReOpened" in left else "Open"
+
+
+def _title(views: Sequence[PairView]) -> str:
+    first = views[0]
+    if len(views) == 1:
+        return first.title
+    where = f", {', '.join(first.storeys)}" if first.storeys else ""
+    return f"{' / '.join(first.classes)}: {counted(len(views), 'pair')}{where}"
+
+
+def _description(views: Sequence[PairView]) -> str:
+    lines = []
+    for view in views[:_MOST_DESCRIBED]:
+        closed = "accepted: " if view.status == "Closed" and view.finding else ""
+        ids = " / ".join(f"{member.name} ({member.id})" for member in view.members)
+        lines.append(f"{ids}: {closed}{view.description}")
+    if len(views) > _MOST_DESCRIBED:
+        lines.append(f"and {len(views) - _MOST_DESCRIBED} more")
+    return "\n".join(lines)
+
+
+def _labels(view: PairView) -> tuple[str, ...]:
     """Of IFC elements: the pair of classes, and the storeys."""
-    if len(bodies) == 2 and all(body.file.format == "ifc" for body in bodies):
-        yield " / ".join(sorted(body.name.partition(" ")[0] for body in bodies))
-    storeys = (group for body in bodies for group in body.groups if group.startswith(_STOREY))
-    yield from sorted({storey.removeprefix(_STOREY) for storey in storeys})
-
-
-def _gone(report: Report, members: Mapping[str, Member], numbers: Iterator[int]) -> Iterator[Topic]:
-    """Known findings of the baseline that are no findings any more."""
-    for known in report.baseline.absent if report.baseline else ():
-        a, b = members[known.a], members[known.b]
-        yield Topic(
-            guid=_guid(known.a, known.b),
-            index=next(numbers),
-            kind=TYPES["overlap"],
-            status="Closed",
-            priority=PRIORITIES[known.severity],
-            title=f"{a.name} / {b.name}",
-            description="no longer found",
-            labels=(),
-            members=(a, b),
-            finding=None,
-        )
+    classes = (" / ".join(view.classes),) if view.classes else ()
+    return (*classes, *view.storeys)

@@ -1,4 +1,4 @@
-"""The camera and the picture of a topic. Both show the same: a parallel projection of the pair."""
+"""The camera and the picture of a pair. Both show the same: a parallel projection of the pair."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.cli.report.bcf.topics import Member, Topic
+    from satcheck.cli.report.bcf.topics import Member, PairView
     from satcheck.scene import Body, Scene
 
     Floats = npt.NDArray[np.float64]
@@ -55,14 +55,14 @@ class Snapshots:
         boxes = [body.world_mesh().bounds for body in scene.bodies]
         self._boxes: Floats = np.array(boxes).reshape(-1, 2, 3)
 
-    def of(self, topic: Topic) -> Seen | None:
-        """None: no body of the topic can be drawn."""
-        pair = [self._bodies[m.id] for m in topic.members if m.id in self._bodies]
+    def of(self, shown: PairView) -> Seen | None:
+        """None: no body of the pair can be drawn."""
+        pair = [self._bodies[m.id] for m in shown.members if m.id in self._bodies]
         if not pair:
             return None
         view = view_of(pair, len(pair) == 2, self._up, SIZE)
         near = replace(self._scene, bodies=tuple(self._near(view)))
-        finding = topic.finding if len(pair) == 2 else None
+        finding = shown.finding if len(pair) == 2 else None
         if finding is None:
             near = replace(near, bodies=tuple(pair))
         image = image_of(near, finding, pair, view, SIZE)
@@ -97,19 +97,19 @@ class Snapshots:
         return x, y, z
 
 
-def visualization(topic: Topic, seen: Seen, version: Version) -> bytes:
-    root = Element("VisualizationInfo", Guid=topic.view_guid)
+def visualization(view: PairView, seen: Seen, version: Version) -> bytes:
+    root = Element("VisualizationInfo", Guid=view.guid)
     components = below(root, "Components")
     if version == "2.1":
         _hints(components)
     selection = below(components, "Selection")
-    for member in topic.members:
+    for member in view.members:
         _component(selection, member)
     visibility = below(components, "Visibility", DefaultVisibility="true")
     if version == "3.0":
         _hints(visibility)
     colouring = below(components, "Coloring")
-    for member, colour in zip(topic.members, COLOURS, strict=True):
+    for member, colour in zip(view.members, COLOURS, strict=True):
         parent = below(colouring, "Color", Color=colour)
         _component(below(parent, "Components") if version == "3.0" else parent, member)
     camera = below(root, "OrthogonalCamera")

@@ -39,7 +39,7 @@ _SHAPING = (
 
 def open_model(data: memoryview) -> Any:
     """The ifcopenshell.file. Raises MeshFileError."""
-    content = _unpacked(data)
+    content = unpacked(data)
     _refuse_other_content(content)
     ifcopenshell = imported("ifcopenshell", "ifc", "IFC files")
     start_log()
@@ -56,8 +56,8 @@ def open_model(data: memoryview) -> Any:
     return model
 
 
-def _unpacked(data: memoryview) -> bytes:
-    """The text of the file; of the only IFC file in an ifcZIP."""
+def unpacked(data: memoryview) -> bytes:
+    """The text of the file; of the only IFC file in an ifcZIP. Raises MeshFileError."""
     if bytes(data[: len(_ZIP)]) != _ZIP:
         return bytes(data)
     with opened_zip(data, "an ifcZIP file") as archive:

@@ -37,7 +37,7 @@ _OCCURRENCE = re.compile(
     + rb"(#\d+)"
 )
 # What stands for a parameter and is no value of the format, such as nan, -inf and 1.#QNAN.
-_NO_VALUE = re.compile(rb"[(,]\s*([A-Za-z_]\w*(?=\s*[,)])|[-+]\s*[A-Za-z]\w*|[-+]?[\d.]+#\w*)")
+_NO_VALUE = re.compile(rb"[(,]\s*([A-Za-z_]\w*(?!\w|\s*\()|[-+]\s*[A-Za-z]\w*|[-+]?[\d.]+#\w*)")
 _SI_UNIT = re.compile(rb"\bSI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.(\w+)\.\s*\)")
 # ISO 10303-41
 _PREFIX = re.compile(
