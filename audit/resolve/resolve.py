@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 
 from msgspec.structs import replace
@@ -18,9 +18,10 @@ from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
+from satcheck.audit.vectors import added
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.report.resolution import Move
+from satcheck.report.resolution import Drop, Move
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 
@@ -39,6 +40,7 @@ def resolve(
     pins: Sequence[str] = (),
     max_motion: float | None = None,
     iterations: int = ITERATIONS,
+    dropping: bool = False,
     progress: Progress | None = None,
 ) -> Resolution:
     """Translations, without rotation, that end every overlap of a scene that can be ended.
@@ -50,7 +52,8 @@ def resolve(
 
     pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
     links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
-    after which bodies are taken out to free places. progress(done, total) counts pairs.
+    after which bodies are taken out to free places. dropping: bodies that float then fall along
+    gravity until they lie on something. progress(done, total) counts pairs.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
@@ -77,8 +80,15 @@ def resolve(
         if few:
             write_plainly(layout, rounds.left, longest)
         why = reasons(layout, staying, _links(scene), rounds.left)
-    moves = _moves(scene, layout)
-    translations = {move.body: move.translation for move in moves}
+    translations = _translations(layout)
+    drops: list[Drop] = []
+    if dropping:
+        from satcheck.audit.resolve.drop import drop
+
+        falls, drops = drop(moved_scene(scene, translations), settings, staying, longest)
+        for body, fall in falls.items():
+            translations[body] = added(translations.get(body, ORIGIN), fall)
+    moves = _moves(scene, translations)
     report = check(moved_scene(scene, translations), proof_of(settings))
     return Resolution(
         moves=moves,
@@ -89,6 +99,7 @@ def resolve(
         rounds=rounds.count,
         left=tuple(left_pairs(report, why)),
         report=report,
+        drops=tuple(drops),
     )
 
 
@@ -155,12 +166,18 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     )
 
 
-def _moves(scene: Scene, layout: Layout) -> tuple[Move, ...]:
-    by_id = {body.id: offset for body, offset in zip(layout.home, layout.offsets, strict=True)}
+def _translations(layout: Layout) -> dict[str, Vector]:
+    """Of the bodies that moved."""
+    offsets = zip(layout.home, layout.offsets, strict=True)
+    return {body.id: offset for body, offset in offsets if offset != ORIGIN}
+
+
+def _moves(scene: Scene, translations: Mapping[str, Vector]) -> tuple[Move, ...]:
+    """In the order of the scene."""
     return tuple(
         Move(body.id, offset, math.hypot(*offset))
         for body in scene.bodies
-        if (offset := by_id.get(body.id, ORIGIN)) != ORIGIN
+        if (offset := translations.get(body.id, ORIGIN)) != ORIGIN
     )
 
 

@@ -74,6 +74,12 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
     show_default=True,
     help="Rounds of pushing. Bodies that still overlap then move to a free place.",
 )
+@click.option(
+    "--drop",
+    "dropping",
+    is_flag=True,
+    help="Then let bodies that float fall, along gravity, until they lie on something.",
+)
 @open_option
 @jobs_option
 @form_option
@@ -88,6 +94,7 @@ def command(
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
+    dropping: bool,
     **options: Any,
 ) -> int:
     """Move the bodies of a scene apart, by short translations.
@@ -97,9 +104,9 @@ def command(
     with a small sum of squared lengths. The moved scene is checked again (with --scene-out the file
     that was written), and what still overlaps is reported.
 
-    Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable
-    input, or an internal error; 3, nothing is known to overlap, but not everything could be
-    checked.
+    Exit codes: 0, no pair overlaps any more; 1, a pair does, or with --drop a body floats; 2, wrong
+    usage, an unreadable input, or an internal error; 3, nothing is known to overlap, but not
+    everything could be checked.
     """
     inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
@@ -119,7 +126,13 @@ def command(
         farthest = None
     with Bar(verb="pushing apart") as bar:
         result = resolve(
-            scene, settings, pins=pins, max_motion=farthest, iterations=iterations, progress=bar
+            scene,
+            settings,
+            pins=pins,
+            max_motion=farthest,
+            iterations=iterations,
+            dropping=dropping,
+            progress=bar,
         )
     if scene_out is not None:
         _write_moved(scene_out, target, scene, result, inputs)
@@ -129,8 +142,8 @@ def command(
     )
     if stray is not None:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
-    summary = result.report.summary
-    return exit_codes.for_verdict(summary.verdict, result.report.issues, exit_zero=False)
+    verdict = "fail" if result.floating else result.report.summary.verdict
+    return exit_codes.for_verdict(verdict, result.report.issues, exit_zero=False)
 
 
 class _Target(Struct, frozen=True):
