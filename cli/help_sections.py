@@ -17,7 +17,8 @@ SECTIONS = {
     "What to check": "bodies pairs manifest shard changed_since split merge planar units "
     "allow_open package packages geometry purpose time mesh_hulls pose state sample seed root "
     "allow_outside",
-    "What to compute": "depth contacts components volume tolerances never cross_check certificate",
+    "What to compute": "depth contacts components volume tolerances support never cross_check "
+    "certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
     "angular_tolerance rules baseline fail_on exit_zero pins dropping",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "

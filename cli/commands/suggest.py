@@ -70,6 +70,11 @@ def _form_of(output: Path | None) -> str:
     help="Suggest a surface tolerance instead: how far facets are off the curves that they stand "
     "for, measured on the meshes, with the evidence.",
 )
+@click.option(
+    "--support",
+    is_flag=True,
+    help="Suggest fixed bodies instead, and rules that ask whether the others are supported.",
+)
 @output_option
 @planar_option
 @split_option
@@ -82,7 +87,12 @@ def _form_of(output: Path | None) -> str:
 @color_option
 @debug_option
 def command(
-    form: str | None, output: Path | None, never: bool, tolerances: bool, **options: Any
+    form: str | None,
+    output: Path | None,
+    never: bool,
+    tolerances: bool,
+    support: bool,
+    **options: Any,
 ) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
@@ -95,6 +105,16 @@ def command(
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
+    if support:
+        if (
+            never
+            or tolerances
+            or inputs.has_poses
+            or options["planar"]
+            or form not in (None, "toml")
+        ):
+            raise click.UsageError("--support is about bodies as they are placed, as TOML")
+        return _support(inputs, output)
     if tolerances:
         if never or inputs.has_poses or options["planar"] or form not in (None, "json"):
             raise click.UsageError("--surface-tolerance is about meshes alone, as text or JSON")
@@ -143,6 +163,19 @@ def _surface_tolerances(inputs: Inputs, form: str | None, output: Path | None) -
     text = json_document(result) if as_json else words.render(result)
     document.deliver(lambda _: text, output, utf8=True)
     talk(words.remark(result))
+    return exit_codes.ERROR if scene.unreadable else exit_codes.CLEAN
+
+
+def _support(inputs: Inputs, output: Path | None) -> int:
+    from satcheck.audit.suggest_support import suggest_support
+    from satcheck.cli.report import suggested_support as words
+
+    refuse_early(inputs, output)
+    document = Document()
+    scene = load(inputs, hashed=False)
+    terms = suggest_support(scene, settings_of(inputs.limits, scene))
+    document.deliver(lambda _: words.toml(terms), output, utf8=True)
+    talk(words.remark(terms))
     return exit_codes.ERROR if scene.unreadable else exit_codes.CLEAN
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
     from satcheck.report.suggestions import Suggestion, Unchecked, Why
 
-_RULES_ALONE = """\
+RULES_ALONE = """\
 # Give this file beside the scene, or move its rules into the scene.
 schema = "satcheck.scene/1"
 bodies = []
@@ -47,15 +47,15 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
         "\n".join(
             (
                 "[[rules]]",
-                f"a = {_quoted(Selector.writable(pair.a).text)}",
-                f"b = {_quoted(Selector.writable(pair.b).text)}",
+                f"a = {quoted(Selector.writable(pair.a).text)}",
+                f"b = {quoted(Selector.writable(pair.b).text)}",
                 "allowed = true",
-                f"reason = {_quoted(f'suggested: {evidence(pair, suggestions)}; confirm')}",
+                f"reason = {quoted(f'suggested: {evidence(pair, suggestions)}; confirm')}",
             )
         )
         for pair in pairs
     ]
-    return "\n".join((_RULES_ALONE, *(f"{block}\n" for block in blocks)))
+    return "\n".join((RULES_ALONE, *(f"{block}\n" for block in blocks)))
 
 
 def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
@@ -153,6 +153,6 @@ def _contact(pair: Suggestion, unit: str | None) -> str:
     return f"{pair.relation} by {with_unit(figure, unit)}"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
     """A basic string of TOML: that of JSON, but for DEL."""
     return escaped(json.dumps(text, ensure_ascii=False))
