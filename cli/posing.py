@@ -20,7 +20,7 @@ def poses_of(scene: Scene, inputs: Inputs) -> Sequence[Pose] | Pose:
     UsageError for a combination that makes no sense; what is wrong with a pose is a SatcheckError.
     """
     if not scene.robots:
-        raise click.UsageError("there is no robot to pose: give a URDF")
+        raise click.UsageError("there is no robot to pose, nor a USD file with joints: give a URDF")
     if inputs.seed is not None and not inputs.sample:
         raise click.UsageError("--seed chooses among random poses: add --sample N")
     base = pose_of_states(scene, inputs.state)

@@ -1,10 +1,14 @@
-"""The groups and rules of documents: files that state, beside bodies, which may touch which."""
+"""The groups, rules and joints of documents: files that state, beside bodies, which may touch
+which, and how they move."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from msgspec import Struct
+
 from satcheck.scene.loading.nodes import Nodes
+from satcheck.scene.loading.raw_mesh import RawJoint
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
 
@@ -33,6 +37,22 @@ class DocumentGroups:
         if group not in self._shared:
             self._shared[group] = self._names.unique(group)
         return self._shared[group]
+
+
+class Jointed(Struct, frozen=True):
+    """A document with joints that move. links: id of a body -> its rigid body."""
+
+    path: str
+    joints: tuple[RawJoint, ...]
+    links: Mapping[str, str]
+
+
+def jointed(nodes: Nodes, ids: Mapping[str | None, str], path: str) -> list[Jointed]:
+    """Of the document at `path`, if it has joints that move. ids: as in `document_rules`."""
+    if all(joint.kind == "fixed" for joint in nodes.joints):
+        return []
+    links = {ids[node.path]: node.link for node in nodes.nodes if node.link is not None}
+    return [Jointed(path, nodes.joints, links)]
 
 
 def document_rules(

@@ -12,8 +12,15 @@ from msgspec.structs import replace
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
-from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
-from satcheck.scene.document_rules import DocumentGroups, document_rules
+from satcheck.scene.common_units import (
+    InOneUnit,
+    Input,
+    Kind,
+    in_one_unit,
+    scaled_mesh,
+    scaled_world,
+)
+from satcheck.scene.document_rules import DocumentGroups, document_rules, jointed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
@@ -27,6 +34,7 @@ from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
+    from satcheck.scene.document_rules import Jointed
     from satcheck.scene.robot import Part, SceneRobot, Srdf
     from satcheck.scene.statics import BodyRule
 
@@ -62,6 +70,7 @@ class SceneBuilder:
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
         self._document_rules: list[Rule] = []
+        self._jointed: list[Jointed] = []
         self._document_groups = DocumentGroups(self._group_names)
 
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
@@ -114,6 +123,7 @@ class SceneBuilder:
                 node.shape, place,
             )  # fmt: skip
         self._document_rules += document_rules(nodes, ids, groups, path)
+        self._jointed += jointed(nodes, ids, path)
 
     def add_scene(self, scene: SceneFile) -> None:
         """Adds a scene file. One without bodies is a file of rules, which is added only once."""
@@ -288,28 +298,31 @@ class SceneBuilder:
 
     def scene(self) -> Scene:
         """Raises SceneFileError if a rule has to be expanded into too many pairs."""
-        scene = self._bodies_and_files()
-        if not self._robots and not self._srdfs:
+        common = in_one_unit(self._bodies, self._inputs, self._rule_units)
+        scene = self._bodies_and_files(common)
+        if not self._robots and not self._srdfs and not self._jointed:
             return scene
         from satcheck.scene.robot import permissions, posed, with_srdfs
+        from satcheck.scene.robot.document import robots_of_documents
 
         robots = with_srdfs(self._robots, self._srdfs)
         allowed, issues = [], list(scene.issues)
+        documents, remarks = robots_of_documents(self._jointed, scene.bodies, common)
+        issues += remarks
         for robot in robots:
             permitted, remarks = permissions(robot)
             allowed += permitted
             issues += remarks
         scene = replace(
             scene,
-            robots=tuple(robots),
+            robots=(*robots, *documents),
             rules=(*allowed, *scene.rules),  # so that a rule can take a permission back
             issues=tuple(issues),
         )
         return posed(scene, {})
 
-    def _bodies_and_files(self) -> Scene:
+    def _bodies_and_files(self, common: InOneUnit) -> Scene:
         scenes = self._scenes
-        common = in_one_unit(self._bodies, self._inputs, self._rule_units)
         return Scene(
             name=" ".join(self._names),
             units=common.label,

@@ -148,7 +148,8 @@ def proof_of(settings: Settings) -> Settings:
 
 def _links(scene: Scene) -> frozenset[str]:
     """The bodies of robots, which are placed by joints."""
-    return frozenset(part.id for robot in scene.robots for part in robot.bodies)
+    robots = (robot for robot in scene.robots if not robot.loose)
+    return frozenset(part.id for robot in robots for part in robot.bodies)
 
 
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:

@@ -178,6 +178,10 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
     ending = moved.suffix.lower()
     own = WRITTEN_BACK.get(Path(bodies[0]).suffix.lower(), frozenset())
     back = len(bodies) == 1 and ending in own
+    if back and inputs.has_poses and kind_of(bodies[0]) == "document":
+        raise click.UsageError(
+            f"--scene-out {moved}: a pose cannot be written back: write a scene file (.toml)"
+        )
     is_scene = len(bodies) == 1 and kind_of(bodies[0]) == "scene"
     if not is_scene and not all(kind_of(path) in ("mesh", "document") for path in bodies):
         raise click.UsageError(

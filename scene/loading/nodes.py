@@ -24,7 +24,15 @@ from satcheck.scene.loading import (
     read_scene,
     resolution_of,
 )
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawRule, RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import (
+    RawJoint,
+    RawMesh,
+    RawNode,
+    RawPart,
+    RawRule,
+    RawScene,
+    Refusal,
+)
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -41,7 +49,7 @@ class Node(Struct, frozen=True):
 
     path: unique in the file; it ends in "#3" for the third component. None: the file has no parts.
     Nodes with one mesh share the MeshFile. transform: as in Body. shape: the exact shape whose mesh
-    is `file`. title, groups, static: as in RawNode.
+    is `file`. title, groups, static, link: as in RawNode.
     """
 
     path: str | None
@@ -51,15 +59,17 @@ class Node(Struct, frozen=True):
     title: str | None = None
     groups: tuple[str, ...] = ()
     static: bool = False
+    link: str | None = None
 
 
 class Nodes(Struct, frozen=True):
     """All nodes of a file, in file order, the warnings that concern no single node, and the rules
-    of a document."""
+    and joints of a document."""
 
     nodes: tuple[Node, ...]
     issues: tuple[Issue, ...] = ()
     rules: tuple[RawRule, ...] = ()
+    joints: tuple[RawJoint, ...] = ()
 
 
 def load_nodes(
@@ -95,7 +105,7 @@ def nodes_of(source: Source, scene: RawScene, *, components: bool) -> Nodes:
     if all(isinstance(node.file, MeshFileError) for node in nodes):
         raise next(node.file for node in nodes if isinstance(node.file, MeshFileError))
     issues = (issue(code, message, file=path) for code, message in scene.warnings)
-    return Nodes(nodes, (*issues, *splitter.issues), scene.rules)
+    return Nodes(nodes, (*issues, *splitter.issues), scene.rules, scene.joints)
 
 
 def _refuse_too_many(bodies: int, path: str) -> None:
@@ -119,7 +129,7 @@ def _placed(
         except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
     shape = None if isinstance(mesh, RawMesh | Refusal) else mesh
-    return Node(path, file, matrix, shape, raw.title, raw.groups, raw.static)
+    return Node(path, file, matrix, shape, raw.title, raw.groups, raw.static, raw.link)
 
 
 class _Splitter:

@@ -63,7 +63,7 @@ class RawNode(Struct, frozen=True):
     """Part number `part` and its placement. path: unique in the file; None: the whole file.
 
     Of a document only: title, a name for people, the path if None; groups, the names of its groups;
-    static: it belongs to the surroundings.
+    static: it belongs to the surroundings; link: the rigid body that joints move it with.
     """
 
     path: str | None
@@ -72,6 +72,25 @@ class RawNode(Struct, frozen=True):
     title: str | None = None
     groups: tuple[str, ...] = ()
     static: bool = False
+    link: str | None = None
+
+
+class RawJoint(Struct, frozen=True):
+    """A joint of a document between two links, where the file places them.
+
+    parent, child: links; None: the world. frame: a rigid pose in the world. axis: unit vector in
+    the frame; the child turns or moves along it. limits, rest: radians, or metres; rest: the value
+    at which the file places the links.
+    """
+
+    name: str
+    kind: Literal["revolute", "prismatic", "fixed"]
+    parent: str | None
+    child: str | None
+    frame: Transform
+    axis: tuple[float, float, float]
+    limits: tuple[float, float] | None
+    rest: float
 
 
 class RawRule(Struct, frozen=True):
@@ -94,7 +113,7 @@ class RawScene(Struct, frozen=True, tag=True):
     """The meshes of a file and where they are placed; every part is placed at least once.
 
     warnings: (code, message) that concern no single part. Of a document only: units, of exact
-    shapes; rules, of which a later one overrides an earlier one.
+    shapes; rules, of which a later one overrides an earlier one; joints.
     """
 
     parts: tuple[RawPart, ...]
@@ -102,6 +121,7 @@ class RawScene(Struct, frozen=True, tag=True):
     warnings: tuple[tuple[str, str], ...] = ()
     units: str | None = None
     rules: tuple[RawRule, ...] = ()
+    joints: tuple[RawJoint, ...] = ()
 
 
 def alone(mesh: RawMesh) -> RawScene:

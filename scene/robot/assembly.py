@@ -60,12 +60,14 @@ class RobotBody(Struct, frozen=True):
 
 
 class SceneRobot(Struct, frozen=True):
-    """A robot, its bodies, and its SRDF. groups: as the robot names them -> as the check does."""
+    """A robot, its bodies, and its SRDF. groups: as the robot names them -> as the check does.
+    loose: its bodies stand where a document places them, so they may be moved without it."""
 
     robot: Robot
     bodies: tuple[RobotBody, ...]
     srdf: Srdf | None = None
     groups: Mapping[str, str] = {}
+    loose: bool = False
 
     @property
     def states(self) -> tuple[State, ...]:
@@ -197,7 +199,7 @@ def posed(scene: Scene, pose: Pose) -> Scene:
         scene,
         bodies=tuple(
             body
-            if transforms.get(body.id, body.transform) == body.transform
+            if body.id not in transforms or transforms[body.id] == (body.transform or IDENTITY)
             else replace(body, transform=transforms[body.id])
             for body in scene.bodies
         ),

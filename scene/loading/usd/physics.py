@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, combinations_with_replacement
 from typing import Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
@@ -13,10 +14,17 @@ from satcheck.scene.loading.raw_mesh import RawNode, RawRule
 from satcheck.scene.loading.usd.walk import WORLD, Found, Frame, of_prototype
 
 
-def with_physics(
-    stage: Any, nodes: Sequence[RawNode], found: Sequence[Found]
-) -> tuple[tuple[RawNode, ...], tuple[RawRule, ...]]:
-    """The nodes with the groups that the rules name, and the rules.
+class Physics(Struct, frozen=True):
+    """nodes: with the groups that the rules name, and their rigid bodies. joints: the prims of
+    joints."""
+
+    nodes: tuple[RawNode, ...]
+    rules: tuple[RawRule, ...] = ()
+    joints: tuple[Any, ...] = ()
+
+
+def with_physics(stage: Any, nodes: Sequence[RawNode], found: Sequence[Found]) -> Physics:
+    """What physics says of the nodes.
 
     found: where each node comes from. Simulators do not collide colliders of one rigid body,
     FilteredPairs, members of CollisionGroups that filter each other, and bodies that a joint
@@ -24,11 +32,16 @@ def with_physics(
     """
     sources = _Sources(stage, found)
     if not sources:
-        return tuple(nodes), ()
-    made = _Rules(sources, _Members(stage, found), len(nodes))
+        return Physics(tuple(nodes))
+    members = _Members(stage, found)
+    made = _Rules(sources, members, len(nodes))
     rules = tuple(made.rules())
-    pairs = zip(nodes, made.groups, strict=True)
-    return tuple(replace(node, groups=tuple(groups)) for node, groups in pairs), rules
+    links = {number: body for body, numbers in members.of_body.items() for number in numbers}
+    own = tuple(
+        replace(node, groups=tuple(made.groups[number]), link=links.get(number))
+        for number, node in enumerate(nodes)
+    )
+    return Physics(own, rules, tuple(joint.GetPrim() for joint in sources.joints))
 
 
 class _Sources:
@@ -163,7 +176,7 @@ class _Rules:
         if joint.GetCollisionEnabledAttr().Get() or not joint.GetJointEnabledAttr().Get():
             return
         stage = self._sources.stage
-        ends = [_body_at(stage, end) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+        ends = [body_at(stage, end) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
         if ends[0] is None or ends[1] is None:
             return
         for pair in self._members.pairs(ends[0], ends[1]):
@@ -195,7 +208,7 @@ def _outer_path(found: Found) -> Any:
     return prim.GetPath()
 
 
-def _body_at(stage: Any, relationship: Any) -> str | None:
+def body_at(stage: Any, relationship: Any) -> str | None:
     """The rigid body that the end of a joint is in; None: the world."""
     for path in relationship.GetForwardedTargets():
         prim = stage.GetPrimAtPath(path)

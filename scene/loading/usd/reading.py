@@ -13,6 +13,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.usd.choice import Choice
+from satcheck.scene.loading.usd.joints import Joints
 from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
@@ -54,8 +55,17 @@ class _Reading:
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
             raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
-        nodes, rules = with_physics(self._stage.stage, self._nodes, self._found)
-        return RawScene(tuple(self._parts), nodes, warnings, self._stage.unit, rules)
+        physics = with_physics(self._stage.stage, self._nodes, self._found)
+        said = Remarks()
+        joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
+        return RawScene(
+            tuple(self._parts),
+            physics.nodes,
+            (*warnings, *said.warnings()),
+            self._stage.unit,
+            physics.rules,
+            joints,
+        )
 
     def _refuse_lost_in_instances(self) -> None:
         """A reference is lost in every instance, and composition names one of them or none."""
@@ -116,7 +126,7 @@ class _Reading:
         if isinstance(content, Refusal):
             self._node(found, number, None)
             return
-        matrix = self._matrix(turn * found.matrix)
+        matrix = self._stage.matrix(turn * found.matrix)
         if not isinstance(content, RawMesh):
             try:
                 matrix = placed_shape(content, matrix)
@@ -191,16 +201,6 @@ class _Reading:
     def _node(self, found: Found, part: int, matrix: Transform | None) -> None:
         self._nodes.append(RawNode(found.name, part, matrix))
         self._found.append(found)
-
-    def _matrix(self, matrix: Any) -> Transform:
-        """For column vectors, in the unit of the scene, with z up."""
-        columns = [[matrix[column][row] for column in range(4)] for row in range(4)]
-        if self._stage.y_up:
-            x, y, z, last = columns
-            columns = [x, [0.0 - value for value in z], y, last]
-        scale = self._stage.scale
-        scaled = [value * scale for row in columns[:3] for value in row]
-        return (*scaled, *columns[3])
 
 
 def _is_instancer(prim: Any) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -43,6 +44,16 @@ class Stage(Struct, frozen=True):
     lost: dict[str, Refusal]
     warnings: tuple[tuple[str, str], ...]
     sampled: tuple[float, float] | None
+
+    def matrix(self, matrix: Any) -> Transform:
+        """For column vectors, in the unit of the scene, with z up."""
+        columns = [[matrix[column][row] for column in range(4)] for row in range(4)]
+        if self.y_up:
+            x, y, z, last = columns
+            columns = [x, [0.0 - value for value in z], y, last]
+        scale = self.scale
+        scaled = [value * scale for row in columns[:3] for value in row]
+        return (*scaled, *columns[3])
 
 
 def open_stage(location: Path, *, allow_outside: bool) -> Stage:

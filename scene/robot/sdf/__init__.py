@@ -1,5 +1,5 @@
 """SDFormat (.sdf, .world): worlds and models -> one robot with all links.
 
 The format: http://sdformat.org/spec. `reading` collects models, links and joints, `frames` places
-them, `joint_trees` orders the joints, and `exemptions` says which pairs the format does not check.
+them, `joint_forest` above orders the joints, and `exemptions` says which pairs are not checked.
 """

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from satcheck.core.conventions import Vector
+from satcheck.scene.robot.joint_forest import Moves
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import JointKind, Limits, Mimic
 from satcheck.scene.robot.sdf.frames import WORLD, Frames, Name, Scope
@@ -38,15 +39,6 @@ class Found(NamedTuple):
     parent: Name
     child: Name
     moves: bool
-
-
-class Moves(NamedTuple):
-    """How a joint moves. axis: unit vector in the frame of the joint."""
-
-    kind: JointKind
-    axis: Vector = _Z
-    limits: Limits | None = None
-    mimic: Mimic | None = None
 
 
 def moves_of(joint: Found, frames: Frames, slips: Slips) -> Moves:

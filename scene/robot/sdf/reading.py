@@ -14,13 +14,13 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
 from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.robot.joint_forest import Edge, trees_of
 from satcheck.scene.robot.joint_tree import check_mimics
 from satcheck.scene.robot.model import Exemption, Link, Robot
 from satcheck.scene.robot.sdf.contents import Contents, FoundLink
 from satcheck.scene.robot.sdf.exemptions import exempt
 from satcheck.scene.robot.sdf.frames import WORLD
 from satcheck.scene.robot.sdf.includes import Includes
-from satcheck.scene.robot.sdf.joint_trees import Edge, trees_of
 from satcheck.scene.robot.sdf.joints import Found, moves_of
 from satcheck.scene.robot.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.robot.slips import Slips
@@ -56,8 +56,12 @@ def read_sdf(
         for path, found in contents.links.items()
     }
     still = frozenset((WORLD, *(path for path, link in links.items() if link.static)))
-    trees = trees_of([*_starts(contents)], still, poses, edges, slips)
-    elements = {edge.path: edge.element for edge in edges}
+    elements = {joint.path: joint.element for joint in contents.joints}
+
+    def note(edge: Edge, cause: str) -> None:
+        slips.note("joint-not-moved", elements[edge.path], cause)
+
+    trees = trees_of([*_starts(contents)], still, poses, edges, note)
     check_mimics([(joint, elements[joint.name]) for joint in trees.joints])
     roots: dict[str, Transform] = {path: poses[path] for path in trees.roots}
     robot = Robot(_name(root), root.file, roots, links, trees.joints, exempted, geometry)
@@ -84,7 +88,7 @@ def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge | None:
         slips.note("joint-not-moved", joint.element, cause)
         return None
     moves = moves_of(joint, frames, slips)
-    return Edge(joint.path, joint.element, parent, child, frames.world(joint.path), moves)
+    return Edge(joint.path, parent, child, frames.world(joint.path), moves)
 
 
 def _joined(edges: list[Edge], contents: Contents) -> Iterator[Exemption]:

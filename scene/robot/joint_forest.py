@@ -1,4 +1,4 @@
-"""Orders the joints of SDFormat into trees.
+"""Orders the joints of SDFormat and USD into trees.
 
 A joint may name its links in either order, and joints may close loops. A joint of a loop cannot
 move alone: it stays as the file places it, and a warning says so.
@@ -6,16 +6,26 @@ move alone: it stays as the file places it, and a warning says so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Joint
-from satcheck.scene.robot.sdf.joints import Moves
-from satcheck.scene.robot.slips import Slips
-from satcheck.scene.robot.xml_tree import Element
+from satcheck.scene.robot.model import Joint, JointKind, Limits, Mimic
 from satcheck.scene.words import listed
+
+
+class Moves(NamedTuple):
+    """How a joint moves. axis: unit vector in the frame of the joint; of a prismatic joint its
+    length is that of a metre in the unit of the poses. rest: the value at which the links stand as
+    the file places them."""
+
+    kind: JointKind
+    axis: Vector = (0.0, 0.0, 1.0)
+    limits: Limits | None = None
+    mimic: Mimic | None = None
+    rest: float = 0.0
 
 
 class Edge(NamedTuple):
@@ -23,7 +33,6 @@ class Edge(NamedTuple):
     world."""
 
     path: str
-    element: Element
     parent: str
     child: str
     pose: Transform
@@ -45,12 +54,13 @@ def trees_of(
     still: frozenset[str],
     poses: Mapping[str, Transform],
     edges: Iterable[Edge],
-    slips: Slips,
+    note: Callable[[Edge, str], None],
 ) -> Trees:
     """starts: all links, and the world, in the order in which they become roots. still: the world
-    and links of static models. poses: of links in the world."""
+    and links of static models. poses: of links in the world. note: takes the message about a loop
+    that this joint closes."""
     carriers, roots, loops = _walk(starts, still, list(edges))
-    stuck = _stuck(carriers, loops, slips)
+    stuck = _stuck(carriers, loops, note)
     joints = (_joint(edge, link, poses, edge.path in stuck) for link, edge in carriers.items())
     return Trees(roots, tuple(joints))
 
@@ -90,7 +100,9 @@ def _walk(
     return carriers, roots, loops
 
 
-def _stuck(carriers: Mapping[str, Edge], loops: Iterable[Edge], slips: Slips) -> set[str]:
+def _stuck(
+    carriers: Mapping[str, Edge], loops: Iterable[Edge], note: Callable[[Edge, str], None]
+) -> set[str]:
     """The joints that are part of a loop."""
     stuck: set[str] = set()
     for edge in loops:
@@ -101,7 +113,7 @@ def _stuck(carriers: Mapping[str, Edge], loops: Iterable[Edge], slips: Slips) ->
         moving = [step.path for step in loop if step.moves.kind != "fixed"]
         if moving:
             cause = "joints of a loop are not moved, its links stay as the file places them: "
-            slips.note("joint-not-moved", edge.element, cause + listed(moving))
+            note(edge, cause + listed(moving))
     return stuck
 
 
@@ -128,4 +140,5 @@ def _joint(edge: Edge, link: str, poses: Mapping[str, Transform], stuck: bool) -
         mimic=None if stuck else edge.moves.mimic,
         child_origin=compose(inverse(edge.pose), poses[link]),
         stands_at_zero=True,
+        reference=(edge.moves.rest,) if edge.moves.rest and not stuck else (),
     )
