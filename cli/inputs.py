@@ -57,6 +57,7 @@ class Inputs(Struct, frozen=True):
     seed: int | None = None
     rules: tuple[Path, ...] = ()
     time: float | None = None
+    animation: str | None = None
     purpose: tuple[Purpose, ...] = ()
     mesh_hulls: bool = False
     chord_tolerance: float | None = None
@@ -83,6 +84,7 @@ class Inputs(Struct, frozen=True):
     def reading(self) -> ReadOptions:
         return ReadOptions(
             time=self.time,
+            animation=self.animation,
             purpose=self.purpose or None,
             mesh_hulls=self.mesh_hulls or None,
             chord_tolerance=self.chord_tolerance,
@@ -165,6 +167,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     if inputs.time is not None and not any(map(_may_be_animated, paths)):
         raise click.UsageError("--time is about USD and glTF files")
+    if inputs.animation is not None and inputs.time is None:
+        raise click.UsageError("--animation chooses among animations: add --time SECONDS")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed)

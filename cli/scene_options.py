@@ -137,8 +137,9 @@ geometry_options = together(
         type=float,
         metavar="TIME",
         callback=_time,
-        help="Of animations: seconds in glTF, time code in USD (default: the first).",
+        help="Of animations: seconds in glTF, time code in USD.",
     ),
+    click.option("--animation", metavar="NAME", help="Of glTF: which one --time means."),
     click.option(
         "--mesh-hulls",
         is_flag=True,

@@ -91,6 +91,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
                 binary=source.format == "glb",
                 allow_outside=allowed.allow_outside,
                 time=allowed.options.time,
+                animation=allowed.options.animation,
             )
             if not flat:
                 return scene

@@ -179,4 +179,5 @@ def _read(request: Request) -> RawScene:
         allow_outside=request.allow_outside,
         isolated=True,
         time=request.options.time,
+        animation=request.options.animation,
     )

@@ -69,12 +69,14 @@ def read_gltf(
     allow_outside: bool = False,
     isolated: bool = False,
     time: float | None = None,
+    animation: str | None = None,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
     directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
-    binary: GLB. isolated: this process is a child that may crash. time: of the first animation, in
-    seconds; None: the pose that the nodes store. Raises MeshFileError without a
+    binary: GLB. isolated: this process is a child that may crash. time: of the animation, in
+    seconds; None: the pose that the nodes store. animation: by its name or its number; None: the
+    first. Raises MeshFileError without a
     file name, and NeedsChild if the data need an isolated process and this one is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
@@ -84,20 +86,25 @@ def read_gltf(
     views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
     accessors = Accessors(document, views, work)
     named = items(document, "animations")
+    chosen = 0
     if named and time is not None:
-        from satcheck.scene.loading.gltf_animation import posed
+        from satcheck.scene.loading.gltf_animation import number_of, posed
 
-        document = posed(document, accessors, time)
+        chosen = number_of(document, animation)
+        document = posed(document, accessors, time, chosen)
     meshes = Meshes(document, accessors, work, posed=bool(named) and time is not None)
     scene = _Scene(document, accessors, meshes, work).read()
-    return replace(scene, warnings=_about_time(named, time)) if named else scene
+    return replace(scene, warnings=_about_time(named, time, chosen)) if named else scene
 
 
-def _about_time(animations: list[Any], time: float | None) -> tuple[tuple[str, str], ...]:
-    """animations: of the file, at least one."""
-    first = animations[0].get("name") if isinstance(animations[0], dict) else None
-    count = f"the first of {len(animations)} animations" if len(animations) > 1 else "the animation"
-    called = f" ({first!r})" if isinstance(first, str) and first else ""
+def _about_time(
+    animations: list[Any], time: float | None, chosen: int
+) -> tuple[tuple[str, str], ...]:
+    """animations: of the file, at least one. chosen: the number of one."""
+    name = animations[chosen].get("name") if isinstance(animations[chosen], dict) else None
+    which = "the first" if chosen == 0 else f"number {chosen}"
+    count = f"{which} of {len(animations)} animations" if len(animations) > 1 else "the animation"
+    called = f" ({name!r})" if isinstance(name, str) and name else ""
     if time is None:
         message = f"the nodes stand as the file stores them; --time asks for {count}{called}"
     else:

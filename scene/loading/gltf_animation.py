@@ -14,6 +14,7 @@ from msgspec import Struct
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
+from satcheck.scene.words import listed
 
 # What a channel may move, with the type of its values; None: as many numbers as morph targets.
 _PATHS = {"translation": "VEC3", "rotation": "VEC4", "scale": "VEC3", "weights": None}
@@ -95,12 +96,28 @@ def animations(document: dict[str, Any]) -> list[str]:
     ]
 
 
-def posed(document: dict[str, Any], accessors: Accessors, time: float) -> dict[str, Any]:
-    """The document with its nodes as the first animation places them at a time, in seconds.
+def number_of(document: dict[str, Any], wanted: str | None) -> int:
+    """The number of the animation of this name, else of this number; of the first one for None.
+    Raises MeshFileError if there is none."""
+    if wanted is None:
+        return 0
+    names = animations(document)
+    if wanted in names:
+        return names.index(wanted)
+    if wanted.isdecimal() and int(wanted) < len(names):
+        return int(wanted)
+    message = f"there is no animation {wanted!r}: the animations are {listed(names)}"
+    raise MeshFileError("unknown-part", message)
+
+
+def posed(
+    document: dict[str, Any], accessors: Accessors, time: float, number: int = 0
+) -> dict[str, Any]:
+    """The document with its nodes as an animation places them at a time, in seconds.
 
     Raises MeshFileError for an animation that is not as the format prescribes.
     """
-    animation = member(items(document, "animations"), 0, "animation")
+    animation = member(items(document, "animations"), number, "animation")
     nodes = list(items(document, "nodes"))
     samplers = items(animation, "samplers")
     read: dict[int, array[float]] = {}
@@ -112,15 +129,15 @@ def posed(document: dict[str, Any], accessors: Accessors, time: float) -> dict[s
             raise MeshFileError("unsupported-feature", f"extension {_POINTER!r} is not read")
         if "node" not in target:  # the format lets an extension say what moves
             continue
-        number, path = integer(target, "node", -1), target.get("path")
+        moved, path = integer(target, "node", -1), target.get("path")
         if path not in _PATHS:
             raise MeshFileError("bad-record", f"animation: a channel moves {path!r}")
-        node = member(nodes, number, "node")
+        node = member(nodes, moved, "node")
         if "matrix" in node:
-            raise MeshFileError("bad-record", f"node {number} is animated and has a matrix")
+            raise MeshFileError("bad-record", f"node {moved} is animated and has a matrix")
         sampler = member(samplers, integer(channel, "sampler", -1), "sampler")
         keys = _keys(sampler, path, accessors, read)
-        nodes[number] = {**node, path: keys.at(time)}
+        nodes[moved] = {**node, path: keys.at(time)}
     return {**document, "nodes": nodes}
 
 

@@ -39,6 +39,12 @@ FORMATS = {
     ".usdc": "usd",
     ".usdz": "usd",
 }
+# Relatives of these formats, and what to do with them.
+_CONVERTIBLE = {
+    ".stpz": "it is a packed STEP file: unpack it and name the .stp file",
+    ".stpx": "it is STEP in XML: export a .stp file",
+    ".stpxz": "it is packed STEP in XML: export a .stp file",
+}
 # Formats of scenes: each node is a body, with rules, whatever files are beside it.
 DOCUMENTS = frozenset(("usd", "ifc"))
 
@@ -123,12 +129,10 @@ def read_source(
     size = _size(path, location)
     file_format = formats.get(location.suffix.lower())
     if file_format is None:
-        known = ", ".join(sorted(formats))
-        raise MeshFileError(
-            "unsupported-format",
-            f"unsupported format {location.suffix!r}: known are {known}",
-            file=path,
-        )
+        known = f"known are {', '.join(sorted(formats))}"
+        hint = _CONVERTIBLE.get(location.suffix.lower(), known)
+        message = f"unsupported format {location.suffix!r}: {hint}"
+        raise MeshFileError("unsupported-format", message, file=path)
     _refuse_large(path, size, max_bytes)
     try:
         in_pieces = file_format == "stl" and not hashed

@@ -252,6 +252,21 @@ def test_the_command_takes_a_time(tmp_path: Path) -> None:
     output = tmp_path / "made.toml"
     ran = satcheck("convert", str(tmp_path / "a.glb"), "--time", "1", "-o", str(output))
     assert ran.code == 0, ran.err
-    assert "give --time 1.0 again" in ran.err
-    (body,) = load_scene([output], reading=ReadOptions(time=1.0)).bodies
+    (body,) = load_scene([output]).bodies
     assert list(body.world_mesh().bounds) == moved(still, 4.0)
+
+
+def test_an_animation_is_chosen_by_its_name_or_its_number(tmp_path: Path) -> None:
+    animated = Animated()
+    animated.channel("translation", [0, 2], [[0, 0, 0], [8, 0, 0]])
+    walk = animated.document["animations"][0]
+    run = {**walk, "name": "run", "samplers": [{**walk["samplers"][0], "interpolation": "STEP"}]}
+    animated.document["animations"] = [walk, run]
+    still = animated.load(tmp_path, None).bodies[0].world_mesh().bounds
+    path = tmp_path / "a.glb"
+    for name, x in (("walk", 4.0), ("run", 0.0), ("1", 0.0), (None, 4.0)):
+        scene = load_scene([path], reading=ReadOptions(time=1.0, animation=name))
+        assert list(scene.bodies[0].world_mesh().bounds) == moved(still, x)
+    (lost,) = load_scene([path], reading=ReadOptions(time=1.0, animation="fly")).unreadable
+    assert (lost.issue.code, "walk, run" in lost.issue.message) == ("unknown-part", True)
+    assert satcheck(str(path), "--animation", "run").code == 2

@@ -174,6 +174,11 @@ REFUSED = {
     "dangling": (GOOD.replace("#1=", "#9999=", 1), "index-out-of-range", "#1"),
     "ifc": (BOX.text("IFC4"), "format-mismatch", "IFC"),
     "csg": (GOOD.replace("MANIFOLD_SOLID_BREP", "CSG_SOLID"), "unsupported-feature", "CSG_SOLID"),
+    "facets": (
+        GOOD.replace("ADVANCED_FACE", "TRIANGULATED_FACE"),
+        "unsupported-feature",
+        "TRIANGULATED_FACE",
+    ),
     "nan": (GOOD.replace("(1.0,", "(nan,", 1), "bad-record", "'nan' is no value"),
     "nanE1": (GOOD.replace("(1.0,", "(nanE-17,", 1), "bad-record", "'nanE' is no value"),
     "-inf": (GOOD.replace("(1.0,", "(-inf,", 1), "bad-record", "'-inf' is no value"),
@@ -246,3 +251,8 @@ def test_every_run_makes_the_same_facets(tmp_path: Path) -> None:
 
 def test_the_sample_of_the_docs_is_this_rig() -> None:
     assert (Path(__file__).parents[2] / "docs" / "rig.step").read_text("utf-8") == rig()
+
+
+def test_a_packed_file_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    code, message = refusal(tmp_path, "a.stpz", b"\x1f\x8b")
+    assert (code, "unpack it" in message) == ("unsupported-format", True)

@@ -76,6 +76,12 @@ _UNREAD_SOLIDS = frozenset(
         "SOLID_REPLICA",
     }
 )
+# Of AP242. OpenCascade leaves them out.
+_TESSELLATED = frozenset(
+    ("TESSELLATED_SOLID", "TESSELLATED_SHELL", "TESSELLATED_GEOMETRIC_SET", "TRIANGULATED_FACE",
+     "COMPLEX_TRIANGULATED_FACE")
+)  # fmt: skip
+_SURFACES = frozenset(("ADVANCED_FACE", "FACE_SURFACE"))
 
 
 class Exchange(Struct, frozen=True):
@@ -111,6 +117,9 @@ def read_exchange(data: bytes) -> Exchange:
     unread = sorted(_UNREAD_SOLIDS & kinds.keys())
     if unread:
         message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
+        raise MeshFileError("unsupported-feature", message)
+    if not kinds.keys() & _SURFACES and (facets := sorted(_TESSELLATED & kinds.keys())):
+        message = f"it has only facets ({', '.join(facets)}), which are not read: export surfaces"
         raise MeshFileError("unsupported-feature", message)
     documents = dict.fromkeys(_decoded(match[1]) for match in _DOCUMENT.finditer(data))
     return Exchange(

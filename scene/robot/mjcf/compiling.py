@@ -64,7 +64,10 @@ def compiled(request: Request) -> Compiled:
 
 def _compiled(path: str, places: FilePlaces, models: list[str]) -> Compiled:
     spec = mujoco.MjSpec.from_file(path)
-    keys = [Key(key.name or f"key{k}", tuple(key.qpos)) for k, key in enumerate(spec.keys)]
+    keys = [
+        Key(key.name or f"key{k}", tuple(key.qpos), tuple(key.mpos), tuple(key.mquat))
+        for k, key in enumerate(spec.keys)
+    ]
     constraints = sum(bool(equality.active) for equality in spec.equalities)
     _relax(spec)
     _empty_textures(spec)

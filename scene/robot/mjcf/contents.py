@@ -63,7 +63,11 @@ class _Contents:
             ),
             excludes=tuple((int(s) >> 16, int(s) & 0xFFFF) for s in m.exclude_signature),
             pairs=tuple(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True)),
-            keys=tuple(key for key in read.keys if self._is_read(key) and not read.aligned),
+            keys=tuple(
+                key
+                for key in read.keys
+                if self._is_read(key) and not self._moves_mocap(key) and not read.aligned
+            ),
             parents_pass=not m.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT,
             notes=tuple(self._notes()),
         )
@@ -150,6 +154,18 @@ class _Contents:
         if wrong:
             names = ", ".join(wrong)
             yield "keyframe-not-read", f"keyframes without a value for each joint: {names}"
+
+        moving = [key.name for key in read.keys if self._moves_mocap(key)]
+        if moving:
+            names = ", ".join(moving)
+            yield "keyframe-not-read", f"keyframes that place mocap bodies are no states: {names}"
+
+    def _moves_mocap(self, key: Key) -> bool:
+        """Whether it places mocap bodies elsewhere than the file does."""
+        m = self._model
+        bodies = [int(np.flatnonzero(m.body_mocapid == k)[0]) for k in range(m.nmocap)]
+        stored = ((key.mpos, m.body_pos[bodies]), (key.mquat, m.body_quat[bodies]))
+        return any(given and list(given) != own.ravel().tolist() for given, own in stored)
 
     def _is_read(self, key: Key) -> bool:
         """Not if it lacks values, or has values that are not numbers."""

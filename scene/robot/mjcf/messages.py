@@ -93,10 +93,12 @@ class Joint(Struct, frozen=True):
 
 
 class Key(Struct, frozen=True):
-    """A named keyframe."""
+    """A named keyframe. mpos, mquat: of the mocap bodies; (): as in the file."""
 
     name: str
     qpos: tuple[float, ...]
+    mpos: tuple[float, ...] = ()
+    mquat: tuple[float, ...] = ()
 
 
 class Flex(Struct, frozen=True):

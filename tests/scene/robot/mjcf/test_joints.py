@@ -111,3 +111,15 @@ def test_mocap_bodies_are_static(tmp_path: Path) -> None:
     path = tmp_path / "m.xml"
     path.write_text(text)
     assert {each.id: each.static for each in load_scene([path]).bodies} == {"m": True, "b": False}
+
+
+def test_a_keyframe_that_places_a_mocap_body_is_no_state(tmp_path: Path) -> None:
+    mocap = '<body name="hand" mocap="true" pos="1 0 0"><geom size="1"/></body>'
+    keys = '<keyframe><key name="same" mpos="1 0 0"/><key name="far" mpos="5 0 0"/></keyframe>'
+    text = model(mocap, body("b", geom("g"), '<joint name="j"/>')).replace(
+        "</mujoco>", f"{keys}</mujoco>"
+    )
+    scene = load(tmp_path, text)
+    assert [state.name for state in scene.robots[0].states] == ["same"]
+    (said,) = (issue for issue in scene.issues if issue.code == "keyframe-not-read")
+    assert "far" in said.message
