@@ -17,7 +17,13 @@ from satcheck.scene.loading.usd.joints import Joints
 from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
-from satcheck.scene.loading.usd.shapes import flat_faces, placed_shape, shape_of
+from satcheck.scene.loading.usd.shapes import (
+    NoSuchShape,
+    facets_around,
+    flat_faces,
+    placed_shape,
+    shape_of,
+)
 from satcheck.scene.loading.usd.stage import Stage, said, unknown_variants
 from satcheck.scene.loading.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.scene.loading.usd.walk import WORLD, Found, Walk, type_of
@@ -130,9 +136,10 @@ class _Reading:
         if not isinstance(content, RawMesh):
             try:
                 matrix = placed_shape(content, matrix)
-            except MeshFileError as error:
-                self._add(found, Refusal(error.code, error.message), None)
-                return
+            except NoSuchShape as error:
+                words = f"{error}, so it is checked as facets around it"
+                self._said.add("faceted", words, found.name)
+                number = self._part(found.name, facets_around(content, self._stage.unit))
         self._node(found, number, None if matrix == IDENTITY else matrix)
 
     def _content(self, prim: Any) -> tuple[Content, Any]:

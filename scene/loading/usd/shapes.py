@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, UsdGeom
 
-from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
 from satcheck.core.tolerances import ORTHOGONALITY
 from satcheck.core.transform import Transform
@@ -20,6 +20,13 @@ from satcheck.scene.loading.usd.walk import type_of
 # Many programs write rotations and scales as float32. A placement this close to one of a shape is
 # one; a share of the size of the shape.
 FLOAT32_NOISE = 1e-6
+
+_SEGMENTS = 128  # of a circle, where facets stand for a shape: 0.1 % of its radius off
+
+
+class NoSuchShape(Exception):
+    """A scaled or sheared shape is not of its kind any more."""
+
 
 # Rows for row vectors: exact quarter turns that take z to the axis.
 _TURNS = {
@@ -108,8 +115,8 @@ def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
     """The placement without the rounding of float32, which would skew the shape.
 
     matrix: row-major 4x4 for column vectors. The nearest rotation replaces one that is off by
-    rounding, and scales that differ by rounding become equal. Raises MeshFileError if the image is
-    no shape that is checked exactly.
+    rounding, and scales that differ by rounding become equal. Raises NoSuchShape if the image is no
+    shape that is checked exactly.
     """
     columns = np.array(matrix).reshape(4, 4)[:3, :3]
     scales = np.linalg.norm(columns, axis=0)
@@ -131,7 +138,7 @@ def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
 
 
 def _evened(shape: Primitive, scales: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The scales with those equal that are equal up to rounding. Raises MeshFileError if others
+    """The scales with those equal that are equal up to rounding. Raises NoSuchShape if others
     should be."""
     even = scales.copy()
     if _are_even(scales):
@@ -149,8 +156,16 @@ def _are_even(scales: NDArray[np.float64]) -> bool:
     return bool(scales.max() - scales.min() <= FLOAT32_NOISE * scales.max())
 
 
-def _refusal(shape: Primitive, how: str) -> MeshFileError:
+def _refusal(shape: Primitive, how: str) -> NoSuchShape:
     kind = type(shape).__name__.lower()
-    return MeshFileError(
-        "unsupported-feature", f"a {kind} {how} is no {kind}: convert it to a Mesh"
-    )
+    return NoSuchShape(f"a {kind} {how} is no {kind}")
+
+
+def facets_around(shape: Primitive, unit: str) -> RawMesh:
+    """A mesh that contains the shape, with its distance from it as surface tolerance. So bodies
+    that are apart from it are apart from the shape."""
+    mesh = mesh_around(shape, _SEGMENTS)
+    inner = np.asarray(mesh_of(shape, _SEGMENTS).vertices)
+    off = np.linalg.norm(np.asarray(mesh.vertices) - inner, axis=1).max() + sag_of(shape, _SEGMENTS)
+    vertices, triangles = mesh.to_bytes()
+    return RawMesh(vertices, triangles, "float32", units=unit, surface_tolerance=float(off))

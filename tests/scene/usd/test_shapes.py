@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from math import cos, radians, sin
+from math import pi as PI
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from satcheck.core.shapes import Sphere
-from tests.scene.usd.files import bounds_of, cube, load, stage
+from tests.scene.usd.files import bounds_of, cube, load, said, stage
 
 
 def shape(kind: str, sizes: str, transform: str = "") -> str:
@@ -79,8 +82,6 @@ def test_a_float32_rotation_keeps_a_sphere_a_sphere(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "sizes", "why"),
     [
-        ("Cylinder", "double radius = 1", "scaled unevenly"),
-        ("Capsule", "double radius = 1", "scaled unevenly"),
         ("Cone", "double radius = 0", "should be positive"),
         ("Cylinder_1", "double radiusTop = 1\ndouble radiusBottom = 2", "two radii"),
     ],
@@ -94,7 +95,33 @@ def test_what_is_no_exact_shape_is_not_read(
     assert why in scene.unreadable[0].issue.message
 
 
-def test_a_sheared_shape_is_not_read(tmp_path: Path) -> None:
-    matrix = "matrix4d xformOp:transform = ((1, 0, 0, 0), (1, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))"
-    text = shape("Sphere", "double radius = 1", matrix) + cube("Other")
-    assert "sheared" in load(tmp_path, text).unreadable[0].issue.message
+SHEARED = "matrix4d xformOp:transform = ((1, 0, 0, 0), (1, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))"
+
+
+@pytest.mark.parametrize(
+    ("kind", "sizes", "change", "why", "volume"),
+    [
+        ("Cylinder", "double radius = 1", "float3 xformOp:scale = (1, 2, 1)", "unevenly", 4 * PI),
+        (
+            "Capsule",
+            "double radius = 1",
+            "float3 xformOp:scale = (1, 2, 1)",
+            "unevenly",
+            14 / 3 * PI,
+        ),
+        ("Sphere", "double radius = 1", SHEARED, "sheared", 4 / 3 * PI),
+    ],
+)
+def test_an_uneven_shape_is_checked_as_facets_around_it(
+    tmp_path: Path, kind: str, sizes: str, change: str, why: str, volume: float
+) -> None:
+    scene = load(tmp_path, shape(kind, sizes, change))
+    (body,) = scene.bodies
+    assert why in said(scene)["faceted"]
+    points = np.asarray(body.world_mesh().vertices)
+    corners = points[np.asarray(body.world_mesh().triangles)]
+    enclosed = abs(np.linalg.det(corners).sum()) / 6
+    # A shell of the thickness of the tolerance, on a surface smaller than that of a box around it.
+    surface = 2 * sum(a * b for a, b in combinations(np.ptp(points, axis=0), 2))
+    assert 0 < enclosed - volume < surface * body.facet_tolerance
+    assert 0 < body.facet_tolerance < 0.01
