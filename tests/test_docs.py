@@ -56,7 +56,7 @@ def root(tmp_path: Path) -> Path:
     """A copy of what the pages name, so that reports can be written beside it."""
     shutil.copytree(ROOT / "sample_meshes", tmp_path / "sample_meshes")
     (tmp_path / "docs").mkdir()
-    for name in ("rig.step", "bench.usda"):
+    for name in ("rig.step", "bench.usda", "room.toml"):
         shutil.copy(ROOT / "docs" / name, tmp_path / "docs")
     return tmp_path
 

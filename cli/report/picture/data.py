@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
+from satcheck.audit.severity import is_failure
 from satcheck.cli.report.ci.problems import measured, sentence
 from satcheck.cli.report.components import facts
 from satcheck.cli.report.order import is_listed, severity, worst_first
+from satcheck.cli.report.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.report.picture.geometry import geometry
 from satcheck.cli.report.picture.packing import packed_points
 from satcheck.cli.report.verdict import summary_line
@@ -35,6 +37,7 @@ LARGEST = 1e18  # a coordinate whose square the renderer can hold: it has float3
 def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> dict[str, Any]:
     """Lengths in units of the scene, relative to the middle of all bodies. A body that cannot be
     drawn has no number. parts: convex parts to show."""
+    scene = without_regions(scene)
     bodies = list(scene.bodies) if can_be_drawn(scene) else []
     findings = listed(report)
     met = frozenset(id_ for finding in findings for id_ in (finding.a, finding.b))
@@ -51,6 +54,14 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
         "simplified": simpler if drawn.simplified else "",
         "findings": [_shown(finding, numbers, drawn.middle, unit) for finding in findings],
         "points": _packed_points(findings),
+        "states": {
+            numbers[id_]: state for id_, state in states_of(report).items() if id_ in numbers
+        },
+        "all": shows_answers(report),
+        "arrows": [
+            {"from": _relative(start, drawn.middle), "way": _relative(way, 0.0), "kind": kind}
+            for start, way, kind in (arrows_of(report, scene) if bodies else ())
+        ],
         "issues": [issue_line(issue) for issue in report.issues],
         "drawn": len(bodies) == len(scene.bodies),
         **drawn.values,
@@ -63,9 +74,17 @@ def listed(report: Report) -> list[Finding]:
 
 
 def drawn_finding(report: Report, scene: Scene) -> Finding | None:
-    """What an image shows: the worst finding whose bodies are there."""
+    """What an image shows: the worst finding whose bodies are there; None: all bodies."""
+    if shows_answers(report):
+        return None
     ids = {body.id for body in scene.bodies}
     return next((f for f in listed(report) if f.a in ids and f.b in ids), None)
+
+
+def shows_answers(report: Report) -> bool:
+    """Whether rules ask about single bodies, and no pair fails: then a picture shows all bodies."""
+    failing = any(is_failure(finding, report.settings.fail_on) for finding in report.findings)
+    return bool(report.answers) and not failing
 
 
 def can_be_drawn(scene: Scene) -> bool:
@@ -156,6 +175,6 @@ def _component(item: Component, finding: Finding, middle: Floats) -> dict[str, A
     }
 
 
-def _relative(point: Any, middle: Floats) -> list[float]:
+def _relative(point: Any, middle: Floats | float) -> list[float]:
     """As many digits as a float32 of the renderer holds."""
     return [float(f"{value:.8g}") for value in np.array(point) - middle]

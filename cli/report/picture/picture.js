@@ -39,6 +39,7 @@ class Picture {
     this.tints = bodies.ids.map(() => OTHER);
     for (const each of [...report.findings].reverse())
       for (const body of [each.a, each.b]) if (body !== null) this.tints[body] = TINTS[each.severity] || OTHER;
+    for (const [body, state] of Object.entries(report.states)) this.tints[body] = TINTS[state];
     this.crowds = this.grouped(bodies.ids.map((_, body) => body));
     this.near = [];
   }
@@ -133,6 +134,8 @@ class Picture {
     const { renderer } = this, gl = renderer.gl, labels = [];
     if (!isDrawn(now)) {
       for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, 1], [-1, -1], true);
+      renderer.onTop();
+      this.answers(view.ink);
       return labels;
     }
     if (view.others)
@@ -178,10 +181,22 @@ class Picture {
     if (!length) return;
     const [centre, radius] = this.sphereAround([now.a, now.b]);
     const from = now.ball ? now.ball.centre : now.witness ? now.witness[0] : centre;
-    const to = plus(from, now.mtv), head = Math.min(0.4 * length, 0.12 * radius), thick = Math.min(0.1 * length, 0.012 * radius);
-    const neck = minus(to, times(now.mtv, head / length));
-    this.rodFrom(from, neck, thick, ink);
-    this.rodFrom(neck, to, 2.5 * thick, ink, this.cone);
+    this.pointer(from, now.mtv, radius, ink);
+  }
+
+  // radius: of the bodies beside it, which decides how thick the arrow is.
+  pointer(from, way, radius, colour) {
+    const length = norm(way), head = Math.min(0.4 * length, 0.12 * radius), thick = Math.min(0.1 * length, 0.012 * radius);
+    const to = plus(from, way), neck = minus(to, times(way, head / length));
+    this.rodFrom(from, neck, thick, colour);
+    this.rodFrom(neck, to, 2.5 * thick, colour, this.cone);
+  }
+
+  // Contact forces, and how falling bodies start to move.
+  answers(ink) {
+    if (!report.arrows.length) return;
+    const radius = this.sphereAround(report.bodies.ids.map((_, body) => body))[1];
+    for (const { from, way, kind } of report.arrows) this.pointer(from, way, radius, kind === "fall" ? ink : GREEN);
   }
 
   component(item, ink, labels) {

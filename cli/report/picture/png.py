@@ -1,7 +1,8 @@
 """The worst finding as an image, PNG: drawn without a GPU or a window.
 
 A is blue, B orange, both translucent, and what they share red, with the way out and the ball of the
-thickness. Without a finding: all bodies.
+thickness. Without a finding: all bodies, those that fail in red, with contact forces in green, and
+how bodies that fall start to move in black.
 """
 
 from __future__ import annotations
@@ -12,12 +13,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from satcheck.cli.report.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.report.picture.data import drawn_finding, lines_of, require_drawable, up_of
-from satcheck.cli.report.picture.marks import arrow_of, ball_of, sphere_around
+from satcheck.cli.report.picture.marks import arrow, arrow_of, ball_of, sphere_around
 from satcheck.cli.report.picture.raster import Kind, Triangles, drawn
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import numpy.typing as npt
 
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
 SIZE = (1200, 900)
 WHITE = (1.0, 1.0, 1.0)
-A, B, OTHER, ALONE, ARROW, BALL, CURVE = range(7)
+A, B, OTHER, ALONE, ARROW, BALL, CURVE, FORCE, FAILS = range(9)
 KINDS = [
     Kind((0.16, 0.44, 0.84), 0.4),
     Kind((0.9, 0.55, 0.1), 0.4),
@@ -38,6 +40,8 @@ KINDS = [
     Kind((0.0, 0.0, 0.0), 1.0, in_front=True),
     Kind((1.0, 0.85, 0.1), 0.8, in_front=True),
     Kind((0.86, 0.1, 0.12), 1.0, in_front=True),
+    Kind((0.0, 0.6, 0.45), 1.0, in_front=True),
+    Kind((0.82, 0.2, 0.2), 1.0),
 ]
 CROWD, FAINT = 100, 0.025  # of so many bodies each is as faint
 OVERLAP = Kind((0.86, 0.1, 0.12), 0.9)
@@ -63,31 +67,46 @@ class View(NamedTuple):
 
 def render(report: Report, scene: Scene, size: tuple[int, int] = SIZE) -> bytes:
     """size: width and height in pixels."""
+    scene = without_regions(scene)
     require_drawable(scene)
     bodies = {body.id: body for body in scene.bodies}
     finding = drawn_finding(report, scene)
     pair = [bodies[finding.a], bodies[finding.b]] if finding else list(bodies.values())
     view = view_of(pair, bool(finding), up_of(scene), size)
-    return image_of(scene, finding, pair, view, size)
+    if finding:
+        return image_of(scene, finding, pair, view, size)
+    return _image(_answers(report, scene), [], KINDS, view, size)
 
 
 def image_of(
     scene: Scene, finding: Finding | None, pair: list[Body], view: View, size: tuple[int, int]
 ) -> bytes:
     """pair: the bodies of the finding."""
+    kinds = list(KINDS)
+    if len(scene.bodies) > CROWD:
+        kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
+    lines = lines_of(finding) if finding else []
+    return _image(_meshes(scene, finding, pair), lines, kinds, view, size)
+
+
+def _image(
+    meshes: Iterable[tuple[Mesh, int]],
+    lines: Iterable[list[tuple[float, float, float]]],
+    kinds: list[Kind],
+    view: View,
+    size: tuple[int, int],
+) -> bytes:
+    """meshes: in the world, with their kinds."""
     corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
-    for mesh, kind in _meshes(scene, finding, pair):
+    for mesh, kind in meshes:
         faces = view.seen(np.asarray(mesh.vertices))[np.asarray(mesh.triangles)]
         corners.append(faces)
         numbers.append(np.full(len(faces), kind))
-    for line in lines_of(finding) if finding else ():
+    for line in lines:
         quads = _quads(view.seen(np.array(line)))
         corners.append(quads)
         numbers.append(np.full(len(quads), CURVE))
     triangles = Triangles(np.concatenate(corners), np.concatenate(numbers))
-    kinds = list(KINDS)
-    if len(scene.bodies) > CROWD:
-        kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
     return image_file(drawn(triangles, kinds, OVERLAP, size, WHITE))
 
 
@@ -140,6 +159,17 @@ def _meshes(scene: Scene, finding: Finding | None, pair: list[Body]) -> Iterator
     for mark, kind in ((arrow_of(finding, *sphere_around(pair)), ARROW), (ball_of(finding), BALL)):
         if mark is not None:
             yield mark, kind
+
+
+def _answers(report: Report, scene: Scene) -> Iterator[tuple[Mesh, int]]:
+    """All bodies, those that fail in red, contact forces, and how bodies that fall start to
+    move."""
+    radius = sphere_around(list(scene.bodies))[1]
+    states = states_of(report)
+    for body in scene.bodies:
+        yield body.world_mesh(), FAILS if states.get(body.id) == "error" else ALONE
+    for start, way, kind in arrows_of(report, scene):
+        yield arrow(start, way, radius), FORCE if kind == "force" else ARROW
 
 
 def _quads(line: Floats) -> Floats:

@@ -218,7 +218,7 @@ async function start() {
   element("search").addEventListener("input", search);
   addEventListener("keydown", key);
   list(select);
-  select(report.findings.length ? 0 : -1);
+  select(report.findings.length && !report.all ? 0 : -1);
   if (!report.drawn) say("There is no picture: the coordinates are too large for it.");
   try {
     const loading = new Picture(new Renderer(element("view")));
