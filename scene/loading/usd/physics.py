@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
+from satcheck.scene.loading.usd.remarks import Remarks
 from satcheck.scene.loading.usd.walk import WORLD, Found, Frame, of_prototype
 
 
@@ -23,7 +24,9 @@ class Physics(Struct, frozen=True):
     joints: tuple[Any, ...] = ()
 
 
-def with_physics(stage: Any, nodes: Sequence[RawNode], found: Sequence[Found]) -> Physics:
+def with_physics(
+    stage: Any, nodes: Sequence[RawNode], found: Sequence[Found], said: Remarks
+) -> Physics:
     """What physics says of the nodes.
 
     found: where each node comes from. Simulators do not collide colliders of one rigid body,
@@ -34,7 +37,7 @@ def with_physics(stage: Any, nodes: Sequence[RawNode], found: Sequence[Found]) -
     if not sources:
         return Physics(tuple(nodes))
     members = _Members(stage, found)
-    made = _Rules(sources, members, len(nodes))
+    made = _Rules(sources, members, len(nodes), said)
     rules = tuple(made.rules())
     links = {number: body for body, numbers in members.of_body.items() for number in numbers}
     own = tuple(
@@ -102,6 +105,10 @@ class _Members:
     def below(self, name: str) -> list[int]:
         return self._below.get(name, [])
 
+    def has(self, path: str) -> bool:
+        """Whether any node is below the prim."""
+        return path in self._names
+
     def pairs(self, one: str, other: str) -> Iterator[tuple[str, str]]:
         """The names of two prims in each instance: the other one is in the same instance, or in
         one around it, or outside of all. Prims that share no instance are no pair."""
@@ -141,8 +148,9 @@ def _is_body(prim: Any) -> bool:
 class _Rules:
     """The rules, and the groups of each node that they name."""
 
-    def __init__(self, sources: _Sources, members: _Members, count: int) -> None:
+    def __init__(self, sources: _Sources, members: _Members, count: int, said: Remarks) -> None:
         self._sources = sources
+        self._said = said
         self._members = members
         self._made: set[str] = set()
         self.groups: list[list[str]] = [[] for _ in range(count)]
@@ -168,7 +176,11 @@ class _Rules:
     def _of_filter(self, prim: Any) -> Iterator[RawRule]:
         path = prim.GetPath()
         for other in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetForwardedTargets():
-            for pair in self._members.pairs(str(path), str(other)):
+            pairs = list(self._members.pairs(str(path), str(other)))
+            if not pairs and self._members.has(str(path)) and self._members.has(str(other)):
+                words = f"filteredPairs with {other}, in another prototype, is not applied"
+                self._said.add("ignored-opinion", words, str(path))
+            for pair in pairs:
                 a, b = (self._group(f"below {name}", self._members.below(name)) for name in pair)
                 yield _rule(a, b, f"filteredPairs of {path}")
 

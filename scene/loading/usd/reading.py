@@ -61,8 +61,8 @@ class _Reading:
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
             raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
-        physics = with_physics(self._stage.stage, self._nodes, self._found)
         said = Remarks()
+        physics = with_physics(self._stage.stage, self._nodes, self._found, said)
         joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
         return RawScene(
             tuple(self._parts),

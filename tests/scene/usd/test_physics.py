@@ -165,6 +165,15 @@ def test_filtered_pairs_of_a_prototype_and_a_prim_outside(tmp_path: Path) -> Non
     assert excused(scene) == {("/Wall", f"/Scatter[{k}]:Post/A") for k in range(2)}
 
 
+def test_filtered_pairs_of_two_prototypes_are_not_applied_and_named(tmp_path: Path) -> None:
+    filtered = cube("A", "rel physics:filteredPairs = </Scatter/Rail>", FILTER)
+    text = scattered(filtered, more=cube("Rail"))
+    text = text.replace("</Scatter/Post>\n", "[</Scatter/Post>, </Scatter/Rail>]\n")
+    scene = load(tmp_path, stage(text.replace("protoIndices = [0, 0]", "protoIndices = [0, 1]")))
+    assert excused(scene) == set()
+    assert "/Scatter/Post/A" in said(scene)["ignored-opinion"]
+
+
 def test_a_collider_that_joins_what_is_below_cannot_be_checked(tmp_path: Path) -> None:
     merged = f'def Xform "M" (\n prepend apiSchemas = [{COLLIDER}]\n)\n{{\n{cube("A")}}}\n'
     scene = load(tmp_path, stage(merged, cube("B", api=COLLIDER)), geometry="collision")
