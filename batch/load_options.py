@@ -22,6 +22,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()
+    between: tuple[tuple[str, str], ...] = ()
     reading: ReadOptions = ReadOptions()
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -40,6 +41,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             hashed=hashed,
             known=known,
             rules=self.rules,
+            between=self.between,
             reading=self.reading,
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,

@@ -58,7 +58,7 @@ reading_options = together(
         metavar="RADIANS",
         default=ANGULAR_TOLERANCE,
         show_default=True,
-        help="The most angle between such facets.",
+        help="Between such facets.",
     ),
 )
 split_option = click.option(
@@ -86,6 +86,15 @@ rules_option = click.option(
     metavar="FILE",
     help="Rules about all bodies, after those of scenes: what may overlap, and by how much. "
     "Repeatable.",
+)
+
+
+between_option = click.option(
+    "--between",
+    nargs=2,
+    multiple=True,
+    metavar="X Y",
+    help="Only pairs of X and Y: ids or group:NAME. Repeatable.",
 )
 
 
@@ -130,7 +139,7 @@ geometry_options = together(
         multiple=True,
         type=click.Choice(get_args(Purpose)),
         metavar="NAME",
-        help="Of USD prims to draw: render (the default), proxy or guide. Repeatable.",
+        help="Of drawn USD prims: render (the default), proxy, guide.",
     ),
     click.option(
         "--time",

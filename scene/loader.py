@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,7 @@ from satcheck.scene.mesh_files import (
 )
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_builder import SceneBuilder, Split
 from satcheck.scene.units import MICROMETRES, unit_of
 
@@ -43,6 +44,7 @@ def load_scene(
     hashed: bool = True,
     units: str | None = None,
     rules: Sequence[str | Path] = (),
+    between: Sequence[tuple[str, str]] = (),
     geometry: GeometryKind | None = None,
     known: KnownMeshes | None = None,
     reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
@@ -70,6 +72,8 @@ def load_scene(
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
     rules: files of rules, about all bodies. They count after those of the scenes.
+    between: pairs of selectors. Only pairs of bodies with one in each are checked, unless a rule
+    says otherwise. SatcheckError `bad-rule` for an empty one.
     geometry: which elements of the links of robots are bodies, "collision" or "visual"; of USD the
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
@@ -116,7 +120,17 @@ def load_scene(
             builder.add_nodes(next(ids), path, Path(path), split, alone)
     for path in _as_texts(rules):
         builder.add_scene(read_rules(path))
-    return builder.scene()
+    scene = builder.scene()
+    return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
+
+
+def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
+    """Rules that allow all pairs but these. They stand before all others, which can change that."""
+    everything = Selector("*")
+    reason = "no pair of --between"
+    yield Rule(a=everything, b=everything, allowed=True, reason=reason, where="--between")
+    for a, b in between:
+        yield Rule(a=Selector(a), b=Selector(b), allowed=False, where=f"--between {a} {b}")
 
 
 def _as_texts(paths: Sequence[str | Path]) -> list[str]:

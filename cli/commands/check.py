@@ -54,6 +54,7 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.refusals import refuse_certificate, refuse_of_poses, refuse_of_worlds
 from satcheck.cli.rendering import Delivery, Shown, rendered, tell
 from satcheck.cli.scene_options import (
+    between_option,
     geometry_options,
     merge_option,
     package_option,
@@ -223,6 +224,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Fail only on findings that are new, or worse than in FILE (satcheck baseline).",
 )
 @rules_option
+@between_option
 @merge_option
 @open_option
 @click.option(

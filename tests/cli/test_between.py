@@ -1,0 +1,54 @@
+"""`--between X Y`: only pairs with one body in each are checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.audit import check
+from satcheck.audit.request.settings import Settings
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import load_scene
+from tests.cli.process import SAMPLES, satcheck
+from tests.scene.ifc.models import Model
+
+THREE = ("box.obj", "box_pushed.stl", "cube.off")
+
+
+def test_other_pairs_are_not_checked() -> None:
+    one = satcheck(*THREE, "--between", "box", "box_*", "--format", "json", cwd=SAMPLES)
+    assert [(f["a"], f["b"]) for f in one.document["findings"]] == [("box", "box_pushed")]
+    assert one.document["summary"]["pairs"]["allowed"] == 2
+    none = satcheck(*THREE, "--between", "box", "nothing*", cwd=SAMPLES)
+    assert none.code == 3
+
+
+def test_several_sets_add_up() -> None:
+    both = ("--between", "box", "box_pushed", "--between", "cube", "box")
+    ran = satcheck(*THREE, *both, "--format", "json", cwd=SAMPLES)
+    assert ran.document["summary"]["pairs"]["allowed"] == 1
+
+
+def test_the_relations_of_a_file_still_hold(tmp_path: Path) -> None:
+    """A whole may overlap its part, and a pipe may not overlap a wall."""
+    model = Model()
+    wall = model.box((4, 1, 2), kind="IFCWALL", more=",$,$")
+    part = model.box((1, 4, 2), kind="IFCCOVERING", more=",$,$")
+    model.box((1, 1, 1), kind="IFCPIPESEGMENT", more=",$,$")
+    model.relation("IFCRELAGGREGATES", f"{wall},({part})")
+    (tmp_path / "a.ifc").write_bytes(model.bytes())
+
+    def found(*between: tuple[str, str]) -> list[set[str]]:
+        scene = load_scene([tmp_path / "a.ifc"], between=between)
+        names = {body.id: body.name for body in scene.bodies}
+        report = check(scene, Settings(depth=False))
+        return [{names[f.a], names[f.b]} for f in report.findings]
+
+    assert found(("group:IfcWall", "group:IfcCovering")) == []
+    assert found(("group:IfcWall", "group:Ifc*Segment")) == [{"IfcWall", "IfcPipeSegment"}]
+
+
+def test_an_empty_selector_is_refused() -> None:
+    with pytest.raises(SatcheckError, match="empty"):
+        load_scene([SAMPLES / "box.obj"], between=[("", "*")])
