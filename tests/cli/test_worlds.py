@@ -107,7 +107,8 @@ def test_rules_apply_to_mesh_files(folder: Path) -> None:
 def test_rules_apply_to_each_asset_and_are_no_asset(folder: Path) -> None:
     rule = '[[rules]]\na = "left"\nb = "right"\nmax_depth = "2mm"\n'
     (folder / "rules.toml").write_text(f'schema = "satcheck.scene/1"\nunits = "mm"\n{rule}')
-    assert satcheck("each", ".", cwd=folder).code == 2  # it has no bodies
+    without = satcheck("each", ".", cwd=folder)
+    assert (without.code, "rules.toml has only rules" in without.err) == (1, True)
     ran = satcheck("each", ".", "--rules", "rules.toml", *JSON, cwd=folder)
     assert ran.code == 0, ran.err
     assert len(ran.document["assets"]) == 4
