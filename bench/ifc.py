@@ -84,7 +84,7 @@ def mebibytes(pid: int) -> int:
 
 def satcheck(file: Path, folder: Path, *options: str) -> Run:
     """Leaves report.json in the folder."""
-    report = ("--no-config", "--no-depth", "--format", "json", *options)
+    report = ("--no-config", "--no-depth", "--surface-tolerance", "0", "--format", "json", *options)
     return run([sys.executable, "-m", "satcheck.cli", *report, str(file)], folder / "report.json",
                (0, 1, 3))  # fmt: skip
 
