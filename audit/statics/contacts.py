@@ -18,6 +18,8 @@ from satcheck.audit.statics.near import Floats, Indices, cross, near_boxes
 PARALLEL = 1e-6
 # The contacts of a patch with no more than so many points stay as they are.
 PLAIN_PATCH = 8
+# With more pairs of near features the tolerance is not small beside the facets.
+MOST_NEAR = 500_000
 
 
 class Points(Struct, frozen=True):
@@ -45,7 +47,8 @@ NOBODY = Points(np.empty((0, 3)), np.empty((0, 3)), np.empty(0), np.empty(0, dty
 
 def contact_points(a: Features, b: Features, tolerance: float, rounding: float) -> Points:
     """The contacts of two closed meshes within the tolerance. rounding: how far coordinates may be
-    off by themselves; strict contacts are no farther than that beyond the nearest one."""
+    off by themselves; strict contacts are no farther than that beyond the nearest one. Raises
+    TooManyNear if the tolerance is too large for meshes this fine."""
     parts = [
         _vertices_on_faces(a, b, tolerance, rounding),
         _vertices_on_faces(b, a, tolerance, rounding, turned=True),
@@ -95,9 +98,10 @@ def _corners_of_patches(
         [np.round(normals * 1e7), np.round(plane / (4 * rounding)), strict[kept]]
     )
     _, patch = np.unique(keys, axis=0, return_inverse=True)
+    order = np.argsort(patch.reshape(-1), kind="stable")
+    starts = np.flatnonzero(np.diff(patch.reshape(-1)[order])) + 1
     corners = []
-    for number in range(int(patch.max()) + 1):
-        of_patch = kept[patch.reshape(-1) == number]
+    for of_patch in np.split(kept[order], starts):
         if len(of_patch) > PLAIN_PATCH:
             of_patch = of_patch[_hull(points.at[of_patch], points.normals[of_patch[0]])]
         corners.append(of_patch)
@@ -132,7 +136,7 @@ def _vertices_on_faces(
     corners = b.corners
     used = a.neighbours[a.first[:-1][a.first[:-1] < a.first[1:]], 0]
     at = a.points[used]
-    i, j = near_boxes(at, at, corners.min(axis=1), corners.max(axis=1), tolerance)
+    i, j = near_boxes(at, at, corners.min(axis=1), corners.max(axis=1), tolerance, MOST_NEAR)
     i = used[i]
     n = b.normals[j]
     facing = np.einsum("ci,ci->c", n, a.point_normals[i]) < 0
@@ -167,7 +171,12 @@ def _edges_on_edges(a: Features, b: Features, tolerance: float, rounding: float)
     """Convex edges of A across convex edges of B."""
     of_a, of_b = a.points[a.ends], b.points[b.ends]
     i, j = near_boxes(
-        of_a.min(axis=1), of_a.max(axis=1), of_b.min(axis=1), of_b.max(axis=1), tolerance
+        of_a.min(axis=1),
+        of_a.max(axis=1),
+        of_b.min(axis=1),
+        of_b.max(axis=1),
+        tolerance,
+        MOST_NEAR,
     )
     if not i.size:
         return NOBODY

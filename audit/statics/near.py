@@ -13,20 +13,34 @@ Indices = NDArray[np.int64]
 BLOCK = 1 << 18  # pairs compared at once
 
 
+class TooManyNear(Exception):
+    """More pairs are near each other than the caller can use."""
+
+
 def near_boxes(
-    low_a: Floats, high_a: Floats, low_b: Floats, high_b: Floats, reach: float
+    low_a: Floats,
+    high_a: Floats,
+    low_b: Floats,
+    high_b: Floats,
+    reach: float,
+    most: int | None = None,
 ) -> tuple[Indices, Indices]:
     """All pairs (i, j) of boxes (n, 3), (m, 3) whose coordinates are within reach on every axis.
 
-    Boxes are halved until a product of two sets is small enough to compare at once.
+    Boxes are halved until a product of two sets is small enough to compare at once. Raises
+    TooManyNear for more than `most` pairs.
     """
     found_i: list[Indices] = []
     found_j: list[Indices] = []
+    count = 0
     for i, j in _products(low_a, high_a, low_b, high_b, reach):
         gaps = np.maximum(low_a[i][:, None] - high_b[j], low_b[j] - high_a[i][:, None])
         k, m = np.nonzero((gaps <= reach).all(axis=2))
         found_i.append(i[k])
         found_j.append(j[m])
+        count += k.size
+        if most is not None and count > most:
+            raise TooManyNear
     if not found_i:
         nobody = np.empty(0, dtype=np.int64)
         return nobody, nobody

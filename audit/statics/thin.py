@@ -10,12 +10,14 @@ import numpy as np
 
 from satcheck.audit.statics.contacts import Points
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.near import Floats, near_boxes
+from satcheck.audit.statics.near import Floats, TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball
 
 TOO_THIN = "thinner than the tolerance of contacts: state a smaller [statics] tolerance"
 # The cosine below which two normals are opposed.
 OPPOSED = -0.5
+# More pairs of contacts at one place are those of facets finer than the tolerance.
+MOST_NEAR = 2_000_000
 
 
 def may_be_through(
@@ -23,13 +25,17 @@ def may_be_through(
 ) -> bool:
     """Whether a contact may be on the far side. There, the overlap is the thickness of both less
     the real overlap, and both overlaps are up to the tolerance. Walls may be thinner than their
-    body: then contacts at one place have opposed normals."""
+    body: then contacts at one place have opposed normals. So may contacts too many to compare."""
     if a is None or b is None or not len(points):
         return False
     normals = np.unique(np.round(points.normals, 7), axis=0)
     if (_widths(a, normals) + _widths(b, normals)).min() <= 2 * tolerance:
         return True
-    i, j = near_boxes(points.at, points.at, points.at, points.at, 4 * tolerance)
+    at = points.at
+    try:
+        i, j = near_boxes(at, at, at, at, 4 * tolerance, MOST_NEAR)
+    except TooManyNear:
+        return True
     cosines = np.einsum("ci,ci->c", points.normals[i], points.normals[j])
     return bool((cosines < OPPOSED).any())
 

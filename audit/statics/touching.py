@@ -21,7 +21,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.statics.balls import ball_on_ball, ball_on_mesh
 from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.near import near_boxes
+from satcheck.audit.statics.near import TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
 from satcheck.audit.statics.thin import TOO_THIN, may_be_through
 from satcheck.core.risky_steps import not_for_lack_of_memory
@@ -31,6 +31,7 @@ from satcheck.report.statics import Touch
 
 # Coordinates are off by the precision of the files, up to this share of the tolerance.
 PRECISION_SHARE = 0.01
+TOO_FINE = "too many facets within the tolerance of contacts: state a smaller [statics] tolerance"
 
 
 class Contact(Struct, frozen=True):
@@ -103,7 +104,10 @@ def _contact(
     if finding.relation != "touching":
         return Contact(a, b, "overlapping", False)
     one, other = subjects[a], subjects[b]
-    points = _points(one, other, tolerance)
+    try:
+        points = _points(one, other, tolerance)
+    except TooManyNear:
+        return Contact(a, b, "unknown", False, reason=TOO_FINE)
     if may_be_through(points, one.form, other.form, tolerance):
         return Contact(a, b, "unknown", False, reason=TOO_THIN)
     complete = one.complete and other.complete and len(points) > 0

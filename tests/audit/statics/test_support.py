@@ -351,3 +351,11 @@ def test_without_a_solver_the_error_says_what_to_install(tmp_path, monkeypatch):
     with pytest.raises(SatcheckError, match="satcheck\\[statics\\]") as caught:
         report_of(tmp_path, tower(0.4))
     assert caught.value.code == "missing-extra"
+
+
+def test_facets_finer_than_the_tolerance_leave_it_open(tmp_path, monkeypatch):
+    """Not the memory of the machine: pairs of near features are counted."""
+    monkeypatch.setattr("satcheck.audit.statics.contacts.MOST_NEAR", 8)
+    found = support(tmp_path, tower(0.3))
+    assert set(answers(found).values()) == {"yes", "open"}
+    assert any("too many facets" in str(f.reason) for f in found.findings)
