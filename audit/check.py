@@ -72,8 +72,8 @@ def check(
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. cache: data from earlier checks of the same bodies at other
-    placements, with the same settings; this check adds to it. least: the least number of bodies; a
-    single usable body passes.
+    placements, with the same settings; this check adds to it. least: the least number of bodies,
+    unless rules ask about single ones; a single usable body passes.
 
     Findings come in the order of the bodies. There is one for every pair that was neither pruned
     nor allowed, and, in a scene of few pairs, for pruned pairs too (Settings.list_pruned). Of the
@@ -85,6 +85,8 @@ def check(
     """
     require_settings(settings)
     scene = _loaded(scene, settings)
+    if scene.asks_for_support or scene.asks_for_regions:
+        least = 1
     if len(scene.bodies) + len(scene.unreadable) < least:
         few = "one body" if least == 1 else "two bodies"
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least")
@@ -101,7 +103,7 @@ def _check_scaled(
 ) -> Report | None:
     """The check of a scene with bodies beyond the number range of the core. None: scaling would not
     bring more bodies than the `placed` ones into the range."""
-    if asks_for_support(scene):
+    if scene.asks_for_support:
         return None  # the bodies beyond the range stay unusable, and the answers open
     from satcheck.audit.scaled_check import Scaling
     from satcheck.scene.scaled_scene import exponent_for, scaled_scene
@@ -204,15 +206,10 @@ def _movers(scene: Scene) -> Movers | None:
     return Movers(scene.motions)
 
 
-def asks_for_support(scene: Scene) -> bool:
-    """Whether a rule asks if bodies are held."""
-    return any(rule.supported or rule.stable for rule in scene.body_rules)
-
-
 def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
     """None: no rule asks about support. Raises SatcheckError if the question cannot be answered at
     all."""
-    if not asks_for_support(scene):
+    if not scene.asks_for_support:
         return None
     from satcheck.audit.statics.support import Support
 
@@ -223,7 +220,7 @@ def _regions(
     scene: Scene, bodies: PlacedBodies, settings: Settings
 ) -> tuple[Regions | UnsetType, list[Issue]]:
     """UNSET: no rule asks whether a body lies in a region."""
-    if all(rule.inside is None for rule in scene.body_rules):
+    if not scene.asks_for_regions:
         return UNSET, []
     from satcheck.audit.regions import region_issues, regions_of
 

@@ -264,7 +264,7 @@ def issues_of(
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    asked = counts.asked or any(rule.inside is not None for rule in scene.body_rules)
+    asked = counts.asked or scene.asks_for_regions
     empty = [] if asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
     return tuple(dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs)))
 

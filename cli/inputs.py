@@ -177,6 +177,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     advice = _advice(paths)
+    if scene.asks_for_support or scene.asks_for_regions:
+        least = 1
     if len(scene.bodies) + len(scene.unreadable) < least:
         if scene.unreadable:
             said = "an input could not be used: there is no pair to check"

@@ -77,6 +77,8 @@ UNSUPPORTED = "unsupported"
 SUPPORT_OPEN = "support-open"
 OUTSIDE_REGION = "outside-region"
 REGION_OPEN = "region-open"
+# Codes of issues that repeat the answers about single bodies, for formats without these.
+OF_ANSWERS = (UNSUPPORTED, SUPPORT_OPEN, OUTSIDE_REGION, REGION_OPEN)
 # Codes of warnings about sizes that make an answer doubtful.
 TOLERANCE_LARGE = "tolerance-large"
 SIZES_DIFFER = "sizes-differ"

@@ -175,6 +175,16 @@ class Scene(Struct, frozen=True):
         if self.motions:
             refuse_second_motions(self.motions)
 
+    @property
+    def asks_for_support(self) -> bool:
+        """Whether a rule asks if bodies are held."""
+        return any(rule.supported or rule.stable for rule in self.body_rules)
+
+    @property
+    def asks_for_regions(self) -> bool:
+        """Whether a rule asks if bodies lie in a region."""
+        return any(rule.inside is not None for rule in self.body_rules)
+
     def require_one_unit(self) -> None:
         """Raises SatcheckError (`units-unknown`) if the bodies have no common unit of length."""
         if len({body.units for body in self.bodies}) > 1:

@@ -21,11 +21,8 @@ from satcheck.report.report import (
     CROSS_CHECK,
     NO_ANSWER,
     NOT_AVAILABLE,
+    OF_ANSWERS,
     ON_TRIANGLES,
-    OUTSIDE_REGION,
-    REGION_OPEN,
-    SUPPORT_OPEN,
-    UNSUPPORTED,
 )
 from satcheck.scene.units import unit_of
 
@@ -33,8 +30,6 @@ if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Report
 
 _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
-# Lines of their own say these.
-_OF_BODIES = (UNSUPPORTED, SUPPORT_OPEN, OUTSIDE_REGION, REGION_OPEN)
 
 
 class Remark(NamedTuple):
@@ -61,7 +56,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
         Remark(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))
     ]
     for issue in report.issues:
-        if issue.severity != "error" and issue.code not in _OF_BODIES:
+        if issue.severity != "error" and issue.code not in OF_ANSWERS:
             lines.append(Remark(issue_line(issue), _ISSUE_STYLES[issue.severity]))
     return lines
 

@@ -357,6 +357,9 @@ def test_a_body_that_leaves_its_region_fails_in_every_format(tmp_path: Path) -> 
     assert [case.name for case in suite if case.result] == ["lamp is inside room"]
     for form in ("sarif", "github", "markdown"):
         assert "lamp is not inside room" in satcheck(str(scene), "--format", form).out
+    assert satcheck(str(scene), "--format", "github").out.startswith("::error ")
+    scene.write_text(text + 'severity = "warning"\n')
+    assert satcheck(str(scene), "--format", "github").out.startswith("::warning ")
     scene.write_text(text.replace("1.75", "1.5"))
     passed = satcheck(str(scene))
     assert (passed.code, "1 body inside the region" in passed.out) == (0, True)

@@ -122,3 +122,19 @@ def test_what_curved_shapes_lack_is_said_once_for_all_pairs(tmp_path: Path) -> N
     said = "volume: not known of 3 pairs with a curved shape, which has no triangles"
     assert ran.out.splitlines().count(said) == 1
     assert "not known" not in satcheck(str(tmp_path / "c.toml")).out
+
+
+def test_one_body_alone_may_be_asked_whether_it_is_held(tmp_path: Path) -> None:
+    """There is no pair to check, and an answer all the same."""
+    scene = tmp_path / "scene.toml"
+    text = (
+        'schema = "satcheck.scene/1"\nunits = "m"\n'
+        '[[bodies]]\nid = "lamp"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        '[[rules]]\nbodies = "*"\nsupported = true\n'
+    )
+    scene.write_text(text)
+    floats = satcheck(str(scene))
+    assert (floats.code, "lamp is not supported: it floats" in floats.out) == (1, True)
+    scene.write_text(text + "mounted = true\n")
+    holds = satcheck(str(scene))
+    assert holds.code == 0

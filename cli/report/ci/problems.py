@@ -15,11 +15,11 @@ from satcheck.cli.report.numbers import number, vector
 from satcheck.cli.report.order import rank, severity
 from satcheck.cli.report.words import in_motion, interval, is_hit, with_unit
 from satcheck.report.bodies import Place
-from satcheck.report.report import OVERLAPS
+from satcheck.report.report import OF_ANSWERS, OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from satcheck.cli.report.ci import Reports
     from satcheck.report.baseline import BaselineState
@@ -91,7 +91,8 @@ def _of_report(report: Report) -> list[Problem]:
         for finding in report.findings
         if (level := _level(finding)) is not None
     ]
-    return findings + [_of_issue(issue, places) for issue in report.issues]
+    unmet = {answer.body for answer in report.answers if answer.severity == "error"}
+    return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
 
 
 def sentence(finding: Finding, unit: str | None) -> str:
@@ -165,8 +166,9 @@ def _of_finding(
     )
 
 
-def _of_issue(issue: Issue, places: dict[str, Place]) -> Problem:
-    """An issue of the whole check gets the first file."""
+def _of_issue(issue: Issue, places: dict[str, Place], unmet: Collection[str]) -> Problem:
+    """An issue of the whole check gets the first file. unmet: bodies about which the answer is an
+    error; their issue is one, too."""
     body = (issue.body,) if issue.body else ()
     where = issue.body or issue.file
     first = next(iter(places.values()), Place(".", 1))
@@ -175,7 +177,7 @@ def _of_issue(issue: Issue, places: dict[str, Place]) -> Problem:
         place = Place(issue.file, issue.line or 1)
     named = f"{where}: " if where and not issue.message.startswith(where) else ""
     return Problem(
-        issue.severity,
+        "error" if issue.code in OF_ANSWERS and issue.body in unmet else issue.severity,
         issue.code,
         f"{named}{issue.message}",
         (place,),
