@@ -73,7 +73,8 @@ def _passing_by_rules(report: Report, scene: Scene) -> Report:
     pairs = report.summary.pairs
     if report.answers:
         return report
-    if scene.robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:
+    robots = any(not robot.loose for robot in scene.robots)
+    if robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:
         return report
     issues = (
         replace(issue, severity="note") if issue.code == NOTHING_TO_CHECK else issue

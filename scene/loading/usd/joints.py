@@ -55,9 +55,16 @@ class Joints:
         bodies = [body_at(self._stage.stage, end) for end in ends]
         if not joint.GetJointEnabledAttr().Get() or bodies[0] == bodies[1] or kind in _LOOSE:
             return None
-        frames = [self._frame(joint, number, end) for number, end in enumerate(ends)]
         parent, child = bodies
-        name, frame = str(prim.GetPath()), _pose(frames[0])
+        name = str(prim.GetPath())
+        if any(map(self._is_lost, ends)):
+            self._said.add("joint-not-moved", "a body that it names is missing: ignored", name)
+            return None
+        frames = [self._frame(joint, number, end) for number, end in enumerate(ends)]
+        if not np.isfinite(frames).all():
+            self._said.add("joint-not-moved", "its frames are not finite: ignored", name)
+            return None
+        frame = _pose(frames[0])
         still = RawJoint(name, "fixed", parent, child, frame, (0.0, 0.0, 1.0), None, 0.0)
         if kind not in _KINDS:
             self._said.add("joint-not-moved", f"a joint of type {kind}: {_STAYS}", still.name)
@@ -83,7 +90,10 @@ class Joints:
             float(prim.GetAttribute(f"physics:{end}Limit").Get()) * unit
             for end in ("lower", "upper")
         )
-        has_limits = math.isfinite(low) and math.isfinite(high) and low <= high
+        if low > high:
+            self._said.add("joint-not-moved", f"its limits leave no value: {_STAYS}", still.name)
+            return still
+        has_limits = math.isfinite(low) and math.isfinite(high)
         x, y, z = np.eye(3)[axis].tolist()
         return RawJoint(
             name=still.name,
@@ -96,6 +106,10 @@ class Joints:
             rest=rest if kind == "revolute" else rest * self._metres,
         )
 
+    def _is_lost(self, end: Any) -> bool:
+        targets = end.GetForwardedTargets()
+        return bool(targets) and not self._stage.stage.GetPrimAtPath(targets[0])
+
     def _frame(self, joint: Any, number: int, end: Any) -> Floats:
         """World pose of a frame of the joint, shape (4, 4), for column vectors, rigid. Mirrored
         bodies give a left-handed one."""
@@ -107,8 +121,9 @@ class Joints:
         if body:
             local = local * self._cache.GetLocalToWorldTransform(body)
         frame = np.array(self._stage.matrix(local)).reshape(4, 4)
-        left, _, right = np.linalg.svd(frame[:3, :3])
-        frame[:3, :3] = left @ right
+        if np.isfinite(frame).all():
+            left, _, right = np.linalg.svd(frame[:3, :3])
+            frame[:3, :3] = left @ right
         return frame
 
 

@@ -16,6 +16,7 @@ from tests.scene.usd.files import at, bounds_of, cube, load, said, stage
 from tests.scene.usd.test_physics import body
 
 DOOR = "/Hinge"
+CROSSED = "float physics:lowerLimit = 9\nfloat physics:upperLimit = 1"
 
 
 def joint(
@@ -130,6 +131,21 @@ def test_joints_that_are_not_moved_are_named(tmp_path: Path) -> None:
     apart = load(tmp_path, door("point3f physics:localPos1 = (0.5, 0, 0)"))
     assert "its frames do not meet" in said(apart)["joint-not-moved"]
     assert apart.robots == ()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("</Door>", "</Gone>", "is missing"),
+        ("localPos0 = (2, 0, 0)", "localPos0 = (nan, 0, 0)", "not finite"),
+        ("point3f", f"{CROSSED}\npoint3f", "no value"),
+    ],
+)  # fmt: skip
+def test_joints_that_make_no_sense_are_named(tmp_path: Path, old: str, new: str, why: str) -> None:
+    scene = load(tmp_path, door().replace(old, new))
+    assert why in said(scene)["joint-not-moved"]
+    assert scene.robots == ()
+    assert box(scene) == [2, 0, 0, 3, 1, 1]
 
 
 def test_joints_of_a_loop_are_not_moved(tmp_path: Path) -> None:
