@@ -74,6 +74,7 @@ INTERNAL_ERROR = "internal-error"
 NOTHING_TO_CHECK = "nothing-to-check"
 # The codes of issues about bodies that nothing holds, and of which that is open.
 UNSUPPORTED = "unsupported"
+GRAVITY_ASSUMED = "gravity-assumed"
 SUPPORT_OPEN = "support-open"
 OUTSIDE_REGION = "outside-region"
 REGION_OPEN = "region-open"

@@ -159,6 +159,15 @@ def down_of(scene: Scene) -> Vector:
     return _DOWN_Y if formats and formats <= _Y_UP and not scene.entries else _DOWN_Z
 
 
+def disagreeing_axes(scene: Scene) -> bool:
+    """Whether gravity is assumed although the scene has glTF files, which are y-up, beside others:
+    then the assumption is wrong for some of them, unless their placement turns them."""
+    if scene.statics is not None and scene.statics.gravity is not None:
+        return False
+    formats = {body.file.format for body in scene.bodies}
+    return bool(formats & _Y_UP) and down_of(scene) == _DOWN_Z
+
+
 def terms_values(scene: Scene) -> dict[str, Any]:
     """The terms as a scene file states them. Gravity is stated in any case: in a scene file, the
     format of a mesh does not say where down is."""

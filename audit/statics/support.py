@@ -29,7 +29,13 @@ from satcheck.audit.statics.terms import terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
-from satcheck.report.report import SUPPORT_OPEN, TOLERANCE_LARGE, UNSUPPORTED, Issue
+from satcheck.report.report import (
+    GRAVITY_ASSUMED,
+    SUPPORT_OPEN,
+    TOLERANCE_LARGE,
+    UNSUPPORTED,
+    Issue,
+)
 from satcheck.report.statics import (
     BodyContact,
     ContactPoint,
@@ -39,7 +45,7 @@ from satcheck.report.statics import (
     SupportedBody,
     SupportFinding,
 )
-from satcheck.scene.statics import QUESTIONS, BodyRule, terms_of
+from satcheck.scene.statics import QUESTIONS, BodyRule, disagreeing_axes, terms_of
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
@@ -157,7 +163,7 @@ class Support:
                 message = f"{answer.body} is {said} {answer.question}: {answer.reason}"
                 issue = Issue(code, "warning", answer.body, None, message)
                 failed.setdefault(answer.body, issue)
-        return [*failed.values(), *self._small(), *self._unused(members)]
+        return [*failed.values(), *_axes(scene), *self._small(), *self._unused(members)]
 
     def _small(self) -> list[Issue]:
         tolerance = self.terms.tolerance
@@ -254,3 +260,10 @@ class Support:
                 answer = "open" if question == "stable" else "yes"
                 reason = NOT_LET_GO if margins is None else NOT_DECIDED
         return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)
+
+
+def _axes(scene: Scene) -> list[Issue]:
+    if not disagreeing_axes(scene):
+        return []
+    message = "glTF files are y-up, and gravity is assumed along -z: state [statics] gravity"
+    return [Issue(GRAVITY_ASSUMED, "warning", None, None, message)]

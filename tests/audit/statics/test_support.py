@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import numpy as np
 import pytest
 
+from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
+from satcheck.scene import load_scene
 from tests.audit.statics.scenes import (
     about_y,
     answers,
@@ -20,6 +23,7 @@ from tests.audit.statics.scenes import (
     support,
     tower,
 )
+from tests.cli.process import SAMPLES
 
 FRICTION_ANGLE = math.degrees(math.atan(0.5))
 
@@ -359,3 +363,23 @@ def test_facets_finer_than_the_tolerance_leave_it_open(tmp_path, monkeypatch):
     found = support(tmp_path, tower(0.3))
     assert set(answers(found).values()) == {"yes", "open"}
     assert any("too many facets" in str(f.reason) for f in found.findings)
+
+
+@pytest.mark.parametrize(("gravity", "warned"), [(None, True), ([0, -1, 0], False)])
+def test_gravity_is_not_silently_assumed_for_files_that_are_y_up(tmp_path, gravity, warned):
+    bodies = [floor(), {"id": "ring", "mesh": str(SAMPLES / "ring.glb")}]
+    scene_path = tmp_path / "scene.json"
+    statics = {} if gravity is None else {"statics": {"gravity": gravity}}
+    scene_path.write_text(
+        json.dumps(
+            {
+                "schema": "satcheck.scene/1",
+                "units": "m",
+                "rules": [{"bodies": "*", "supported": True}],
+                "bodies": bodies,
+                **statics,
+            }
+        )
+    )
+    report = check(load_scene([scene_path], allow_outside=True), Settings())
+    assert ("gravity-assumed" in {issue.code for issue in report.issues}) is warned
