@@ -35,7 +35,8 @@ class _Seen:
 
     def __init__(self, model: Any) -> None:
         self._model = model
-        self._curved = tuple(_known(model, _CURVED))
+        self._curved = _classes_in(model, _CURVED)
+        self._facets = _classes_in(model, _FACETS)
         self._answers: dict[int, bool] = {}
 
     def is_curved(self, representation: Any) -> bool:
@@ -47,17 +48,17 @@ class _Seen:
     def _is_curved_item(self, item: Any) -> bool:
         if item.is_a("IfcMappedItem"):
             return self.is_curved(item.MappingSource.MappedRepresentation)
-        if any(item.is_a(name) for name in _known(self._model, _FACETS)):
+        if item.is_a() in self._facets:
             return False
         return any(map(self._is_curved_instance, self._model.traverse(item)))
 
     def _is_curved_instance(self, instance: Any) -> bool:
-        if any(map(instance.is_a, self._curved)):
+        kind = instance.is_a()
+        if kind in self._curved:
             return True
-        if instance.is_a("IfcProfileDef"):
-            return any(_radii(instance))
-        segments = getattr(instance, "Segments", None) or ()
-        return any(each.is_a() == "IfcArcIndex" for each in segments)
+        if kind == "IfcIndexedPolyCurve":
+            return any(each.is_a() == "IfcArcIndex" for each in instance.Segments or ())
+        return kind.endswith("ProfileDef") and any(_radii(instance))
 
 
 def _radii(profile: Any) -> Iterator[float]:
@@ -67,14 +68,12 @@ def _radii(profile: Any) -> Iterator[float]:
             yield value
 
 
-def _known(model: Any, names: Iterable[str]) -> Iterator[str]:
-    """The classes that the schema of the file has."""
-    from ifcopenshell import schema_by_name
-
-    schema = schema_by_name(model.schema_identifier)
+def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:
+    """The classes of the instances of the file that are of one of these."""
+    found: set[str] = set()
     for name in names:
         try:
-            schema.declaration_by_name(name)
-        except RuntimeError:
+            found.update(instance.is_a() for instance in model.by_type(name))
+        except RuntimeError:  # the schema lacks the class
             continue
-        yield name
+    return frozenset(found)

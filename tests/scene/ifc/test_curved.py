@@ -87,3 +87,14 @@ def test_finer_facets_tell_a_thin_overlap_from_a_touch(tmp_path: Path) -> None:
         scene = read(tmp_path, model, chord_tolerance=chord, angular_tolerance=3.0)
         (finding,) = check(scene, Settings(depth=False)).findings
         assert (finding.relation, scene.reading.chord_tolerance) == (relation, chord)
+
+
+@pytest.mark.parametrize("curved", [True, False])
+def test_arcs_of_a_polycurve_are_curved(tmp_path: Path, curved: bool) -> None:
+    model = Model()
+    points = model.add("IFCCARTESIANPOINTLIST2D(((0.,0.),(1.,1.),(2.,0.)))")
+    first = "IFCARCINDEX((1,2,3))" if curved else "IFCLINEINDEX((1,2,3))"
+    line = model.add(f"IFCINDEXEDPOLYCURVE({points},({first},IFCLINEINDEX((3,1))),.F.)")
+    profile = f"IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,{line})"
+    model.element(model.shape(extruded(model, profile)))
+    assert tolerances(read(tmp_path, model)) == [OWN if curved else 0]
