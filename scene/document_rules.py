@@ -58,7 +58,7 @@ def jointed(nodes: Nodes, ids: Mapping[str | None, str], path: str) -> list[Join
 def document_rules(
     nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
 ) -> Iterator[Rule]:
-    """The rules of the document at `path`, in its unit. ids, groups: of its nodes -> their names in
+    """The rules of the document at `path`. ids, groups: of its nodes -> their names in
     the check."""
     for rule in nodes.rules:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly
@@ -67,9 +67,8 @@ def document_rules(
             yield Rule(
                 a=select(names[rule.a]),
                 b=select(names[rule.b]),
-                allowed=True if rule.severity is None and rule.max_volume is None else None,
+                allowed=True if rule.severity is None else None,
                 severity=rule.severity,
-                max_volume=rule.max_volume,
                 reason=rule.reason,
                 where=f"{path}: {rule.reason}",
                 file=path,

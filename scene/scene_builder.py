@@ -350,9 +350,8 @@ class SceneBuilder:
         """Those of documents and of regions first, so that a rule of a scene can override them."""
         everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
         stated = self._scenes.rules(everybody, scales) if self._scenes else ()
-        own = (rule.scaled(scales.get(rule.file or "", 1.0)) for rule in self._document_rules)
         spaces = (rule.permission for rule in self._body_rules(scales) if rule.region)
-        return (*own, *spaces, *stated)
+        return (*self._document_rules, *spaces, *stated)
 
     def _body_rules(self, scales: Mapping[str, float]) -> tuple[BodyRule, ...]:
         if self._scenes is None:

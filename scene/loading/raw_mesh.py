@@ -96,9 +96,8 @@ class RawJoint(Struct, frozen=True):
 class RawRule(Struct, frozen=True):
     """A rule of a document for the pairs of two nodes, or of two groups. reason: a text.
 
-    a, b: paths of nodes, or names of groups. severity: of findings about the pair. max_volume: the
-    most common volume that they may have, in units of the file. Both None: it may overlap, and
-    nothing is computed.
+    a, b: paths of nodes, or names of groups. severity: of findings about the pair; None: it may
+    overlap, and nothing is computed.
     """
 
     a: str
@@ -106,7 +105,6 @@ class RawRule(Struct, frozen=True):
     reason: str
     of_groups: bool = False
     severity: RuleSeverity | None = None
-    max_volume: float | None = None
 
 
 class RawScene(Struct, frozen=True, tag=True):

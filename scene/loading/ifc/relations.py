@@ -14,13 +14,12 @@ from typing import Any
 
 from msgspec import Struct
 
+from satcheck.scene.loading.ifc.corners import meet_in_a_corner
 from satcheck.scene.loading.ifc.elements import parts_of
 from satcheck.scene.loading.ifc.shape import Shape
 from satcheck.scene.loading.raw_mesh import RawRule, Refusal, RuleSeverity
 
 _NOTE: RuleSeverity = "note"
-# Of the smaller of two walls that a path connects: less than what a duplicate shares with its twin.
-_CORNER_SHARE = 0.5
 _BARS, _CONCRETE = "reinforcement", "reinforced"
 _BAR = "IfcReinforcingElement"
 # What reinforcement lies in. In IFC2X3 reinforcement is itself a building element.
@@ -58,10 +57,8 @@ def relations_of(
     rules += _wholes(bodies, paths)
     for pair in _pairs(model):
         for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
-            if a != b:
-                most = _most_common(shapes[a], shapes[b]) if pair.is_corner else None
-                severity = pair.severity if most is None else None
-                rules.append(RawRule(paths[a], paths[b], pair.reason, False, severity, most))
+            if a != b and not (pair.is_corner and _may_coincide(shapes[a], shapes[b])):
+                rules.append(RawRule(paths[a], paths[b], pair.reason, severity=pair.severity))
     return Relations(
         tuple(dict.fromkeys(rules)), {body: tuple(names) for body, names in groups.items()}
     )
@@ -149,12 +146,9 @@ def _ports(model: Any) -> Iterator[_Pair]:
             yield _Pair(a, b, "connected by ports (IfcRelConnectsPorts)")
 
 
-def _most_common(*shapes: Shape | Refusal) -> float | None:
-    """The most common volume of two joined walls; None: a wall has no volume."""
-    volumes = [shape.volume for shape in shapes if isinstance(shape, Shape)]
-    return (
-        _CORNER_SHARE * min(volumes) if len(volumes) == len(shapes) and min(volumes) > 0 else None
-    )
+def _may_coincide(a: Shape | Refusal, b: Shape | Refusal) -> bool:
+    """Whether two joined walls may share most of one of them."""
+    return isinstance(a, Shape) and isinstance(b, Shape) and not meet_in_a_corner(a, b)
 
 
 def _all(model: Any, name: str) -> list[Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
@@ -20,13 +19,6 @@ class Shape(Struct, frozen=True):
     decimals: int
     tolerance: float = 0.0
     warnings: tuple[tuple[str, str], ...] = ()
-
-    @property
-    def volume(self) -> float:
-        """Of a closed mesh, cubic metres: the sum of the tetrahedra from one of its vertices."""
-        points = np.frombuffer(self.vertices, "<f8").reshape(-1, 3)
-        corners = (points - points[0])[np.frombuffer(self.triangles, "<u4").reshape(-1, 3)]
-        return float(abs(np.linalg.det(corners).sum()) / 6)
 
     def mesh(self, units: str) -> RawMesh:
         return RawMesh(

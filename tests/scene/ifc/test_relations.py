@@ -69,6 +69,7 @@ def test_a_relation_of_two_elements_is_a_rule(
         ((1, 4, 2), (0, 0, 0), "note"),  # a quarter of either wall is in the corner
         ((4, 1, 2), (0, 0, 0), "error"),  # twice the same wall
         ((4, 1, 2), (0, 0.125, 0), "error"),  # nearly the same wall
+        ((1, 1, 2), (1, 0, 0), "error"),  # a piece of it
     ],
 )
 def test_joined_walls_overlap_in_a_corner_only(
