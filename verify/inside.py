@@ -96,14 +96,14 @@ def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance
     if region.convex:
         _check_beyond_faces(finding, body, region.world, tolerance)
         return
-    if body.world is None or body.holed:
-        raise NotCertified(
-            "curved shapes and meshes with holes are certified in convex regions only"
-        )
-    if finding.answer == "yes":
-        _check_shifted(finding, body, region, tolerance)
-    else:
+    if body.world is None:
+        raise NotCertified("a curved shape in a region that is not convex")
+    if finding.answer == "no":
         _check_point(finding, body.world, region.world, tolerance)
+    elif body.holed:
+        raise NotCertified("a mesh with holes in a region that is not convex")
+    else:
+        _check_shifted(finding, body, region, tolerance)
 
 
 def _check_beyond_faces(
