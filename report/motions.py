@@ -1,4 +1,5 @@
-"""The motions of bodies in a report. t runs from 0 to 1."""
+"""The motions of bodies in a report. t runs from 0 to 1. clear: the way must be free, of touches
+too."""
 
 from __future__ import annotations
 
@@ -15,6 +16,7 @@ class Translation(Value, frozen=True, tag_field="kind", tag="translation"):
     """Bodies that move by t * vector."""
 
     bodies: Bodies
+    clear: bool
     vector: Vector
 
 
@@ -22,6 +24,7 @@ class Rotation(Value, frozen=True, tag_field="kind", tag="rotation"):
     """Bodies that rotate by t * degrees about an axis through a point."""
 
     bodies: Bodies
+    clear: bool
     point: Vector
     axis: Vector
     degrees: float
@@ -40,6 +43,7 @@ class PosePath(Value, frozen=True, tag_field="kind", tag="path"):
     shortest arcs."""
 
     bodies: Bodies
+    clear: bool
     waypoints: Annotated[tuple[Waypoint, ...], Meta(min_length=2)]
 
 

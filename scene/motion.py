@@ -94,10 +94,12 @@ Path = Translation | Rotation | PosePath
 
 
 class Motion(Struct, frozen=True):
-    """Bodies that move together, rigidly, along one path. bodies: their ids, each once."""
+    """Bodies that move together, rigidly, along one path. bodies: their ids, each once. clear: the
+    way must be free: no body may be touched on it that does not touch them as placed."""
 
     bodies: tuple[str, ...]
     path: Path
+    clear: bool = False
 
     def __post_init__(self) -> None:
         if not self.bodies:

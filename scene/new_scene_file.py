@@ -191,6 +191,8 @@ def _rule(rule: Rule) -> dict[str, Any]:
 
 def _motion(motion: Motion) -> dict[str, Any]:
     entry: dict[str, Any] = {"bodies": [Selector.exactly(body).text for body in motion.bodies]}
+    if motion.clear:
+        entry["clear"] = True
     path = motion.path
     if isinstance(path, PosePath):
         points = [

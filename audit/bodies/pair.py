@@ -24,10 +24,12 @@ _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 
 class Paths(Struct, frozen=True):
-    """The motions of the two bodies; None: at rest. At least one moves."""
+    """The motions of the two bodies; None: at rest. At least one moves. clear: they may not touch
+    on the way, unless they touch as placed."""
 
     a: Path | None
     b: Path | None
+    clear: bool = False
 
 
 class Pair(Struct, frozen=True):

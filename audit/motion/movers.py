@@ -29,9 +29,9 @@ class Movers:
         motion_a, motion_b = self._motion.get(a), self._motion.get(b)
         if motion_a is motion_b:
             return None
-        return Paths(
-            None if motion_a is None else motion_a.path, None if motion_b is None else motion_b.path
-        )
+        motions = (motion_a, motion_b)
+        path_a, path_b = (None if motion is None else motion.path for motion in motions)
+        return Paths(path_a, path_b, any(motion and motion.clear for motion in motions))
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
@@ -45,6 +45,7 @@ class Movers:
                 {
                     "kind": KINDS[type(motion.path)],
                     "bodies": motion.bodies,
+                    "clear": motion.clear,
                     **to_builtins(motion.path),
                 },
                 StatedMotion,

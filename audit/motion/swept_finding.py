@@ -16,6 +16,8 @@ from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.report.sweep import Sweep
 
+CLEAR = "clear"  # the rule of a touch on a way that must be free
+
 
 def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Examined:
     """The finding with the sweep of the pair, its stage in the trace, and a severity that counts
@@ -24,6 +26,8 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     motion = sweep(pair, paths.a, paths.b)
     trace.record("sweep", motion.relation, _detail(motion))
     judged = by_rule(_judged(motion, pair), pair.request)
+    if paths.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
+        judged = by_rule(Judgement("error", CLEAR), pair.request)
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
     relation = _worse(finding.relation, motion.relation)
     undecided = relation == "indeterminate"

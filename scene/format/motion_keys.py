@@ -13,12 +13,12 @@ from satcheck.scene.format.placement import quaternion, quaternion_of_euler
 from satcheck.scene.format.problems import Wrong, dotted
 from satcheck.scene.format.rule_keys import selector
 from satcheck.scene.format.table import Table
-from satcheck.scene.format.values import items, number, shown, triple
+from satcheck.scene.format.values import boolean, items, number, shown, triple
 from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Selector
 
 PATHS = ("translation", "rotation", "path")
-_KNOWN = frozenset(("bodies", *PATHS))
+_KNOWN = frozenset(("bodies", "clear", *PATHS))
 _ROTATION_KEYS = frozenset(("axis", "point", "degrees"))
 _WAYPOINT_KEYS = frozenset(("time", "position", "quaternion", "euler"))
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -42,9 +42,10 @@ def read_motion(
     if sum(key in table for key in PATHS) != 1:
         table.wrong(f"exactly one of {', '.join(PATHS)} is required")
         return None
+    clear = table.read("clear", boolean, False)
     try:
         path = _path(table)
-        return None if not ids or table.problem_count > found_before else Motion(ids, path)
+        return None if not ids or table.problem_count > found_before else Motion(ids, path, clear)
     except SatcheckError as error:
         if table.problem_count == found_before:
             table.wrong(error.message, code=error.code)

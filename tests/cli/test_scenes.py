@@ -138,3 +138,31 @@ def test_one_body_alone_may_be_asked_whether_it_is_held(tmp_path: Path) -> None:
     scene.write_text(text + "mounted = true\n")
     holds = satcheck(str(scene))
     assert holds.code == 0
+
+
+def test_a_way_that_must_be_clear_is_touched_by_nothing_new(tmp_path: Path) -> None:
+    """The crate slides on the floor, which touches it as placed, up to a wall."""
+    scene = tmp_path / "scene.toml"
+    text = (
+        'schema = "satcheck.scene/1"\nunits = "m"\n'
+        '[[bodies]]\nid = "floor"\nshape = { type = "box", size = [9, 9, 1] }\n'
+        "position = [0, 0, -0.5]\n"
+        '[[bodies]]\nid = "crate"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [0, 0, 0.5]\n"
+        '[[bodies]]\nid = "wall"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [3, 0, 0.5]\n"
+        '[[motion]]\nbodies = "crate"\ntranslation = [2, 0, 0]\n'
+    )
+    scene.write_text(text)
+    assert satcheck(str(scene)).code == 0
+    scene.write_text(text + "clear = true\n")
+    ran = satcheck(str(scene), "--format", "json")
+    report = json.loads(ran.out)
+    severities = {(f["a"], f["b"]): (f["severity"], f["rule"]) for f in report["findings"]}
+    assert ran.code == 1
+    assert severities["crate", "wall"] == ("error", "clear")
+    assert severities["floor", "crate"] == ("note", None)
+    assert [motion["clear"] for motion in report["motions"]] == [True]
+    copy = tmp_path / "copy.toml"
+    assert satcheck("convert", str(scene), "-o", str(copy)).code == 0
+    assert satcheck(str(copy)).code == 1
