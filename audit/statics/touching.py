@@ -21,6 +21,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.statics.balls import ball_on_ball, ball_on_mesh
 from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
 from satcheck.audit.statics.features import Features
+from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.near import TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
 from satcheck.audit.statics.thin import TOO_THIN, may_be_through
@@ -120,7 +121,8 @@ def _points(one: Subject, other: Subject, tolerance: float) -> Points:
     if a is None or b is None:
         return NOBODY
     if isinstance(a, Features) and isinstance(b, Features):
-        return contact_points(a, b, tolerance, rounding)
+        points = contact_points(a, b, tolerance, rounding)
+        return without_flush_edges(points, a, b, rounding)
     if isinstance(a, Ball) and isinstance(b, Ball):
         return ball_on_ball(a.centre, a.radius, b.centre, b.radius, tolerance)
     if isinstance(a, Ball) and isinstance(b, Features):

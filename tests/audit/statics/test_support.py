@@ -383,3 +383,29 @@ def test_gravity_is_not_silently_assumed_for_files_that_are_y_up(tmp_path, gravi
     )
     report = check(load_scene([scene_path], allow_outside=True), Settings())
     assert ("gravity-assumed" in {issue.code for issue in report.issues}) is warned
+
+
+@pytest.mark.parametrize(("width", "stable"), [(1.2, "yes"), (1.0, "open")])
+def test_a_plate_exactly_as_wide_as_its_gap_needs_the_tolerance(tmp_path, width, stable):
+    """Edge on edge: the least shift lets it fall."""
+    posts = [
+        box(name, [1, 1, 1], [x, 0, 0.5], static=True)
+        for name, x in (("left", -1.0), ("right", 1.0))
+    ]
+    found = support(tmp_path, [*posts, box("plate", [width, 0.5, 0.1], [0, 0, 1.05])])
+    assert answers(found)["plate"] == stable
+    assert answers(found, "supported")["plate"] == "yes"
+
+
+def test_a_ridge_across_a_face_and_equal_cubes_are_strict(tmp_path):
+    """Lines and corners on edges of both bodies, which carry all the same."""
+    half = math.sqrt(0.5)
+    bodies = [
+        floor(),
+        box("lower", [1, 1, 1], [0, 0, 0.5]),
+        box("upper", [1, 1, 1], [0, 0, 1.5]),
+        box("ridge", [1, 4, 1], [3, 0, half], quaternion=about_y(45), static=True),
+        box("plank", [2, 0.5, 0.1], [3, 0, 2 * half + 0.05]),
+    ]
+    found = answers(support(tmp_path, bodies))
+    assert {found[name] for name in ("lower", "upper", "plank")} == {"yes"}
