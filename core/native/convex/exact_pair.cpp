@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/tolerances.hpp"
+#include "convex/separating_face.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 
@@ -43,22 +44,6 @@ RoundedAxis axis_across(Vec3 u, Vec3 v) {
   const double error = 12 * kUnitRoundoff * norm(u) * norm(v) / length;
   if (!(error < kTrustedAxis)) return {};
   return {n * (1 / length), error};
-}
-
-// Three corners of face f that span its plane. The widest triangle of a fan is best for the filter.
-Triangle corners_of(const Polytope& p, std::size_t f) {
-  const std::uint32_t first = p.face_offset[f], end = p.face_offset[f + 1];
-  Triangle best{};
-  double widest = -1;
-  for (std::uint32_t i = first + 1; i + 1 < end; ++i) {
-    const Triangle t{p.face_vertex[first], p.face_vertex[i], p.face_vertex[i + 1]};
-    const double area = norm(cross(p.vertices[t[1]] - p.vertices[t[0]], p.vertices[t[2]] - p.vertices[t[0]]));
-    if (area > widest) {
-      widest = area;
-      best = t;
-    }
-  }
-  return best;
 }
 
 // Whether `other` lies completely on or above the plane of a face of `owner`. `owner` lies on or below it.

@@ -15,6 +15,7 @@
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
+#include "convex/separating_face.hpp"
 #include "convex/world_hull.hpp"
 
 namespace satcheck {
@@ -214,12 +215,14 @@ void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
   result.method = Method::exact;
 }
 
-// Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds.
-void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt,
+// Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds. Most pairs in
+// doubt are flush neighbours, so the faces along `axis` (from A to B, in the frame of A) come first.
+void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt, Vec3 axis,
                     double noise, PairResult& result) {
   const Polytope hull_a = world_hull(a, pose_a), hull_b = world_hull(b, pose_b);
   if (in_doubt) {
-    result.outcome = decide_exactly(hull_a, hull_b, 2 * noise);
+    const std::optional<Outcome> by_face = outcome_by_face(hull_a, hull_b, pose_a.rotation * axis);
+    result.outcome = by_face ? *by_face : decide_exactly(hull_a, hull_b, 2 * noise);
     result.method = Method::exact;
     result.reason = Reason::none;
   }
@@ -274,7 +277,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool by_sat = takes_sat(m, method);
   if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
     result.axes_tested = 15;  // overlap_of_boxes() did not decide
-    settle_exactly(a, pose_a, b, pose_b, true, noise, result);
+    settle_exactly(a, pose_a, b, pose_b, true, m.b_in_a.translation, noise, result);
     return result;
   }
   if (query == Query::overlap && margin == 0 && !by_sat) {
@@ -306,7 +309,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
   if (polytopes) {
-    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
+    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, noise, result);
   } else if (in_doubt && !m.curved) {
     settle_grown(a, pose_a, b, pose_b, noise, result);
   }
