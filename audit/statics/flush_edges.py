@@ -6,23 +6,45 @@ tolerance, so it is no strict contact.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from msgspec.structs import replace
 
 from satcheck.audit.statics.contacts import PARALLEL, Points
 from satcheck.audit.statics.features import Features
 from satcheck.audit.statics.near import Floats, cross
+from satcheck.audit.statics.subjects import Subject
+from satcheck.audit.statics.terms import Terms
+from satcheck.audit.statics.touching import Contact, rounding_of
 
 # Contacts with normals that differ by less are of one patch.
 SAME_NORMAL = 1e-7
+STEEP = np.sqrt(0.5)  # the cosine of 45 degrees: a steeper contact does not carry, it leans
 
 
-def without_flush_edges(points: Points, a: Features, b: Features, rounding: float) -> Points:
-    """The same contacts; those of patches that are such a line are not strict."""
-    strict = points.strict.copy()
-    rows = np.flatnonzero(strict)
+def without_flush_edges(
+    contacts: Sequence[Contact], subjects: Sequence[Subject], terms: Terms
+) -> list[Contact]:
+    """The same contacts; those of patches that are such a line, and carry a weight, are not
+    strict. Bodies that lean against each other, as two cards, are pressed together."""
+    down = np.array(terms.gravity)
+    found = []
+    for contact in contacts:
+        one, other = subjects[contact.a], subjects[contact.b]
+        if isinstance(one.form, Features) and isinstance(other.form, Features):
+            rounding = rounding_of(one, other, terms.tolerance)
+            points = _judged(contact.points, one.form, other.form, down, rounding)
+            contact = replace(contact, points=points)
+        found.append(contact)
+    return found
+
+
+def _judged(points: Points, a: Features, b: Features, down: Floats, rounding: float) -> Points:
+    rows = np.flatnonzero(points.strict & (np.abs(points.normals @ down) > STEEP))
     if not rows.size:
         return points
+    strict = points.strict.copy()
     keys = np.round(points.normals[rows] / SAME_NORMAL)
     _, patch = np.unique(keys, axis=0, return_inverse=True)
     for number in range(int(patch.max()) + 1):

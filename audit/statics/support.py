@@ -21,6 +21,7 @@ from satcheck.audit.statics.answers import (
     vector,
 )
 from satcheck.audit.statics.equilibrium import Island, require_solver
+from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, outcome_of
 from satcheck.audit.statics.margins import margins_of
@@ -77,7 +78,8 @@ class Support:
         free = [subject.body for subject in self.subjects if subject.fixed is None]
         self.terms = terms_for(scene, free)
         alone = not self.unusable
-        self.contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
+        contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
+        self.contacts = without_flush_edges(contacts, self.subjects, self.terms)
         self.graph = graph_of(self.subjects, self.contacts, alone=alone)
         self.outcomes = self._outcomes(alone)
         self.margins = margins_of(

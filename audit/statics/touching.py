@@ -21,7 +21,6 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.statics.balls import ball_on_ball, ball_on_mesh
 from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.near import TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
 from satcheck.audit.statics.thin import TOO_THIN, may_be_through
@@ -116,13 +115,12 @@ def _contact(
 
 
 def _points(one: Subject, other: Subject, tolerance: float) -> Points:
-    rounding = _rounding(one, other, tolerance)
+    rounding = rounding_of(one, other, tolerance)
     a, b = one.form, other.form
     if a is None or b is None:
         return NOBODY
     if isinstance(a, Features) and isinstance(b, Features):
-        points = contact_points(a, b, tolerance, rounding)
-        return without_flush_edges(points, a, b, rounding)
+        return contact_points(a, b, tolerance, rounding)
     if isinstance(a, Ball) and isinstance(b, Ball):
         return ball_on_ball(a.centre, a.radius, b.centre, b.radius, tolerance)
     if isinstance(a, Ball) and isinstance(b, Features):
@@ -132,6 +130,7 @@ def _points(one: Subject, other: Subject, tolerance: float) -> Points:
     return ball_on_mesh(b.centre, b.radius, a, tolerance, rounding).turned()
 
 
-def _rounding(one: Subject, other: Subject, tolerance: float) -> float:
+def rounding_of(one: Subject, other: Subject, tolerance: float) -> float:
+    """How far coordinates of both may be off by themselves."""
     written = min(one.body.resolution + other.body.resolution, PRECISION_SHARE * tolerance)
     return written + rounding_pad(largest_coordinate(one.body.bounds, other.body.bounds))
