@@ -42,7 +42,9 @@ def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSu
         rule, severity = asked[finding.body, finding.region]
         try:
             _check_words(finding, rule, severity)
-            if finding.answer != "open":
+            if finding.answer == "open":
+                _check_form(finding, convex=False)
+            else:
                 body, region = bodies[finding.body], bodies[finding.region]
                 check_answer(finding, body, region, regions.tolerance)
         except NotCertified as why:
@@ -50,8 +52,10 @@ def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSu
         except Rejected as why:
             yield _checked(finding, "rejected", str(why))
         else:
-            is_open = finding.answer == "open"
-            yield _checked(finding, "open" if is_open else "accepted", finding.reason)
+            if finding.answer == "open":
+                yield _checked(finding, "open", finding.reason)
+            else:
+                yield _checked(finding, "accepted", None)
 
 
 def _checked(finding: InsideFinding, outcome: Outcome, reason: str | None) -> CheckedSupport:
@@ -93,6 +97,7 @@ def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance
     """Rejects a yes or a no that is not proven by what the finding states."""
     if region.world is None or not region.world.solid or region.holed:
         raise Rejected("a region is a closed mesh")
+    _check_form(finding, convex=region.convex)
     if region.convex:
         _check_beyond_faces(finding, body, region.world, tolerance)
         return
@@ -104,6 +109,19 @@ def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance
         raise NotCertified("a mesh with holes in a region that is not convex")
     else:
         _check_shifted(finding, body, region, tolerance)
+
+
+def _check_form(finding: InsideFinding, *, convex: bool) -> None:
+    """Rejects figures and evidence that do not belong to the answer."""
+    is_no, is_yes = finding.answer == "no", finding.answer == "yes"
+    expected = {
+        "sticks_out": is_no,
+        "shift": is_yes and not convex,
+        "point": is_no and not convex,
+    }
+    for name, wanted in expected.items():
+        if (getattr(finding, name) is not None) != wanted:
+            raise Rejected(f"{name} {'is missing' if wanted else 'does not belong to the answer'}")
 
 
 def _check_beyond_faces(
@@ -159,9 +177,7 @@ def _reaches(
 
 
 def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
-    if finding.shift is None:
-        raise NotCertified("no shift shows that it lies in the region")
-    move = vector(finding.shift)
+    move = vector(finding.shift or ())
     if dot(move, move) > Fraction(tolerance) ** 2:
         raise Rejected("the shift is longer than the tolerance")
     moved = body.moved([float(c) for c in move])
@@ -171,8 +187,7 @@ def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, toleran
 
 
 def _check_point(finding: InsideFinding, body: World, region: World, tolerance: float) -> None:
-    if finding.point is None:
-        raise NotCertified("no point shows that it is outside of the region")
+    assert finding.point is not None
     k = max(body.lattice, region.lattice)
     p, surface = on_body(finding.point, Exact(body, k), of_hull=False), Exact(region, k)
     if surface.winding(p) != 0:

@@ -116,6 +116,25 @@ SUPPORTED = placed(
         {"bodies": "floats", "mass": 3.0, "severity": "error"},
     ],
 )
+# In a room like the bracket one lies, one sticks out within the tolerance and one beyond it; one is
+# in a box, another one is not.
+IN_REGIONS = placed(
+    {"id": "room", "mesh": "part.obj"},
+    body("crate", {"type": "box", "size": [4.0, 4.0, 4.0]}, 20.0),
+    body("lies", BOX, 1.0, 1.0, 1.0),
+    body("leans", BOX, 0.4995, 1.0, 3.0),
+    body("leaves", BOX, 6.0, 1.0, 1.0),
+    body("packed", BOX, 19.0),
+    body("lost", BOX, 22.0),
+    statics={"tolerance": 0.001},
+    rules=[
+        {"bodies": "l*", "inside": "room"},
+        {"bodies": "room", "region": True},
+        {"bodies": "crate", "region": True},
+        {"bodies": "packed", "inside": "crate"},
+        {"bodies": "lost", "inside": "crate", "severity": "warning"},
+    ],
+)
 
 HONEST: dict[str, Callable[[Path], Json]] = {
     "convex": meshes(unit_box(), unit_box(0.5, 0.25, 0.125), depth=True, volume=True),
@@ -147,6 +166,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "converted": CONVERTED,
     "robot": lambda _: document([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"]),
     "supported": SUPPORTED,
+    "in regions": IN_REGIONS,
 }
 
 
