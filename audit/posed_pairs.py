@@ -7,6 +7,7 @@ The core sorts them without placing a body (`core/native/poses/sift.hpp`).
 from __future__ import annotations
 
 from collections.abc import Collection
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,8 +80,10 @@ class PosedPairs:
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
             off = max(self._bodies[k].surface_tolerance for k in (a, b))
             gap_limit = max(pair.request.clearance or 0.0, tolerance)
-            depth = float("inf") if pair.request.limited else max(0.5 * tolerance, off)
-            bounds.append((a, b, gap_limit, depth))
+            never = pair.request.limited
+            depth = inf if never else max(0.5 * tolerance, off)
+            crossing = inf if never or off else tolerance
+            bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs)
         return codes
 

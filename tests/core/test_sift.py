@@ -37,8 +37,8 @@ def sifted(
     depth: float,
 ) -> list[int]:
     matrices = np.array([[m[:12] for m in pose] for pose in at])
-    codes = core.sift([a, b], [(0, 1, limit, depth)], matrices, 1)
-    assert np.array_equal(codes, core.sift([a, b], [(0, 1, limit, depth)], matrices, 2))
+    codes = core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 1)
+    assert np.array_equal(codes, core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 2))
     return [int(code) for code in codes[:, 0]]
 
 

@@ -21,7 +21,7 @@ namespace {
 
 using Corner = std::array<double, 3>;
 using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
-using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double>;
+using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using Sifting = std::vector<Sifted>;
 
 Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
@@ -30,9 +30,9 @@ nb::object sift_all(const std::vector<PosedBody*>& bodies, const std::vector<Pai
                     unsigned threads) {
   if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
   std::vector<SiftedPair> sifted;
-  for (const auto& [a, b, gap_limit, depth] : pairs) {
+  for (const auto& [a, b, gap_limit, depth, crossing] : pairs) {
     if (a >= bodies.size() || b >= bodies.size()) throw std::invalid_argument("the number of a body is out of range");
-    sifted.push_back({a, b, gap_limit, depth});
+    sifted.push_back({a, b, gap_limit, depth, crossing});
   }
   Sifting results;
   {
@@ -66,9 +66,10 @@ PosedBody(corners, margin, inner) for any other: it lies in the hull of the corn
            "corners"_a, "margin"_a, "inner"_a);
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0,
         R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
-gap limit of the pair; 2: a point lies deeper in both than its depth; 0: neither is proven.
+gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;
+0: neither is proven.
 
-pairs: (i, j, gap_limit, depth) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
+pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
 upper three rows of each placement. The proofs hold for the vertices in the world, each coordinate rounded once. The
 result does not depend on the number of threads (0: one a core).)");
 }

@@ -92,8 +92,13 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
   around_.radius += margin_ + chain_rounding(max_abs(largest_));
 }
 
+const Surface* PosedBody::surface() {
+  if (geometry_) std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
+  return surface_.get();
+}
+
 const std::vector<Ball>& PosedBody::inner() {
-  if (geometry_) std::call_once(made_, [&] { inner_ = balls_inside(*geometry_); });
+  if (geometry_) std::call_once(has_inner_, [&] { inner_ = balls_inside(*geometry_); });
   return inner_;
 }
 

@@ -34,6 +34,8 @@ class PosedBody {
   double margin() const { return margin_; }
   const Ball& around() const { return around_; }          // holds the body
   Vec3 largest() const { return largest_; }               // |coordinate| of all corners
+  // In file coordinates; null without a mesh. Made by the first call.
+  const Surface* surface();
   // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
   const std::vector<Ball>& inner();
   // The largest ball in the material of a solid mesh about a point in it; empty for other bodies and points.
@@ -47,7 +49,8 @@ class PosedBody {
   double margin_ = 0;
   Ball around_;
   Vec3 largest_;
-  std::once_flag made_;
+  std::once_flag has_surface_, has_inner_;
+  std::shared_ptr<Surface> surface_;
   std::vector<Ball> inner_;
 };
 

@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "base/tolerances.hpp"
 #include "convex/closest_point.hpp"
+#include "poses/posed_surfaces.hpp"
 
 namespace satcheck {
 namespace {
@@ -141,8 +142,13 @@ class PoseSifter {
     axis = search.axis;
     if (search.apart) return Sifted::apart;
     const double depth = pair.depth + rounding;
-    const bool deep = have_deep_point(place_a, place_b, a, b, depth) ||
-                      (search.common && is_deep(place_a, place_b, a, b, *search.common, depth));
+    if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
+    const Surface *of_a = a.surface(), *of_b = b.surface();
+    if (of_a == nullptr || of_b == nullptr) return Sifted::open;
+    const Meeting meeting = meeting_of(*of_a, at_a, *of_b, at_b, pair.gap_limit, pair.crossing);
+    if (meeting == Meeting::apart) return Sifted::apart;
+    if (meeting == Meeting::crossing) return Sifted::deep;
+    const bool deep = search.common && is_deep(place_a, place_b, a, b, *search.common, depth);
     return deep ? Sifted::deep : Sifted::open;
   }
 

@@ -16,13 +16,13 @@ namespace satcheck {
 enum class Sifted : std::uint8_t {
   open,   // neither is proven
   apart,  // by more than the gap limit of the pair
-  deep,   // a point lies deeper in both bodies than the depth of the pair
+  deep,   // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap
 };
 
 // One pair of bodies in all poses.
 struct SiftedPair {
   std::uint32_t a, b;
-  double gap_limit, depth;
+  double gap_limit, depth, crossing;
 };
 
 // matrices: of each body in each pose, pose by pose, three rows of four numbers each. Returns a value for each pair in

@@ -1,0 +1,151 @@
+"""Concave bodies in many poses: what is called apart or deep is so, by the meshes in the world."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import numpy as np
+import pytest
+
+from satcheck import core
+from satcheck.core.transform import Transform, about_fixed_axes, placed
+from tests.core.voxel_solids import VoxelSolid, box
+
+OPEN, APART, DEEP = 0, 1, 2
+OVERLAPS = {"penetrating", "contains", "inside", "coincident"}
+STILL = placed((1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0), (0.0, 0.0, 0.0))
+
+
+def solid(*parts: VoxelSolid, without: VoxelSolid | None = None) -> core.Mesh:
+    cells = frozenset[tuple[int, int, int]]().union(*(part.unit_cells() for part in parts))
+    return VoxelSolid(cells - (without.unit_cells() if without else frozenset())).mesh()
+
+
+CUBE = solid(box((0, 0, 0), (1, 1, 1)))
+L_SHAPE = solid(box((0, 0, 0), (3, 1, 1)), box((0, 0, 0), (1, 3, 1)))
+STAIRS = solid(*(box((i, 0, 0), (i + 1, 2, i + 1)) for i in range(4)))
+COMB = solid(box((0, 0, 0), (7, 1, 1)), *(box((i, 0, 0), (i + 1, 3, 1)) for i in (0, 2, 4, 6)))
+PLATE = solid(box((0, 0, 0), (3, 3, 1)), without=box((1, 1, 0), (2, 2, 1)))
+HOLLOW = solid(box((0, 0, 0), (5, 5, 5)), without=box((1, 1, 1), (4, 4, 4)))
+BODIES = (CUBE, L_SHAPE, STAIRS, COMB, PLATE, HOLLOW)
+
+
+def opened(mesh: core.Mesh) -> core.Mesh:
+    """The mesh without its first triangle."""
+    return core.Mesh(np.asarray(mesh.vertices), np.asarray(mesh.triangles)[1:])
+
+
+def body_of(mesh: core.Mesh) -> core.PosedBody:
+    return core.PosedBody(core.Geometry(mesh, mesh.topology().solid))
+
+
+def sort(
+    a: core.Mesh, at_a: Transform, b: core.Mesh, at_b: Transform, gap: float, depth: float
+) -> int:
+    """By the surfaces alone: no ball proves anything."""
+    pairs = [(0, 1, gap, math.inf, depth)]
+    codes = core.sift([body_of(a), body_of(b)], pairs, np.array([[at_a[:12], at_b[:12]]]), 1)
+    return int(codes[0, 0])
+
+
+def in_world(mesh: core.Mesh, at: Transform) -> core.Surface:
+    moved = mesh.transformed(at)
+    return core.Surface(moved, mesh.topology().solid)
+
+
+def moved_by(at: Transform, x: float, y: float, z: float) -> Transform:
+    step = {3: x, 7: y, 11: z}
+    return tuple(c + step.get(k, 0.0) for k, c in enumerate(at))
+
+
+def turned(draw: random.Random, size: float, far: float) -> Transform:
+    angles = [(math.cos(t), math.sin(t)) for t in (draw.uniform(-3, 3) for _ in range(3))]
+    rows = [c * size for c in about_fixed_axes(*angles)]
+    x, y, z = (draw.uniform(-2, 2) * size + far for _ in range(3))
+    return placed(rows, (x, y, z))
+
+
+@pytest.mark.parametrize("opening", [False, True])
+@pytest.mark.parametrize(("size", "far"), [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 1e6)])
+def test_random_poses_agree_with_the_exact_relation(opening: bool, size: float, far: float) -> None:
+    draw = random.Random(repr((opening, size, far)))
+    seen: dict[int, int] = dict.fromkeys((OPEN, APART, DEEP), 0)
+    for _ in range(400):
+        a, b = draw.choice(BODIES), draw.choice(BODIES)
+        at_a, at_b = turned(draw, size, far), turned(draw, size, far)
+        gap, depth = (draw.choice((0.0, 1e-6, 0.1)) * size for _ in range(2))
+        a = opened(a) if opening else a
+        code = sort(a, at_a, b, at_b, gap, depth)
+        seen[code] += 1
+        first, second = in_world(a, at_a), in_world(b, at_b)
+        if code == APART:
+            assert core.mesh_relation(first, second).relation == "separated"
+            assert core.compare_gap(first, second, gap) == 1
+        if code == DEEP:
+            for _ in range(5):
+                x, y, z = (draw.gauss(0, 1) for _ in range(3))
+                step = depth * (1 - 1e-9) / math.hypot(x, y, z)
+                way = moved_by(at_a, x * step, y * step, z * step)
+                assert core.mesh_relation(in_world(a, way), second).relation in OVERLAPS
+    assert seen[DEEP] > 100
+    assert seen[APART] > 20
+    assert seen[OPEN] > 0
+
+
+def test_a_block_in_the_notch_of_an_angle() -> None:
+    """Its gap, or its depth, is the limit but for a few roundings. The hulls always meet."""
+    draw, seen = random.Random(4), set()
+    c, s = math.cos(0.5), math.sin(0.5)
+    for k in range(400):
+        limit, sign = draw.choice((0.0, 1e-6, 0.01)), draw.choice((1, -1))
+        gap = sign * (limit + draw.choice((1, -1)) * 2.0 ** -draw.uniform(2, 53) * 0.2)
+        turn = (0.5 * c, 0.0, 0.5 * s, 0.0, 0.5, 0.0, -0.5 * s, 0.0, 0.5 * c)
+        at = placed(turn, (1.8, 1.0 + gap, 0.5))
+        code = sort(L_SHAPE, STILL, CUBE, at, limit, limit)
+        seen.add(code)
+        block = CUBE.transformed(at)
+        height = min(block.vertex(v)[1] for v in range(8)) - 1.0  # exact: both are near 1
+        assert code != APART or height > limit, k
+        assert code != DEEP or -height > limit, k
+    assert seen == {OPEN, APART, DEEP}
+
+
+def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
+    tenth = tuple(0.1 * c if k % 5 == 0 and k < 12 else c for k, c in enumerate(STILL))
+    in_wall, in_cavity = moved_by(tenth, 2.0, 2.0, 0.45), moved_by(tenth, 2.0, 2.0, 2.0)
+    through = moved_by(tenth, 2.03, 2.04, 0.95)
+    assert sort(HOLLOW, STILL, CUBE, in_wall, 0.0, 0.0) == OPEN
+    assert sort(CUBE, in_wall, HOLLOW, STILL, 0.0, 0.0) == OPEN
+    assert sort(HOLLOW, STILL, CUBE, in_cavity, 0.5, 0.0) == APART
+    assert sort(CUBE, in_cavity, HOLLOW, STILL, 0.5, 0.0) == APART
+    assert sort(HOLLOW, STILL, CUBE, through, 0.0, 0.0) != APART
+
+
+def test_holes_may_be_filled() -> None:
+    """Nothing is said about a body in the cavity of an open body, and a crossing is deep."""
+    inside = moved_by(
+        tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL)), 2, 2, 2
+    )
+    assert sort(opened(HOLLOW), STILL, CUBE, inside, 0.0, 0.0) == OPEN
+    draw = random.Random(3)
+    poses = [moved_by(turned(draw, 1.0, 0.0), 2.5, 2.5, 2.5) for _ in range(50)]
+    codes = {sort(opened(HOLLOW), STILL, COMB, at, 0.0, 0.0) for at in poses}
+    assert codes == {DEEP}
+
+
+def test_placements_that_mirror_stretch_or_collapse() -> None:
+    draw, seen = random.Random(8), set()
+    for _ in range(300):
+        factors = [draw.choice((-1, 1)) * 2.0 ** draw.randint(-3, 3) for _ in range(3)]
+        base = turned(draw, 1.0, 0.0)
+        at = tuple(c * (factors[k % 4] if k % 4 < 3 and k < 12 else 1) for k, c in enumerate(base))
+        other = turned(draw, 1.0, 0.0)
+        code = sort(L_SHAPE, at, STAIRS, other, 1e-3, 1e-3)
+        seen.add(code)
+        relation = core.mesh_relation(in_world(L_SHAPE, at), in_world(STAIRS, other)).relation
+        assert code != APART or relation == "separated"
+        assert code != DEEP or relation in OVERLAPS
+    assert seen >= {APART, DEEP}
+    flat = tuple(0.0 if k in (8, 9, 10) else c for k, c in enumerate(STILL))
+    assert sort(L_SHAPE, flat, STAIRS, STILL, 0.0, 0.0) == OPEN
