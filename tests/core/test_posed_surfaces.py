@@ -28,6 +28,7 @@ STAIRS = solid(*(box((i, 0, 0), (i + 1, 2, i + 1)) for i in range(4)))
 COMB = solid(box((0, 0, 0), (7, 1, 1)), *(box((i, 0, 0), (i + 1, 3, 1)) for i in (0, 2, 4, 6)))
 PLATE = solid(box((0, 0, 0), (3, 3, 1)), without=box((1, 1, 0), (2, 2, 1)))
 HOLLOW = solid(box((0, 0, 0), (5, 5, 5)), without=box((1, 1, 1), (4, 4, 4)))
+ORIGIN = np.flatnonzero((np.asarray(CUBE.vertices) == 0).all(axis=1)).item()
 BODIES = (CUBE, L_SHAPE, STAIRS, COMB, PLATE, HOLLOW)
 
 
@@ -123,11 +124,20 @@ def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
 
 
 def test_holes_may_be_filled() -> None:
-    """Nothing is said about a body in the cavity of an open body, and a crossing is deep."""
-    inside = moved_by(
-        tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL)), 2, 2, 2
-    )
-    assert sort(opened(HOLLOW), STILL, CUBE, inside, 0.0, 0.0) == OPEN
+    """A cube without the faces at a corner: a body in the hull of the rim is undecided, and beyond
+    the rim it is in the material."""
+    triangles = np.asarray(CUBE.triangles)
+    open_cube = core.Mesh(np.asarray(CUBE.vertices), triangles[(triangles != ORIGIN).all(axis=1)])
+    tenth = tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL))
+    for at, code in ((0.45, OPEN), (0.85, OPEN), (0.1, APART)):
+        there = moved_by(tenth, at, at, at)
+        assert sort(open_cube, STILL, CUBE, there, 0.0, 0.0) == code
+        assert sort(CUBE, there, open_cube, STILL, 0.0, 0.0) == code
+
+
+def test_what_no_fill_meets_is_apart_and_what_crosses_is_deep() -> None:
+    tenth = tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL))
+    assert sort(opened(HOLLOW), STILL, CUBE, moved_by(tenth, 2, 2, 2), 0.0, 0.0) == APART
     draw = random.Random(3)
     poses = [moved_by(turned(draw, 1.0, 0.0), 2.5, 2.5, 2.5) for _ in range(50)]
     codes = {sort(opened(HOLLOW), STILL, COMB, at, 0.0, 0.0) for at in poses}

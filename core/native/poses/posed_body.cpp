@@ -5,6 +5,7 @@
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
+#include "mesh/closing.hpp"
 #include "mesh/nearest_point.hpp"
 
 namespace satcheck {
@@ -92,9 +93,24 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
   around_.radius += margin_ + chain_rounding(max_abs(largest_));
 }
 
-const Surface* PosedBody::surface() {
-  if (geometry_) std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
-  return surface_.get();
+const Surface& PosedBody::surface() {
+  std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
+  return *surface_;
+}
+
+const Surface& PosedBody::walls() {
+  const Surface& own = surface();
+  if (own.solid) return own;
+  std::call_once(has_walls_, [&] { walls_ = walled_surface(own, OpenParts::filled); });
+  return *walls_;
+}
+
+bool PosedBody::may_hold(Vec3 point) {
+  const auto within = [&](const Surface& closed) { return winding_number(closed, point).value_or(1) != 0; };
+  const Surface& own = surface();
+  if (own.solid) return within(own);
+  const auto closing = closing_of(own, OpenParts::filled);
+  return within(*closing->surface) || std::any_of(closing->hulls.begin(), closing->hulls.end(), within);
 }
 
 const std::vector<Ball>& PosedBody::inner() {

@@ -34,8 +34,13 @@ class PosedBody {
   double margin() const { return margin_; }
   const Ball& around() const { return around_; }          // holds the body
   Vec3 largest() const { return largest_; }               // |coordinate| of all corners
-  // In file coordinates; null without a mesh. Made by the first call.
-  const Surface* surface();
+  bool has_mesh() const { return geometry_ != nullptr; }
+  // Of the mesh, in file coordinates. Made by the first call, like the two below.
+  const Surface& surface();
+  // The same with the hulls of all holes. Points that it does not separate are in the body, or none is, for any fill.
+  const Surface& walls();
+  // Whether a point on none of the walls is in the material, or may be in the fill of a hole.
+  bool may_hold(Vec3 point);
   // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
   const std::vector<Ball>& inner();
   // The largest ball in the material of a solid mesh about a point in it; empty for other bodies and points.
@@ -49,8 +54,9 @@ class PosedBody {
   double margin_ = 0;
   Ball around_;
   Vec3 largest_;
-  std::once_flag has_surface_, has_inner_;
+  std::once_flag has_surface_, has_walls_, has_inner_;
   std::shared_ptr<Surface> surface_;
+  std::shared_ptr<const Surface> walls_;
   std::vector<Ball> inner_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFrameRounding = 64 * kUnitRoundoff;
 // An entry of a product of 3x3 matrices, compared with another matrix: 6 roundings of its terms, rounded up.
 constexpr double kProductRounding = 8 * kUnitRoundoff;
-// After so many pairs of triangles that prove nothing, the walk ends.
+// After so many pairs of triangles that prove nothing, the walk for a crossing ends.
 constexpr int kMostUnclear = 64;
 
 Mat3 inverse_of(const Mat3& m) {
@@ -33,12 +33,6 @@ Mat3 product(const Mat3& m, const Mat3& n) {
 Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 Mat3 absolute(const Mat3& m) { return {{absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])}}; }
 double sum(Vec3 v) { return v.x + v.y + v.z; }
-
-Vec3 largest_of(const Surface& surface) {
-  const Aabb& box = surface.bvh.nodes[0].box;
-  const Vec3 low = absolute(box.min), high = absolute(box.max);
-  return {larger(low.x, high.x), larger(low.y, high.y), larger(low.z, high.z)};
-}
 
 // Takes points of B into the frame of A.
 struct Relative {
@@ -179,7 +173,7 @@ class Walk {
       if (boxes_.apart(of_a.box, of_b.box)) continue;
       if (of_a.is_leaf() && of_b.is_leaf()) {
         if (compare_leaves(of_a, of_b)) return Meeting::crossing;
-        if (unclear_ >= kMostUnclear) return Meeting::unclear;
+        if (unclear_ >= (std::isinf(depth_) ? 1 : kMostUnclear)) return Meeting::unclear;
       } else if (of_b.is_leaf() || (!of_a.is_leaf() && longest(of_a.box) > longest(of_b.box))) {
         open.insert(open.end(), {{of_a.first + 1, j}, {of_a.first, j}});
       } else {
@@ -217,30 +211,30 @@ class Walk {
   int unclear_ = 0;
 };
 
-bool is_in_material(const Surface& surface, Vec3 point) { return winding_number(surface, point).value_or(1) != 0; }
-
-// Whether a part of the inner surface lies in the material of the outer one. place: of the inner one.
-bool reaches_into(const Surface& outer, const Surface& inner, const Relative& place) {
-  return std::any_of(inner.parts.begin(), inner.parts.end(), [&](std::uint32_t t) {
-    return is_in_material(outer, place * inner.mesh.vertices[inner.mesh.triangles[t][0]]);
+// Whether a part of the inner body lies in the material of the outer one, or may lie in the fill of a hole. place: of
+// the inner one.
+bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
+  const Surface& walls = inner.walls();
+  return std::any_of(walls.parts.begin(), walls.parts.end(), [&](std::uint32_t t) {
+    return outer.may_hold(place * walls.mesh.vertices[walls.mesh.triangles[t][0]]);
   });
 }
 
 }  // namespace
 
-Meeting meeting_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b, double gap,
-                   double depth) {
-  const Vec3 largest_a = largest_of(a), largest_b = largest_of(b);
-  const Relative b_in_a = relative_place(at_a, largest_a, at_b, largest_b);
-  const Relative a_in_b = relative_place(at_b, largest_b, at_a, largest_a);
+Meeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap, double depth) {
+  const Relative b_in_a = relative_place(at_a, a.largest(), at_b, b.largest());
+  const Relative a_in_b = relative_place(at_b, b.largest(), at_a, a.largest());
   // Surfaces farther apart than this stay apart while all rounding is undone, in the frames of both.
   const double rounding = b_in_a.slack + a_in_b.slack * (at_b.stretch.most / at_a.stretch.least) + kFrameRounding * b_in_a.size;
   if (!std::isfinite(rounding)) return Meeting::unclear;
   const double to_frame = (1 + kProductRounding) / at_a.stretch.least;
-  const Meeting meeting = Walk(a, b, b_in_a, gap * to_frame + rounding, depth * to_frame + rounding).run();
+  const double least_gap = gap * to_frame + rounding, least_depth = depth * to_frame + rounding;
+  const Meeting meeting = Walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth).run();
   if (meeting != Meeting::apart) return meeting;
-  const bool closed = a.solid && b.solid;
-  return closed && !reaches_into(a, b, b_in_a) && !reaches_into(b, a, a_in_b) ? Meeting::apart : Meeting::unclear;
+  const bool closed = a.surface().solid && b.surface().solid;
+  if (!closed && Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY).run() != Meeting::apart) return Meeting::unclear;
+  return may_reach_into(a, b, b_in_a) || may_reach_into(b, a, a_in_b) ? Meeting::unclear : Meeting::apart;
 }
 
 }  // namespace satcheck

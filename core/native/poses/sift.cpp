@@ -143,9 +143,8 @@ class PoseSifter {
     if (search.apart) return Sifted::apart;
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
-    const Surface *of_a = a.surface(), *of_b = b.surface();
-    if (of_a == nullptr || of_b == nullptr) return Sifted::open;
-    const Meeting meeting = meeting_of(*of_a, at_a, *of_b, at_b, pair.gap_limit, pair.crossing);
+    if (!a.has_mesh() || !b.has_mesh()) return Sifted::open;
+    const Meeting meeting = meeting_of(a, at_a, b, at_b, pair.gap_limit, pair.crossing);
     if (meeting == Meeting::apart) return Sifted::apart;
     if (meeting == Meeting::crossing) return Sifted::deep;
     const bool deep = search.common && is_deep(place_a, place_b, a, b, *search.common, depth);

@@ -1,5 +1,5 @@
 // Sorts the pairs of many poses: those that are proven apart, those that are proven to overlap deeply, and the others,
-// which climb the ladder. Bodies are not placed: directions are taken into their frames.
+// which climb the ladder. Bodies are not placed: directions, or the other body, are taken into their frames.
 //
 // Every proof holds for the vertices in the world after each coordinate is rounded once, because it exceeds a bound of
 // all rounding (kPosedRounding).
