@@ -364,7 +364,7 @@ class PosedBody:
 
 def sift(
     bodies: Sequence[PosedBody],
-    pairs: Sequence[tuple[int, int, float, float]],
+    pairs: Sequence[tuple[int, int, float, float, float]],
     matrices: NDArray[float64],
     threads: int = 0,
 ) -> NDArray[uint8]: ...
