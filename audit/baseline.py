@@ -177,8 +177,7 @@ def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineSta
 
 
 def _figures_to_compare(before: KnownFinding, now: Finding) -> list[Figure]:
-    """The figures that either finding has, and figures of a motion unless the relation is milder
-    now."""
+    """The figures that either finding has, and the depth of a hit while moving."""
     names: set[Figure] = set()
     if now.at_rest in OVERLAPS:
         names.update(_OF_OVERLAPS)
@@ -187,9 +186,8 @@ def _figures_to_compare(before: KnownFinding, now: Finding) -> list[Figure]:
     elif before.relation in ("separated", "near"):
         names.update(_GAPS)
     stated = {name for name in _FIGURES if before.figure(name) is not None} | _bounds(now).keys()
-    if now.motion is not None:
-        motion: Figure = "motion_depth" if now.relation in OVERLAPS else "motion_distance"
-        stated.add(motion)
+    if now.motion is not None and now.relation in OVERLAPS:
+        stated.add("motion_depth")
     return sorted(names & stated)
 
 

@@ -41,8 +41,10 @@ class Sweep(Value, frozen=True, kw_only=True):
     more at some t. tolerance: the touch band of the sweep. time_of_impact: no such overlap before
     its lower end; at its upper end, a check of the bodies, posed and rounded to float64, finds one.
     at: the pose there. contact: no common point before this t. reached: no such overlap up to this
-    t. reason: why the answer is `indeterminate`, or what the sweep of surfaces left open. steps:
-    the cost. proven: False: only boxes or hulls show the hit, at an accuracy below exact.
+    t. worst: only if the clearance, the tolerance or a limit needs it. distance_at_least: a lower
+    bound of the distance at every t, where `worst` is None. reason: why the answer is
+    `indeterminate`, or what the sweep of surfaces left open. steps: the cost. proven: False: only
+    boxes or hulls show the hit, at an accuracy below exact.
     """
 
     relation: SweptRelation
@@ -51,6 +53,7 @@ class Sweep(Value, frozen=True, kw_only=True):
     contact: Share | None = None
     reached: Share
     worst: WorstPose | None = None
+    distance_at_least: Length | None = None
     tolerance: Length
     steps: Count = 0
     proven: bool = True

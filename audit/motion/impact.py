@@ -16,12 +16,13 @@ open.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from msgspec import Struct
 
 from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
-from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
+from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SHORTEST_WIDE_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.report.report import OVERLAPS, Finding
 
@@ -32,6 +33,7 @@ class Impact(Struct, frozen=True):
 
     reached: up to this t no such overlap is proven; 1.0: for the whole motion. contact: the first t
     at which the bodies may touch; None: never. reason: why the scan ended early without an overlap.
+    gap: the bodies are farther apart than this all the way; 0.0 also if they are not.
     """
 
     lower: float
@@ -39,13 +41,16 @@ class Impact(Struct, frozen=True):
     reached: float
     contact: float | None = None
     reason: str | None = None
+    gap: float = 0.0
 
     @property
     def free(self) -> bool:
         return self.upper is None and self.reason is None
 
 
-def first_impact(pair: MovingPair) -> Impact:
+def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
+    """gaps: the scan proves the largest of these lengths that the bodies stay apart by, if it can
+    do so on its way."""
     try:
         start = pair.found_at(0.0)
     except Unanswerable as why:
@@ -56,7 +61,7 @@ def first_impact(pair: MovingPair) -> Impact:
         reason = f"undecided where the motion starts: {start.reason}"
         return Impact(0.0, None, 0.0, 0.0, reason)
     # A possible touch counts as a contact; the scan itself proves how deep it is.
-    scan = _Scan(pair, outside=start.exact_relation in FREE)
+    scan = _Scan(pair, gaps, outside=start.exact_relation in FREE)
     try:
         scan.run()
     except Unanswerable as why:
@@ -82,15 +87,16 @@ class _Scan:
     """t: until t the bodies are free or within the touch band. met: where the contact at t began,
     the lower end of the interval that is reported. outside: the bodies are known to have no common
     interior at t. Separate surfaces do not prove that: a body smaller than the touch band may have
-    entered the other body."""
+    entered the other body. gaps: ascending; until t the bodies are farther apart than the last."""
 
-    def __init__(self, pair: MovingPair, outside: bool) -> None:
+    def __init__(self, pair: MovingPair, gaps: Sequence[float], outside: bool) -> None:
         self.t = 0.0
         self._outside = outside
         self.met = 0.0
         self.contact: float | None = None
         self.reason: str | None = None
         self._pair = pair
+        self._gaps = sorted({0.0, *gaps})
         self._offsets = ContactOffsets(pair)
 
     def run(self) -> None:
@@ -112,11 +118,20 @@ class _Scan:
 
     def _apart(self, end: float) -> float:
         """The time for which the bodies are proven to stay apart."""
-        time = self._pair.apart(self.t, end).time
+        time = self._farther_apart(end)
         if time > 0.0 and not self._outside and not self._pair.convex:
             self._outside = self._pair.found_at(self.t).exact_relation in FREE
             return time if self._outside else 0.0
         return time
+
+    def _farther_apart(self, end: float) -> float:
+        """The time for which the surfaces are farther apart than the last of the gaps."""
+        while len(self._gaps) > 1:
+            time = self._pair.apart(self.t, end, gap=self._gaps[-1]).time
+            if time >= min(SHORTEST_WIDE_STEP, end - self.t):
+                return time
+            self._gaps.pop()
+        return self._pair.apart(self.t, end).time
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
@@ -126,7 +141,7 @@ class _Scan:
 
     def impact(self) -> Impact:
         if self.reason is None:
-            return Impact(1.0, None, 1.0, self.contact)
+            return Impact(1.0, None, 1.0, self.contact, gap=self._gaps[-1])
         try:
             upper = _first_overlap(self._pair, self.t)
         except Unanswerable as why:

@@ -5,6 +5,9 @@ from __future__ import annotations
 # If a step is shorter than this share of the motion, the bodies count as in contact. The first
 # overlap is searched down to the same share.
 SHORTEST_STEP = 2.0**-30
+# If no step of at least this share keeps the bodies farther apart than a length, the scan no longer
+# tries to prove that they stay so far apart.
+SHORTEST_WIDE_STEP = 2.0**-12
 # A contact that lasts for more touch bands of motion than this is a contact of its own; a shorter
 # one is the start of an overlap.
 SLID = 64

@@ -84,14 +84,23 @@ class MovingPair:
             t, self.pair.b.bounds
         )
 
-    def apart(self, t: float, end: float, offset: Vector = ORIGIN) -> Obstacle:
-        """The time after t, up to `end`, for which the surfaces have no common point if A is moved
-        by `offset`. end: in the same pieces as t."""
-        hulls = self._shapes(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
+    @property
+    def holed(self) -> list[str]:
+        """The bodies with holes whose fill may matter. Sheets have no inside, and with --allow-open
+        every open part is a sheet."""
+        pair = self.pair
+        if pair.settings.allow_open:
+            return []
+        return [body.id for body in (pair.a, pair.b) if body.body.file.health.holes]
+
+    def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
+        """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
+        is moved by `offset`. end: in the same pieces as t."""
+        hulls = self._shapes(core.safe_time, t, offset=offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
-        result = self._surfaces(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
+        result = self._surfaces(core.safe_time, t, offset=offset, level=gap, limit=end - t)
         triangles = None if result.triangle_a < 0 else (result.triangle_a, result.triangle_b)
         return Obstacle(max(hulls.value, result.value), triangles)
 

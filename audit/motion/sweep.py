@@ -31,12 +31,18 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
         return Sweep(
             relation="indeterminate", tolerance=pair.tolerance, reached=0.0, reason=str(why)
         )
-    impact = first_impact(moving) if pair.may("hull") else _not_swept(pair)
+    impact = first_impact(moving, _gaps(moving)) if pair.may("hull") else _not_swept(pair)
     answer = _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b})
     if impact.reason is None:
         return answer.sweep()
     possible = None if pair.may("exact") else possible_overlap(moving, impact.reached)
     return _undecided(moving, impact) if possible is None else answer.possible_hit(possible)
+
+
+def _gaps(pair: MovingPair) -> tuple[float, ...]:
+    """The lengths that decide the relation of bodies that stay apart. If a body has holes, only
+    hulls that have no common point prove that no fill is entered."""
+    return () if pair.holed else (pair.tolerance, pair.pair.request.clearance or 0.0)
 
 
 def _not_swept(pair: Pair) -> Impact:
@@ -96,62 +102,62 @@ class _Answer:
 
     def _free(self) -> Sweep:
         pair, impact = self._pair, self._impact
-        worst = self._with_fills(self._nearest())
+        worst = self._nearest()
         return Sweep(
             relation=self._relation(worst),
             tolerance=pair.tolerance,
             reached=1.0,
             contact=impact.contact,
-            worst=self._pose(worst),
+            worst=None if worst is None else self._pose(self._with_fills(worst)),
+            distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
             reason=self._unfilled(),
             steps=pair.steps,
         )
 
-    def _nearest(self) -> Worst:
+    def _nearest(self) -> Worst | None:
+        """The nearest pose, as narrowly as the relation and the clearance need it; None: they do
+        not need it, or it is unknown."""
         pair, contact = self._pair, self._impact.contact
-        unknown = Worst(contact or 0.0, 0.0, math.inf)
+        clearance = pair.pair.request.clearance
         if not pair.convex and not pair.pair.may("exact"):
-            return unknown
-        if contact is None or pair.convex:
-            return least_distance(pair, pair.pair.request.clearance) or unknown
+            return None
+        if contact is not None:
+            return self._nearest_at(contact) if clearance else None
+        lengths = (pair.tolerance, clearance or 0.0)
+        if self._impact.gap >= max(lengths):
+            return None
+        return least_distance(pair, lengths, narrow=bool(clearance))
+
+    def _nearest_at(self, contact: float) -> Worst | None:
         try:
-            return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
+            return Worst(contact, 0.0, max(self._pair.least_gap(contact, contact)[1], 0.0))
         except Unanswerable:
-            return unknown
+            return None
 
     def _with_fills(self, worst: Worst) -> Worst:
         """The fill of a hole may be nearer than the surfaces, but not nearer than the hulls."""
         clearance = self._pair.pair.request.clearance
-        if not clearance or not self._holed():
+        if not clearance or not self._pair.holed:
             return worst
         hulls = least_hull_distance(self._pair, worst.upper, clearance)
         return replace(worst, lower=min(worst.lower, hulls))
 
-    def _relation(self, worst: Worst) -> SweptRelation:
+    def _relation(self, worst: Worst | None) -> SweptRelation:
         """The relation of bodies that stay apart, or within the touch band, during the whole
         motion."""
-        if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
+        upper = math.inf if worst is None else worst.upper
+        if self._impact.contact is not None or upper <= self._pair.tolerance:
             return "touching"
-        return "near" if worst.upper < (self._pair.pair.request.clearance or 0.0) else "separated"
-
-    def _holed(self) -> list[str]:
-        """The bodies with holes whose fill may matter. Sheets have no inside, and with --allow-open
-        every open part is a sheet."""
-        pair = self._pair.pair
-        if pair.settings.allow_open:
-            return []
-        return [b.id for b in (pair.a, pair.b) if b.body.file.health.holes]
+        return "near" if upper < (self._pair.pair.request.clearance or 0.0) else "separated"
 
     def _unfilled(self) -> str | None:
         """Which holes leave open whether a body entered the other one: fills are not swept."""
-        holed = self._holed()
+        holed = self._pair.holed
         if not holed or self._pair.hulls_apart:
             return None
         return f"the fills of the holes of {' and '.join(holed)} were not swept"
 
-    def _pose(self, worst: Worst) -> WorstPose | None:
-        if math.isinf(worst.upper):
-            return None
+    def _pose(self, worst: Worst) -> WorstPose:
         at = self._places(worst.time)
         if worst.upper < 0.0:
             return WorstPose(worst.time, at, depth=(-worst.upper, -worst.lower))

@@ -79,7 +79,8 @@ def _judged(swept: Sweep, pair: Pair) -> Judgement:
 def _clearance(swept: Sweep, request: Request) -> Judgement | None:
     """The judgement of the clearance; None: the motion keeps it, or there is no clearance."""
     worst = swept.worst
-    gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
+    least = (swept.distance_at_least or 0.0, math.inf)
+    gap = least if worst is None else worst.distance or (0.0, 0.0)
     return clearance_judgement(request, *gap)
 
 
@@ -109,4 +110,6 @@ def _detail(swept: Sweep) -> str:
         return f"{swept.reason}, {steps}"
     if swept.worst is not None and swept.worst.distance is not None:
         return f"at least {swept.worst.distance[0]:.6g} apart, {steps}"
+    if swept.distance_at_least is not None:
+        return f"at least {swept.distance_at_least:.6g} apart; the rest is not asked, {steps}"
     return steps

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from msgspec import Struct
@@ -37,19 +37,22 @@ class Worst(Struct, frozen=True):
     upper: float
 
 
-def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | None:
+def least_distance(
+    pair: MovingPair, lengths: Sequence[float] = (), *, narrow: bool = True
+) -> Worst | None:
     """The least signed distance of two convex bodies, or the least distance of other surfaces.
 
-    enough: the search goes on until this clearance is proven kept or broken. None: the budget was
-    spent before any figure was proven.
+    lengths: the search goes on until it is proven for each whether the distance is less. narrow:
+    unless it is proven to be no less than all of them, the search also goes on until the interval
+    is narrow. None: the budget was spent before any figure was proven.
     """
-    return _least(pair, pair.least_gap, enough)
+    return _least(pair, pair.least_gap, lengths, narrow=narrow)
 
 
 def least_hull_distance(pair: MovingPair, most: float, enough: float) -> float:
     """A lower bound of the least distance of the hulls. most: an upper bound of the distance. The
     search goes on until the clearance `enough` is proven kept or broken."""
-    gap = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), enough)
+    gap = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), (enough,))
     return 0.0 if gap is None else max(gap.lower, 0.0)
 
 
@@ -70,7 +73,7 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     except Unanswerable:
         return None
     deepest, _, time = max(depths, key=lambda depth: depth[0])
-    hulls = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), -deepest), None)
+    hulls = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), -deepest), ())
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
 
 
@@ -93,7 +96,16 @@ class _Search:
 
     @property
     def narrow(self) -> bool:
-        return self.best - self.least <= max(WORST_WIDTH * abs(self.best), 4 * self._pair.pad)
+        return self.best - self.least <= WORST_WIDTH * abs(self.best)
+
+    def ends(self, lengths: Sequence[float], *, narrow: bool) -> bool:
+        """Whether the bounds answer the question, or no longer improve."""
+        if self.best - self.least <= 4 * self._pair.pad:
+            return True
+        kept = [keeps(length, self.least, self.best) for length in lengths]
+        if None in kept:
+            return False
+        return not narrow or (bool(kept) and all(kept)) or self.narrow
 
     def halve(self) -> None:
         """Halves the interval with the least bound."""
@@ -111,13 +123,14 @@ class _Search:
         return lower, start, end
 
 
-def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | None:
+def _least(
+    pair: MovingPair, bounds: Bounds, lengths: Sequence[float], *, narrow: bool = True
+) -> Worst | None:
     search = None
     try:
         search = _Search(pair, bounds)
         for _ in range(WORST_INTERVALS):
-            decided = enough is None or keeps(enough, search.least, search.best) is not None
-            if search.narrow and decided:
+            if search.ends(lengths, narrow=narrow):
                 break
             search.halve()
     except Unanswerable:

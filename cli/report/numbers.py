@@ -21,6 +21,11 @@ def bounds(low: float, high: float) -> str:
     return shown[0] if shown[0] == shown[1] else " .. ".join(shown)
 
 
+def at_least(value: float) -> str:
+    """A proven lower bound, rounded down (to ROUNDOFF)."""
+    return _rounded(value, down=True)
+
+
 def at_most(value: float) -> str:
     """A proven upper bound, rounded up (to ROUNDOFF)."""
     return _rounded(value, down=False)

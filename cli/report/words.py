@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.cli.output import harmless
-from satcheck.cli.report.numbers import at_most, bounds, number
+from satcheck.cli.report.numbers import at_least, at_most, bounds, number
 
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Issue
@@ -82,8 +82,8 @@ def is_hit(finding: Finding) -> bool:
 
 
 def in_motion(finding: Finding, unit: str | None) -> str:
-    """`hits at 60 deg`, `0.25 mm apart`, `touches`, `undecided from t = 0.4`; empty where neither
-    body moves."""
+    """`hits at 60 deg`, `0.25 mm apart`, `apart`, `touches`, `undecided from t = 0.4`; empty where
+    neither body moves."""
     swept = finding.motion
     if swept is None:
         return ""
@@ -95,7 +95,12 @@ def in_motion(finding: Finding, unit: str | None) -> str:
     if swept.relation == "touching":
         return "touches"
     distance = swept.worst and swept.worst.distance
-    return f"{with_unit(bounds(*distance), unit)} apart" if distance else "apart"
+    if distance:
+        return f"{with_unit(bounds(*distance), unit)} apart"
+    least = swept.distance_at_least
+    if least is None or least <= swept.tolerance:
+        return "apart"
+    return f"at least {with_unit(at_least(least), unit)} apart"
 
 
 def place(at: Place, unit: str | None) -> str:

@@ -114,6 +114,10 @@ def test_a_motion_counts_as_its_worst_pose() -> None:
     assert after(known, swept(depth=(0.5, 0.9))) == "undecided"
     near = replace(swept(distance=(0.5, 0.75)), relation="near")
     assert after(near, near) == "unchanged"
+    assert HIT.motion is not None
+    apart = replace(HIT, relation="separated", motion=replace(HIT.motion, relation="separated"))
+    assert after(apart, apart) == "unchanged"
+    assert after(near, replace(apart, relation="near")) == "undecided"
     assert after(near, replace(swept(distance=(0.1, 0.2)), relation="near")) == "worse"
 
 

@@ -12,11 +12,17 @@ from satcheck.audit.motion.limits import SHORTEST_STEP
 from tests.audit.shapes import bracket, write
 
 
-def swept(folder: Path, bodies: str, motion: str, tolerance: float | None = 0.0):
+def swept(
+    folder: Path,
+    bodies: str,
+    motion: str,
+    tolerance: float | None = 0.0,
+    clearance: float | None = None,
+):
     path = folder / "scene.toml"
     text = f'schema = "satcheck.scene/1"\nbodies = [{bodies}]\n[[motion]]\nbodies = "a"\n{motion}\n'
     path.write_text(text, encoding="utf-8")
-    (finding,) = check([path], Settings(tolerance=tolerance)).findings
+    (finding,) = check([path], Settings(tolerance=tolerance, clearance=clearance)).findings
     return finding.motion
 
 
@@ -35,8 +41,8 @@ def test_balls_meet(tmp_path: Path) -> None:
 
 def test_balls_pass(tmp_path: Path) -> None:
     other = '{id = "b", shape = {type = "sphere", radius = 1}, position = [5, 1.5, 2]}'
-    found = swept(tmp_path, f"{BALL}, {other}", "translation = [10, 0, 0]")
-    assert found.relation == "separated"
+    found = swept(tmp_path, f"{BALL}, {other}", "translation = [10, 0, 0]", clearance=1.0)
+    assert found.relation == "near"
     assert found.worst.distance[0] <= 0.5 <= found.worst.distance[1]
 
 
@@ -71,8 +77,8 @@ def test_a_ball_in_the_notch_of_an_l(tmp_path: Path) -> None:
     """The hull of the L holds the ball, whose centre is 2 away from the walls."""
     write(tmp_path, l=bracket())
     notch = '{id = "b", mesh = "l.obj", position = [-4, -4, -2]}'
-    up = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 9]")
-    assert up.relation == "separated"
+    up = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 9]", clearance=2.0)
+    assert up.relation == "near"
     assert up.worst.distance[0] <= 1.0 <= up.worst.distance[1]
     into = swept(tmp_path, f"{BALL}, {notch}", "translation = [-3, 0, 0]")
     assert into.time_of_impact[0] <= 1 / 3 <= into.time_of_impact[1]

@@ -39,8 +39,9 @@ def test_both_places_are_told():
         Translation((3.0, 0.0, 4.0)),
         unit_box(2.5, 0, 0),
         PosePath((Waypoint(0.0, ORIGIN), Waypoint(1.0, (0.0, 0.0, 9.0)))),
+        clearance=3.0,
     )
-    assert found.relation == "separated"
+    assert found.relation == "near"
     assert {(place.body, place.term) for place in found.worst.at} == {("a", "length"), ("b", "t")}
 
 
@@ -52,7 +53,33 @@ def test_the_clearance_holds_on_the_way(body):
     near = swept(body, path, wall, clearance=0.75)
     assert near.relation == "near"
     assert near.worst.distance == pytest.approx((0.5, 0.5), rel=0.01)
-    assert swept(body, path, wall, clearance=0.25).relation == "separated"
+    kept = swept(body, path, wall, clearance=0.25)
+    assert (kept.relation, kept.worst, kept.distance_at_least) == ("separated", None, 0.25)
+
+
+@pytest.mark.parametrize("body", [unit_box(), moved(bracket(), -5, -5, 0)])
+def test_the_nearest_pose_is_not_searched_unless_asked(body, monkeypatch):
+    """Neither of bodies that stay apart, nor of bodies that touch."""
+    monkeypatch.setattr(moving_pair.MovingPair, "least_gap", None)
+    wall = box((-9, 2.0, -9), (9, 3.0, 9))
+    apart = swept(body, Translation((3.0, 0.5, 0.0)), wall, tolerance=0.125)
+    assert (apart.relation, apart.worst, apart.distance_at_least) == ("separated", None, 0.125)
+    on_the_wall = swept(moved(body, 0, 1, 0), Translation((3.0, 0.0, 0.0)), wall)
+    assert (on_the_wall.relation, on_the_wall.worst) == ("touching", None)
+
+
+@pytest.mark.parametrize("rise", [0.75, 0.875, 0.9375])
+def test_as_near_as_the_tolerance_is_a_touch(rise):
+    """The bodies come to within 0.25, 0.125 and 0.0625."""
+    found = swept(
+        unit_box(),
+        Translation((3.0, rise, 0.0)),
+        box((-9, 2.0, -9), (9, 3.0, 9)),
+        tolerance=0.125,
+    )
+    assert found.contact is None
+    assert found.relation == ("touching" if rise > 0.875 else "separated")
+    assert (found.distance_at_least == 0.125) is (rise < 0.875)
 
 
 def test_without_depth_none_is_measured():
@@ -99,18 +126,18 @@ def test_a_spent_search_for_the_nearest_pose_is_no_clearance_that_was_not_kept(m
     """A gap that stays the same all the way: its lower bound gets no better than 1 %."""
     monkeypatch.setattr(worst, "WORST_INTERVALS", 1)
     square, wall = box((-1, -1, 0), (1, 1, 1)), box((1.5, -5, 0), (9, 5, 1))
-    found = swept(square, Rotation(ORIGIN, Z, 90.0), wall)
-    assert (found.relation, found.contact) == ("separated", None)
+    found = swept(square, Rotation(ORIGIN, Z, 90.0), wall, clearance=0.4)
+    assert (found.relation, found.contact) == ("near", None)
     assert found.worst.distance[0] == 0.0
 
 
 def test_a_budget_that_ends_at_a_contact_leaves_the_gap_open(monkeypatch):
     """The notch's floor is slid along; measuring the gap there is one question too many."""
     path = Translation((0.5, 0.0, 0.0))
-    slid = swept(unit_box(3, 2, 1), path, bracket())
+    slid = swept(unit_box(3, 2, 1), path, bracket(), clearance=0.5)
     assert (slid.relation, slid.contact) == ("touching", 0.0)
     monkeypatch.setattr(moving_pair, "STEPS", slid.steps - 1)
-    found = swept(unit_box(3, 2, 1), path, bracket())
+    found = swept(unit_box(3, 2, 1), path, bracket(), clearance=0.5)
     assert (found.relation, found.contact, found.worst) == ("touching", 0.0, None)
 
 
