@@ -129,7 +129,7 @@ def _check(
     """keep: later checks need the data of the bodies again."""
     movers = _movers(scene)
     planner = Planner(settings, bodies.book, scene.composed, moving=movers is not None)
-    close = close_pairs(bodies, planner, None if movers is None else movers.bounds)
+    close = close_pairs(bodies, planner) if movers is None else _close(bodies, planner, movers)
     queue = PairQueue(settings.jobs, keep=keep)
     examined = _examine_all(bodies, close, planner, movers, queue, progress)
     findings = _findings(bodies, close, examined, planner)
@@ -204,6 +204,22 @@ def _movers(scene: Scene) -> Movers | None:
     from satcheck.audit.motion.movers import Movers
 
     return Movers(scene.motions)
+
+
+def _close(bodies: PlacedBodies, planner: Planner, movers: Movers) -> list[tuple[int, int]]:
+    """The pairs of bodies that may come close while they move."""
+    placed, ids = bodies.placed, bodies.ids
+    return [
+        (i, j)
+        for i, j in close_pairs(bodies, planner, movers.bounds)
+        if movers.may_meet(
+            ids[i],
+            placed[i].bounds,
+            ids[j],
+            placed[j].bounds,
+            planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution),
+        )
+    ]
 
 
 def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
