@@ -43,6 +43,7 @@ from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memor
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
 
 if TYPE_CHECKING:
+    from satcheck.audit.joint_path.movers import JointMovers
     from satcheck.audit.motion.movers import Movers
     from satcheck.audit.statics.support import Support
     from satcheck.core import Climb
@@ -127,9 +128,12 @@ def _check(
     keep: bool = False,
 ) -> Report:
     """keep: later checks need the data of the bodies again."""
-    movers = _movers(scene)
-    planner = Planner(settings, bodies.book, scene.composed, moving=movers is not None)
-    close = close_pairs(bodies, planner) if movers is None else _close(bodies, planner, movers)
+    moving = bool(scene.motions) or scene.joint_path is not None
+    planner = Planner(settings, bodies.book, scene.composed, moving=moving)
+    movers = _movers(scene, bodies, planner)
+    close = close_pairs(bodies, planner, None if movers is None else movers.bounds)
+    if movers is not None:
+        movers.sweep(close)
     queue = PairQueue(settings.jobs, keep=keep)
     examined = _examine_all(bodies, close, planner, movers, queue, progress)
     findings = _findings(bodies, close, examined, planner)
@@ -198,28 +202,16 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
     return flat_scene(scene, settings.planar, allow_open=settings.allow_open)
 
 
-def _movers(scene: Scene) -> Movers | None:
+def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | JointMovers | None:
+    if scene.joint_path is not None:
+        from satcheck.audit.joint_path.movers import JointMovers
+
+        return JointMovers(scene, scene.joint_path, bodies, planner)
     if not scene.motions:
         return None
     from satcheck.audit.motion.movers import Movers
 
     return Movers(scene.motions)
-
-
-def _close(bodies: PlacedBodies, planner: Planner, movers: Movers) -> list[tuple[int, int]]:
-    """The pairs of bodies that may come close while they move."""
-    placed, ids = bodies.placed, bodies.ids
-    return [
-        (i, j)
-        for i, j in close_pairs(bodies, planner, movers.bounds)
-        if movers.may_meet(
-            ids[i],
-            placed[i].bounds,
-            ids[j],
-            placed[j].bounds,
-            planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution),
-        )
-    ]
 
 
 def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
@@ -248,7 +240,7 @@ def _examine_all(
     bodies: PlacedBodies,
     close: list[tuple[int, int]],
     planner: Planner,
-    movers: Movers | None,
+    movers: Movers | JointMovers | None,
     queue: PairQueue,
     progress: Progress | None,
 ) -> list[CheckedPair]:

@@ -21,6 +21,7 @@ from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody, world_bounds
 from satcheck.audit.request.planner import Planner, Request
 from satcheck.audit.severity import Judgement, by_rule
+from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
@@ -49,8 +50,8 @@ class PosedPair(Struct, frozen=True):
 
 
 class PosedPairs:
-    """The pairs of a scene that are checked, sorted. names: their ids. bodies: as placed in any of
-    the poses."""
+    """The pairs of a scene that are checked and can be compared, sorted. names: their ids. bodies:
+    as placed in any of the poses; all those of the scene can be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         self._settings = planner.settings
@@ -59,18 +60,49 @@ class PosedPairs:
         self._bodies = [bodies.placed[k] for k in numbers]
         self._posed = [_posed(body) for body in self._bodies]
         place = {k: row for row, k in enumerate(numbers)}
-        checked = sorted(bodies.book.checked_pairs())
+        checked = sorted(
+            (i, j)
+            for i, j in bodies.book.checked_pairs()
+            if i in place and j in place and bodies.units[i] == bodies.units[j]
+        )
         self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
         self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
         self._places = [(place[i], place[j]) for i, j in checked]
+
+    @property
+    def places(self) -> list[tuple[int, int]]:
+        """The bodies of each pair, by their numbers in `Scene.bodies`."""
+        return self._places
+
+    def around(self) -> list[tuple[Vector, float]]:
+        """A ball that holds each body of the scene, in coordinates of its file, as large as the
+        placement makes it."""
+        balls = (posed.around for posed in self._posed)
+        return [
+            (centre, radius * body.largest_stretch * _TURNED)
+            for (centre, radius), body in zip(balls, self._bodies, strict=True)
+        ]
+
+    def tolerance(self, number: int) -> float:
+        """Half the width of the touch band of a pair, as the scene is placed."""
+        a, b = (self._bodies[k] for k in self._places[number])
+        return Pair(a, b, self._settings, self.pairs[number].request).tolerance
+
+    def sizes(self) -> list[float]:
+        """The size of the smaller body of each pair."""
+        return [min(self._bodies[k].diagonal for k in pair) for pair in self._places]
 
     def deep_fails(self, number: int) -> bool:
         """Whether a deep overlap of the pair is a failure."""
         severity = by_rule(Judgement("error"), self.pairs[number].request).severity
         return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
-    def sift(self, matrices: Numbers) -> Codes:
-        """Shape (poses, pairs): OPEN, APART or DEEP. matrices: those of `PoseBatch`."""
+    def sift(
+        self, matrices: Numbers, margins: Numbers | None = None, clearances: bool = True
+    ) -> Codes:
+        """Shape (poses, pairs): OPEN, APART or DEEP. matrices: those of `PoseBatch`. margins: of
+        the same shape; pairs are APART only if they are farther apart by this much, and those with
+        NaN stay OPEN. clearances: whether APART pairs keep their clearances."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):
@@ -79,12 +111,13 @@ class PosedPairs:
                 deviations = (self._bodies[k].body.file.deviation for k in (a, b))
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
             off = max(self._bodies[k].surface_tolerance for k in (a, b))
-            gap_limit = max(pair.request.clearance or 0.0, tolerance)
+            clearance = (clearances and pair.request.clearance) or 0.0
+            gap_limit = max(clearance, tolerance)
             never = pair.request.limited
             depth = inf if never else max(0.5 * tolerance, off)
             crossing = inf if never or off else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
-        codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs)
+        codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
         return codes
 
     def _resolution(self, k: int, matrices: Numbers) -> float:

@@ -57,6 +57,7 @@ class Inputs(Struct, frozen=True):
     seed: int | None = None
     rules: tuple[Path, ...] = ()
     between: tuple[tuple[str, str], ...] = ()
+    joint_path: str | None = None
     time: float | None = None
     animation: str | None = None
     purpose: tuple[Purpose, ...] = ()
@@ -120,7 +121,8 @@ class Inputs(Struct, frozen=True):
 
     @property
     def has_poses(self) -> bool:
-        return bool(self.pose or self.state or self.sample or self.seed is not None)
+        given = self.pose or self.state or self.joint_path or self.sample
+        return bool(given or self.seed is not None)
 
     @property
     def random_seed(self) -> int | None:
@@ -140,7 +142,8 @@ def refuse_early(
     if not is_folder(output.absolute().parent):
         raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
-    read = (*inputs.paths, *inputs.pose, *map(str, inputs.rules), *known)
+    swept = () if inputs.joint_path is None else (inputs.joint_path,)
+    read = (*inputs.paths, *inputs.pose, *swept, *map(str, inputs.rules), *known)
     if any(is_same_file(output, path) for path in read):
         raise click.UsageError(f"{option} {output} would overwrite an input")
 

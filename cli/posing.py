@@ -1,4 +1,4 @@
-"""The poses of the robots of a scene, from --pose, --state, --sample and --seed.
+"""The poses of the robots of a scene, from --pose, --state, --path, --sample and --seed.
 
 Apart from `cli.inputs`, because it imports the readers of robots, and these numpy.
 """
@@ -11,7 +11,15 @@ import click
 
 from satcheck.cli.inputs import Inputs
 from satcheck.scene import Scene
-from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed, read_poses
+from satcheck.scene.robot import (
+    Pose,
+    RandomPoses,
+    pose_of_states,
+    posed,
+    read_path,
+    read_poses,
+    with_joint_path,
+)
 
 
 def poses_of(scene: Scene, inputs: Inputs) -> Sequence[Pose] | Pose:
@@ -37,6 +45,16 @@ def poses_of(scene: Scene, inputs: Inputs) -> Sequence[Pose] | Pose:
         return {**base, **given[0]}
     listed = [pose for poses in given for pose in (poses if isinstance(poses, list) else [poses])]
     return [{**base, **pose} for pose in listed] if listed else base
+
+
+def on_path(scene: Scene, inputs: Inputs, file: str) -> Scene:
+    """The scene with its robots at the start of the path of a file. Raises what `poses_of` does."""
+    if inputs.sample or inputs.seed is not None:
+        raise click.UsageError("--path sweeps given poses: leave out --sample and --seed")
+    fixed = poses_of(scene, inputs)
+    if not isinstance(fixed, Mapping):
+        raise click.UsageError("--path takes one --pose at most, whose joints stay")
+    return with_joint_path(scene, read_path(file), fixed)
 
 
 def posed_once(scene: Scene, inputs: Inputs, several: str) -> Scene:

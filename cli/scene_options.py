@@ -116,7 +116,7 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="The folder of a package or model, or of a folder in it (arm/meshes). Repeatable.",
+    help="The folder of a package, a model or a part of it. Repeatable.",
 )
 
 
@@ -161,8 +161,8 @@ pose_options = together(
         "--pose",
         multiple=True,
         metavar="FILE",
-        help='Values of joints in radians and metres, {"joint": value}: a JSON file or the text. '
-        "Several poses, or a list of them, are checked one by one.",
+        help='Values of joints (radians, metres), {"joint": value}: a JSON file or the text. '
+        "Several are checked one by one.",
     ),
     click.option(
         "--state",
@@ -185,6 +185,13 @@ pose_options = together(
 )
 
 
+# That sweeps robots.
+joint_path_option = click.option(
+    "--path",
+    "joint_path",
+    metavar="FILE",
+    help="Sweep robots through these poses (JSON or CSV).",
+)
 # That pose robots once.
 one_pose_options = together(
     click.option(

@@ -47,4 +47,20 @@ class PosePath(Value, frozen=True, tag_field="kind", tag="path"):
     waypoints: Annotated[tuple[Waypoint, ...], Meta(min_length=2)]
 
 
-StatedMotion = Translation | Rotation | PosePath
+class JointWaypoint(Value, frozen=True):
+    """A pose of robots. joints: the value of each joint that moves or stands."""
+
+    time: Share
+    joints: dict[str, float | list[float]]
+
+
+class JointPath(Value, frozen=True, tag_field="kind", tag="joints"):
+    """Bodies of robots whose joints pass poses at given times. In between, each joint moves
+    steadily."""
+
+    bodies: Bodies
+    clear: bool
+    waypoints: Annotated[tuple[JointWaypoint, ...], Meta(min_length=2)]
+
+
+StatedMotion = Translation | Rotation | PosePath | JointPath

@@ -9,6 +9,8 @@ from typing import Literal
 
 from satcheck.report.values import Count, Interval, Length, Share, Value
 
+# The value of a joint is a number, or a list of numbers.
+Joints = dict[str, float | list[float]]
 SweptRelation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
 
 
@@ -24,10 +26,11 @@ class Place(Value, frozen=True):
 class WorstPose(Value, frozen=True):
     """The deepest pose of bodies that overlap, else the nearest pose. distance, depth: proven
     bounds of the least distance, or the greatest depth, over the whole motion. The worse end is a
-    bound; the other is reached at `time`. One of the two is None."""
+    bound; the other is reached at `time`. One of the two is None. joints: as in `Sweep`."""
 
     time: Share
     at: tuple[Place, ...]
+    joints: Joints | None = None
     distance: Interval | None = None
     depth: Interval | None = None
 
@@ -40,16 +43,19 @@ class Sweep(Value, frozen=True, kw_only=True):
     could not be excluded, and at no t they overlap by more than it. `penetrating`: they overlap by
     more at some t. tolerance: the touch band of the sweep. time_of_impact: no such overlap before
     its lower end; at its upper end, a check of the bodies, posed and rounded to float64, finds one.
-    at: the pose there. contact: no common point before this t. reached: no such overlap up to this
-    t. worst: only if the clearance, the tolerance or a limit needs it. distance_at_least: a lower
-    bound of the distance at every t, where `worst` is None. reason: why the answer is
-    `indeterminate`, or what the sweep of surfaces left open. steps: the cost. proven: False: only
-    boxes or hulls show the hit, at an accuracy below exact.
+    at: the pose there. joints: on a path of joints, their values there. poses: the numbers, from 1,
+    of the poses of that path before and after it. contact: no common point before this t. reached:
+    no such overlap up to this t. worst: only if the clearance, the tolerance or a limit needs it.
+    distance_at_least: a lower bound of the distance at every t, where `worst` is None. reason: why
+    the answer is `indeterminate`, or what the sweep of surfaces left open. steps: the cost. proven:
+    False: only boxes or hulls show the hit, at an accuracy below exact.
     """
 
     relation: SweptRelation
     time_of_impact: Interval | None = None
     at: tuple[Place, ...] = ()
+    joints: Joints | None = None
+    poses: tuple[Count, Count] | None = None
     contact: Share | None = None
     reached: Share
     worst: WorstPose | None = None

@@ -22,6 +22,7 @@ from satcheck.scene.rules import Rule
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
     from satcheck.scene.robot import Posture, SceneRobot
+    from satcheck.scene.robot.joint_path import JointPath
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
 UNITS_UNKNOWN = "units-unknown"
@@ -150,7 +151,8 @@ class Scene(Struct, frozen=True):
     entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
     reading: the options with which the files were read. body_rules: questions about the support of
-    single bodies. statics: gravity and friction, as stated; None: not stated.
+    single bodies. statics: gravity and friction, as stated; None: not stated. joint_path: along
+    which the robots move; they stand in its first pose.
     """
 
     name: str
@@ -170,6 +172,7 @@ class Scene(Struct, frozen=True):
     reading: ReadOptions = ReadOptions()
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
+    joint_path: JointPath | None = None
 
     def __post_init__(self) -> None:
         if self.motions:

@@ -17,6 +17,7 @@ from satcheck.core.conventions import axes_of
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
+    from satcheck.report.sweep import Sweep
     from satcheck.scene.motion import Path
 
 
@@ -25,11 +26,12 @@ _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 class Paths(Struct, frozen=True):
     """The motions of the two bodies; None: at rest. At least one moves. clear: they may not touch
-    on the way, unless they touch as placed."""
+    on the way, unless they touch as placed. known: the result, where joints move the bodies."""
 
-    a: Path | None
-    b: Path | None
+    a: Path | None = None
+    b: Path | None = None
     clear: bool = False
+    known: Sweep | None = None
 
 
 class Pair(Struct, frozen=True):

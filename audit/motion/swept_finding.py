@@ -23,7 +23,7 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     """The finding with the sweep of the pair, its stage in the trace, and a severity that counts
     both."""
     finding = examined.finding
-    motion = sweep(pair, paths.a, paths.b)
+    motion = paths.known or sweep(pair, paths.a, paths.b)
     trace.record("sweep", motion.relation, _detail(motion))
     judged = by_rule(_judged(motion, pair), pair.request)
     if paths.clear and finding.relation in ("separated", "near") and motion.relation == "touching":

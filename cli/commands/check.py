@@ -56,6 +56,7 @@ from satcheck.cli.rendering import Delivery, Shown, rendered, tell
 from satcheck.cli.scene_options import (
     between_option,
     geometry_options,
+    joint_path_option,
     merge_option,
     package_option,
     pose_options,
@@ -254,6 +255,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @package_option
 @geometry_options
 @pose_options
+@joint_path_option
 @color_option
 @no_config_option
 @config_option
@@ -369,9 +371,11 @@ def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, Sequence[Pose] | None]
     if not inputs.has_poses:
         return scene, None
     # With the readers of robots comes numpy.
-    from satcheck.cli.posing import poses_of
+    from satcheck.cli.posing import on_path, poses_of
     from satcheck.scene.robot import posed
 
+    if inputs.joint_path is not None:
+        return on_path(scene, inputs, inputs.joint_path), None
     poses = poses_of(scene, inputs)
     return (posed(scene, poses), None) if isinstance(poses, Mapping) else (scene, poses)
 

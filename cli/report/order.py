@@ -30,7 +30,7 @@ def is_listed(finding: Finding) -> bool:
 
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:
-    """By severity, then the thicker overlap, then the deeper one."""
+    """By severity, then the thicker overlap, then the deeper one, then the earlier hit."""
     return sorted(findings, key=rank)
 
 
@@ -77,9 +77,14 @@ def _size(finding: Finding) -> tuple[int, float, float]:
         thick = deep if finding.thickness is None else finding.thickness
         return (0, -thick, -deep)
     if is_hit(finding):
-        return (1, 0.0, 0.0)
+        return (1, _first_time(finding), 0.0)
     gap = inf if finding.distance is None else finding.distance
     return (2 + _MILDER.index(finding.at_rest), gap, 0.0)
+
+
+def _first_time(hit: Finding) -> float:
+    impact = hit.motion and hit.motion.time_of_impact
+    return impact[1] if impact else 0.0
 
 
 def _part(id_: str) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.summary import exempt_by
 from satcheck.cli.report.beside_baseline import beside_baseline
+from satcheck.cli.report.numbers import number
 from satcheck.cli.report.words import counted, is_hit
 from satcheck.report.report import (
     CROSS_CHECK,
@@ -21,6 +22,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:
     from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.sweep import Sweep
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
@@ -94,7 +96,15 @@ def _hits(report: Report) -> list[str]:
     for count, possibly in ((proven[True], ""), (proven[False], "possibly ")):
         if count:
             said.append(f"{counted(count, 'pair')} {possibly}{'hits' if count == 1 else 'hit'}")
-    return [f"{' and '.join(said)} while moving."] if said else []
+    if not said:
+        return []
+    first = min((hit for hit in hits if hit is not None), key=_first_time)
+    since = f", the first at t = {number(_first_time(first))}" if len(hits) > 1 else ""
+    return [f"{' and '.join(said)} while moving{since}."]
+
+
+def _first_time(hit: Sweep) -> float:
+    return hit.time_of_impact[1] if hit.time_of_impact else 0.0
 
 
 def _cross_check(report: Report) -> list[str]:

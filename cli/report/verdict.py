@@ -20,6 +20,7 @@ from satcheck.cli.report.words import (
     interval,
     is_hit,
     is_unusable,
+    joint_values,
     past_holes,
     with_unit,
 )
@@ -133,7 +134,9 @@ def _failure(finding: Finding, report: Report) -> str:
     """`fence and palm are 40 mm apart (clearance 45 mm)`."""
     unit = unit_of(report.units)
     if is_hit(finding) and finding.at_rest not in OVERLAPS:
-        return f"{finding.a} and {finding.b}, while they move: {in_motion(finding, unit)}"
+        joints = finding.motion and finding.motion.joints
+        where = f" ({joint_values(joints)})" if joints else ""
+        return f"{finding.a} and {finding.b}, while they move: {in_motion(finding, unit)}{where}"
     figures = limits(finding, report)
     if finding.at_rest in OVERLAPS:
         figures = [*_figures(finding, unit), *figures]

@@ -10,12 +10,14 @@ from satcheck.cli.report.numbers import at_least, at_most, bounds, number
 
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Issue
-    from satcheck.report.sweep import Place
+    from satcheck.report.sweep import Joints, Place
     from satcheck.report.values import Interval
     from satcheck.scene import Issue as InputIssue
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
+# A line names at most so many joints.
+MOST_JOINTS = 8
 
 
 def counted(count: int, singular: str, plural: str | None = None) -> str:
@@ -89,7 +91,8 @@ def in_motion(finding: Finding, unit: str | None) -> str:
         return ""
     if swept.relation == "penetrating":
         verb = "hits" if swept.proven else "possibly hits"
-        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}"
+        on_path = "" if swept.poses is None else between_poses(*swept.poses)
+        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}{on_path}"
     if swept.relation == "indeterminate":
         return f"undecided from t = {number(swept.reached)}"
     if swept.relation == "touching":
@@ -101,6 +104,19 @@ def in_motion(finding: Finding, unit: str | None) -> str:
     if least is None or least <= swept.tolerance:
         return "apart"
     return f"at least {with_unit(at_least(least), unit)} apart"
+
+
+def between_poses(before: int, after: int) -> str:
+    return f", between poses {before} and {after}"
+
+
+def joint_values(joints: Joints) -> str:
+    """`shoulder = 0.72, elbow = 0`, of the first joints where they are many."""
+    said = [
+        f"{name} = {', '.join(map(number, value)) if isinstance(value, list) else number(value)}"
+        for name, value in joints.items()
+    ]
+    return ", ".join([*said[:MOST_JOINTS], *(["..."] if len(said) > MOST_JOINTS else [])])
 
 
 def place(at: Place, unit: str | None) -> str:

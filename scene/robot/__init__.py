@@ -14,6 +14,7 @@ from satcheck.scene.robot.assembly import (
     posed,
     with_srdfs,
 )
+from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
 from satcheck.scene.robot.model import Joint, Link, Robot, State
 from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
 from satcheck.scene.robot.permissions import permissions
@@ -26,6 +27,7 @@ from satcheck.scene.robot.urdf import read_urdf
 __all__ = [
     "FilePlaces",
     "Joint",
+    "JointPath",
     "Link",
     "MeshPlaces",
     "Part",
@@ -43,10 +45,12 @@ __all__ = [
     "permissions",
     "pose_of_states",
     "posed",
+    "read_path",
     "read_poses",
     "read_robot",
     "read_srdf",
     "read_urdf",
     "settle",
+    "with_joint_path",
     "with_srdfs",
 ]

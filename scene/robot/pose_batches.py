@@ -38,16 +38,27 @@ class PoseBatch(Struct, frozen=True):
     def matrices(self, scene: Scene) -> Numbers:
         """Shape (poses, bodies, 12): the upper three rows of the placement of each readable body,
         in the order of `Scene.bodies`. The same bits as those of `posed`."""
-        placed = np.empty((self.count, len(scene.bodies), 12))
-        of_links: dict[str, Transform] = {}
-        for robot in scene.robots:
-            links = link_poses(robot.robot, self.joints)
-            of_links |= {body.id: compose(links[body.link], body.offset) for body in robot.bodies}
-        for k, body in enumerate(scene.bodies):
-            matrix = of_links.get(body.id, body.transform or IDENTITY)
-            for entry in range(12):
-                placed[:, k, entry] = matrix[entry]
-        return placed
+        return placements(scene, link_frames(scene, self.joints), self.count)
+
+
+def link_frames(scene: Scene, joints: Mapping[str, Any]) -> list[dict[str, Transform]]:
+    """Of each robot: link -> its pose, whose entries are arrays where those of the joints are."""
+    return [link_poses(robot.robot, joints) for robot in scene.robots]
+
+
+def placements(scene: Scene, frames: Sequence[Mapping[str, Transform]], count: int) -> Numbers:
+    """See `PoseBatch.matrices`. frames: of the links in `count` poses."""
+    of_links = {
+        body.id: compose(links[body.link], body.offset)
+        for robot, links in zip(scene.robots, frames, strict=True)
+        for body in robot.bodies
+    }
+    placed = np.empty((count, len(scene.bodies), 12))
+    for k, body in enumerate(scene.bodies):
+        matrix = of_links.get(body.id, body.transform or IDENTITY)
+        for entry in range(12):
+            placed[:, k, entry] = matrix[entry]
+    return placed
 
 
 def require_joints(scene: Scene, poses: Sequence[Pose]) -> None:

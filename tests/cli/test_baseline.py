@@ -59,9 +59,11 @@ def deep(least: float, most: float) -> Finding:
     return replace(DEEPER, depth_bounds=(least, most), depth=most)
 
 
-def swept(**figures: tuple[float, float]) -> Finding:
+def swept(
+    depth: tuple[float, float] | None = None, distance: tuple[float, float] | None = None
+) -> Finding:
     assert HIT.motion is not None
-    worst = WorstPose(0.5, (), **figures)
+    worst = WorstPose(0.5, (), depth=depth, distance=distance)
     return replace(HIT, motion=replace(HIT.motion, worst=worst))
 
 

@@ -361,12 +361,15 @@ class PosedBody:
     def __init__(
         self, corners: Sequence[Point], margin: float, inner: Sequence[tuple[Point, float]]
     ) -> None: ...
+    @property
+    def around(self) -> tuple[Point, float]: ...
 
 def sift(
     bodies: Sequence[PosedBody],
     pairs: Sequence[tuple[int, int, float, float, float]],
     matrices: NDArray[float64],
     threads: int = 0,
+    margins: NDArray[float64] | None = None,
 ) -> NDArray[uint8]: ...
 
 Rung = Literal["aabb", "obb", "hull", "triangles"]

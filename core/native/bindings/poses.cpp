@@ -2,6 +2,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
@@ -11,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bindings/tuples.hpp"
 #include "poses/sift.hpp"
 
 namespace nb = nanobind;
@@ -21,14 +23,18 @@ namespace {
 
 using Corner = std::array<double, 3>;
 using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
+using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using Sifting = std::vector<Sifted>;
 
 Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
 
 nb::object sift_all(const std::vector<PosedBody*>& bodies, const std::vector<PairTuple>& pairs, const Matrices& matrices,
-                    unsigned threads) {
+                    unsigned threads, const std::optional<Margins>& margins) {
   if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
+  if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
+    throw std::invalid_argument("a pair needs a margin in each pose");
+  }
   std::vector<SiftedPair> sifted;
   for (const auto& [a, b, gap_limit, depth, crossing] : pairs) {
     if (a >= bodies.size() || b >= bodies.size()) throw std::invalid_argument("the number of a body is out of range");
@@ -37,7 +43,7 @@ nb::object sift_all(const std::vector<PosedBody*>& bodies, const std::vector<Pai
   Sifting results;
   {
     const nb::gil_scoped_release release;
-    results = sift(bodies, sifted, matrices.data(), matrices.shape(0), threads);
+    results = sift(bodies, sifted, matrices.data(), margins ? margins->data() : nullptr, matrices.shape(0), threads);
   }
   auto kept = std::make_unique<Sifting>(std::move(results));
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
@@ -63,14 +69,17 @@ PosedBody(corners, margin, inner) for any other: it lies in the hull of the corn
              for (const auto& [centre, radius] : inner) balls.push_back({to_vec(centre), radius});
              new (self) PosedBody(points, margin, std::move(balls));
            },
-           "corners"_a, "margin"_a, "inner"_a);
-  m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0,
+           "corners"_a, "margin"_a, "inner"_a)
+      .def_prop_ro("around", [](const PosedBody& self) { return std::make_pair(to_tuple(self.around().centre), self.around().radius); },
+                   "A ball that holds the body: its centre and its radius.");
+  m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
         R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
 gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;
 0: neither is proven.
 
 pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
-upper three rows of each placement. The proofs hold for the vertices in the world, each coordinate rounded once. The
+upper three rows of each placement. margins: float64 of shape (poses, pairs), added to the gap limits; NaN: the pair is
+left at 0 in that pose. The proofs hold for the vertices in the world, each coordinate rounded once. The
 result does not depend on the number of threads (0: one a core).)");
 }
 

@@ -118,21 +118,24 @@ class PoseSifter {
   PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs)
       : bodies_(bodies), pairs_(pairs), places_(bodies.size()), axes_(pairs.size()) {}
 
-  void take(const double* matrices, Sifted* results) {
+  void take(const double* matrices, const double* margins, Sifted* results) {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       places_[k].at = place_at(*bodies_[k], matrices + 12 * k);
       places_[k].has_inner = false;
     }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) results[k] = sifted(pairs_[k], axes_[k]);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const double margin = margins == nullptr ? 0 : margins[k];
+      results[k] = std::isnan(margin) ? Sifted::open : sifted(pairs_[k], pairs_[k].gap_limit + margin, axes_[k]);
+    }
   }
 
  private:
-  Sifted sifted(const SiftedPair& pair, Vec3& axis) {
+  Sifted sifted(const SiftedPair& pair, double gap_limit, Vec3& axis) {
     PosedBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
     Place &place_a = places_[pair.a], &place_b = places_[pair.b];
     const PosedPlace &at_a = place_a.at, &at_b = place_b.at;
     const double rounding = kPosedRounding * (at_a.reach + at_b.reach);
-    const double limit = pair.gap_limit * (1 + 4 * kUnitRoundoff) + rounding;
+    const double limit = gap_limit * (1 + 4 * kUnitRoundoff) + rounding;
     const Vec3 between = at_a.around.centre - at_b.around.centre;
     const double centres = norm(between);
     if (centres - at_a.around.radius - at_b.around.radius > limit) return Sifted::apart;
@@ -144,7 +147,7 @@ class PoseSifter {
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     if (!a.has_mesh() || !b.has_mesh()) return Sifted::open;
-    const Meeting meeting = meeting_of(a, at_a, b, at_b, pair.gap_limit, pair.crossing);
+    const Meeting meeting = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
     if (meeting == Meeting::apart) return Sifted::apart;
     if (meeting == Meeting::crossing) return Sifted::deep;
     const bool deep = search.common && is_deep(place_a, place_b, a, b, *search.common, depth);
@@ -190,12 +193,13 @@ class PoseSifter {
 }  // namespace
 
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
-                         const double* matrices, std::size_t poses, unsigned threads) {
+                         const double* matrices, const double* margins, std::size_t poses, unsigned threads) {
   std::vector<Sifted> results(poses * pairs.size());
   parallel_for((poses + kBlock - 1) / kBlock, threads, [&](std::size_t block) {
     PoseSifter sifter(bodies, pairs);
     for (std::size_t pose = kBlock * block; pose < std::min(poses, kBlock * (block + 1)); ++pose) {
-      sifter.take(matrices + 12 * bodies.size() * pose, results.data() + pairs.size() * pose);
+      const double* own = margins == nullptr ? nullptr : margins + pairs.size() * pose;
+      sifter.take(matrices + 12 * bodies.size() * pose, own, results.data() + pairs.size() * pose);
     }
   });
   return results;

@@ -25,9 +25,10 @@ struct SiftedPair {
   double gap_limit, depth, crossing;
 };
 
-// matrices: of each body in each pose, pose by pose, three rows of four numbers each. Returns a value for each pair in
+// matrices: of each body in each pose, pose by pose, three rows of four numbers each. margins: for each pair in each
+// pose, added to its gap limit; NaN: the pair is left open there. Null: no margins. Returns a value for each pair in
 // each pose, pose by pose, the same for any number of threads (0: one a core).
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
-                         const double* matrices, std::size_t poses, unsigned threads);
+                         const double* matrices, const double* margins, std::size_t poses, unsigned threads);
 
 }  // namespace satcheck

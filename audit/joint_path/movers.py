@@ -1,0 +1,183 @@
+"""The bodies of robots whose joints move along a path, and the sweep of each pair."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from math import isinf
+
+import numpy as np
+from msgspec.structs import replace
+
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.pair import Paths
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.joint_path.search import Found, Nearest, Search
+from satcheck.audit.joint_path.travel import Interval, Travel
+from satcheck.audit.posed_pairs import PosedPairs
+from satcheck.audit.request.planner import Planner
+from satcheck.audit.request.settings import Settings
+from satcheck.core.errors import SatcheckError
+from satcheck.report.motions import JointPath as StatedPath
+from satcheck.report.motions import JointWaypoint, StatedMotion
+from satcheck.report.report import Issue
+from satcheck.report.sweep import Place, Sweep, WorstPose
+from satcheck.scene import Scene
+from satcheck.scene.robot import JointPath
+from satcheck.scene.robot.pose_batches import Numbers
+
+# Parts of each piece of the path that get a box of their own for the broad phase.
+PARTS = 8
+
+
+class JointMovers:
+    """Raises SatcheckError (`bad-pose`) for a scene that cannot be checked along a path."""
+
+    def __init__(
+        self, scene: Scene, path: JointPath, bodies: PlacedBodies, planner: Planner
+    ) -> None:
+        _require_answers(scene, planner.settings)
+        usable = {bodies.ids[k] for k in bodies.placed}
+        scene = replace(scene, bodies=tuple(body for body in scene.bodies if body.id in usable))
+        self._path, self._ids = path, bodies.ids
+        self._pairs = PosedPairs(scene, bodies, planner)
+        self._travel = Travel(scene, path, self._pairs.around())
+        self._search = Search(path, self._travel, self._pairs)
+        self._moving = self._travel.moving()
+        self._number = {body.id: k for k, body in enumerate(scene.bodies)}
+        self._boxes = self._swept_boxes()
+        self._sweeps: dict[tuple[str, str], Sweep] = {}
+
+    def bounds(self, body: str, placed: Box) -> Box:
+        """The world box of a body over the whole path."""
+        box = self._boxes.get(body)
+        if box is None:
+            return placed
+        low, high = (
+            tuple(pick(p, q) for p, q in zip(placed[side], box[side], strict=True))
+            for side, pick in ((0, min), (1, max))
+        )
+        return low, high  # type: ignore[return-value]
+
+    def sweep(self, close: Collection[tuple[int, int]]) -> None:
+        """Sweeps these pairs, by the numbers of their bodies; `paths` then has the results."""
+        wanted = set(close)
+        places = self._pairs.places
+        moves = np.array(
+            [
+                (pair.i, pair.j) in wanted and self._travel.moves(*place)
+                for pair, place in zip(self._pairs.pairs, places, strict=True)
+            ],
+            dtype=bool,
+        )
+        found = self._search.first_overlaps(moves)
+        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
+        if near.any():
+            self._search.narrow(near, found)
+        for k in np.flatnonzero(moves).tolist():
+            self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+
+    def paths(self, a: str, b: str) -> Paths | None:
+        """The sweep of a pair; None: the bodies do not move relative to each other."""
+        sweep = self._sweeps.get((a, b))
+        return None if sweep is None else Paths(known=sweep)
+
+    def stated(self) -> tuple[StatedMotion, ...]:
+        """The path as a report states it."""
+        if not self._moving:
+            return ()
+        waypoints = (JointWaypoint(float(t), self._path.pose(t)) for t in self._path.times)
+        return (StatedPath(tuple(self._moving), False, tuple(waypoints)),)
+
+    def issues(self, _: Sequence[str]) -> list[Issue]:
+        return []
+
+    def _asks_for_distance(self, k: int, found: Found) -> bool:
+        return bool(self._pairs.pairs[k].request.clearance) and _is_free(found)
+
+    def _swept(self, k: int, found: Found) -> Sweep:
+        if not isinf(found.hit):
+            lower = min(found.free_until, found.hit)
+            return Sweep(
+                relation="penetrating",
+                tolerance=found.tolerance,
+                reached=lower,
+                time_of_impact=(lower, found.hit),
+                at=self._places(k, found.hit),
+                joints=self._path.pose(found.hit),
+                poses=self._path.poses_around(found.hit),
+                contact=lower,
+                steps=found.steps,
+            )
+        if not _is_free(found):
+            return Sweep(
+                relation="indeterminate",
+                tolerance=found.tolerance,
+                reached=found.free_until,
+                contact=found.free_until,
+                reason=_reason(found),
+                steps=found.steps,
+            )
+        nearest, touches = found.nearest, not isinf(found.touch)
+        clearance = self._pairs.pairs[k].request.clearance or 0.0
+        is_near = nearest is not None and nearest.upper < clearance
+        worst = self._worst(k, nearest) if nearest is not None and is_near else None
+        return Sweep(
+            relation="touching" if touches else "near" if is_near else "separated",
+            tolerance=found.tolerance,
+            reached=1.0,
+            contact=found.touch if touches else None,
+            worst=worst,
+            distance_at_least=nearest.lower if nearest and worst is None else None,
+            steps=found.steps,
+        )
+
+    def _worst(self, k: int, nearest: Nearest) -> WorstPose:
+        return WorstPose(
+            nearest.time,
+            self._places(k, nearest.time),
+            joints=self._path.pose(nearest.time),
+            distance=(nearest.lower, nearest.upper),
+        )
+
+    def _places(self, k: int, time: float) -> tuple[Place, ...]:
+        mover = next(id_ for id_ in self._pairs.names[k] if id_ in self._moving)
+        return (Place(mover, "t", time),)
+
+    def _swept_boxes(self) -> dict[str, Box]:
+        intervals = _parts(self._path.times)
+        at = self._travel.middle(intervals)
+        boxes: dict[str, Box] = {}
+        for id_ in self._moving:
+            low, high = self._travel.in_world(at, self._number[id_])
+            boxes[id_] = (tuple(low.tolist()), tuple(high.tolist()))
+        return boxes
+
+
+def _require_answers(scene: Scene, settings: Settings) -> None:
+    refused = {
+        "--planar": settings.planar is not None,
+        f"--accuracy {settings.accuracy}": settings.accuracy != "exact",
+        "rules about single bodies": bool(scene.body_rules),
+        "motions of a scene": bool(scene.motions),
+    }
+    for what in (what for what, given in refused.items() if given):
+        raise SatcheckError("bad-pose", f"a path of joints cannot be checked with {what}")
+
+
+def _is_free(found: Found) -> bool:
+    return isinf(found.hit) and isinf(found.free_until)
+
+
+def _reason(found: Found) -> str:
+    at = f"t = {found.free_until:.6g}"
+    if found.is_spent:
+        return f"the budget of the sweep was spent, at {at}"
+    return f"nothing proves that the bodies stay apart, or within the tolerance, at {at}"
+
+
+def _parts(times: Numbers) -> Interval:
+    shares = np.linspace(0.0, 1.0, PARTS + 1)
+    start, end = times[:-1, None], times[1:, None]
+    grid = start + (end - start) * shares
+    grid[:, -1] = times[1:]
+    return Interval(grid[:, :-1].ravel(), grid[:, 1:].ravel())

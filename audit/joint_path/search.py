@@ -1,0 +1,241 @@
+"""The first moment at which bodies of robots overlap on a path of joints, by bisection of t.
+
+In the middle of an interval the core proves two bodies apart by more than they travel until its
+ends. Then they are apart in all of the interval; no moment is skipped. Else the interval is halved.
+Schwarzer, Saha, Latombe (2005), see `travel.py`. All pairs are asked at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.figures.verify import FREE
+from satcheck.audit.finding import examine
+from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
+from satcheck.audit.motion.impact import overlaps
+from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPairs
+from satcheck.audit.request.planner import ALWAYS, Request
+from satcheck.audit.request.trace import Trace
+from satcheck.report.report import Effect, Finding
+from satcheck.scene.robot import JointPath
+
+Flags = NDArray[np.bool_]
+
+# Poses that the core takes at a time.
+TOGETHER = 4096
+# A pair climbs the ladder in the middle of an interval if it travels less than this share of the
+# smaller body: the quick proofs of the core are then too coarse, or the bodies are in contact.
+NEAR = 1 / 256
+# The most intervals of one pair, and the most that climb: those of a sweep, and so many for each
+# piece of the path.
+STEPS_A_PIECE = 64
+CLIMBS = 512
+CLIMBS_A_PIECE = 16
+# An interval of t is halved down to this length. A travel of its length is within the touch band,
+# which is at least this share of the smaller body.
+SHORTEST = 2.0**-46
+FINEST = 1e-10
+# The nearest distance is narrowed to this share of itself, and measured so often in a round.
+MEASURED = 4
+NARROWED = 0.99
+
+
+class Nearest(Struct):
+    """The least distance on the way: at least `lower`, and `upper` at the time."""
+
+    lower: float
+    upper: float = inf
+    time: float = 0.0
+
+
+class Found(Struct):
+    """What is known about one pair. hit: a t with an overlap; free_until: before this t there is
+    none. touch: the first t at which the bodies may touch. nearest: if a clearance asks for it.
+    tolerance: half the width of the touch band. is_spent: whether the budget ended the search."""
+
+    hit: float = inf
+    free_until: float = inf
+    touch: float = inf
+    steps: int = 0
+    climbs: int = 0
+    is_spent: bool = False
+    nearest: Nearest | None = None
+    tolerance: float = 0.0
+
+
+class Search:
+    """pairs, travel: of the same scene."""
+
+    def __init__(self, path: JointPath, travel: Travel, pairs: PosedPairs) -> None:
+        self._path, self._travel, self._pairs = path, travel, pairs
+        self._sizes = np.array(pairs.sizes())
+        pieces = len(path.times) - 1
+        self._steps = STEPS + STEPS_A_PIECE * pieces
+        self._climbs = CLIMBS + CLIMBS_A_PIECE * pieces
+
+    def first_overlaps(self, asked: Flags) -> list[Found]:
+        """asked: which pairs."""
+        intervals, active = self._whole(asked)
+        at = self._travel.middle(intervals)
+        found = [
+            Found(tolerance=max(self._pairs.tolerance(k), self._band(at, k)))
+            for k in range(len(self._pairs.pairs))
+        ]
+        while len(intervals.start):
+            halves: list[tuple[Interval, Flags]] = []
+            for part, own, at in self._chunks(intervals, active):
+                unknown, right = self._settle(part, own, at, found)
+                halves += _halved(part, unknown, right)
+            intervals, active = _joined(halves, len(found))
+            active = self._worth_it(intervals, active, found)
+            intervals, active = _kept(intervals, active)
+        return found
+
+    def narrow(self, asked: Flags, found: list[Found]) -> None:
+        """Narrows the least distances of these pairs, which do not overlap, as far as their
+        clearances ask."""
+        for k in np.flatnonzero(asked).tolist():
+            found[k].nearest = Nearest(self._pairs.pairs[k].request.clearance or 0.0)
+            found[k].steps = 0
+        intervals, active = self._whole(asked)
+        while len(intervals.start):
+            halves: list[tuple[Interval, Flags]] = []
+            for part, own, at in self._chunks(intervals, active):
+                unknown = self._compare(part, own, at, found)
+                halves += _halved(part, unknown, unknown)
+            intervals, active = _joined(halves, len(found))
+            active = self._worth_it(intervals, active, found, narrowing=True)
+            intervals, active = _kept(intervals, active)
+
+    def _whole(self, asked: Flags) -> tuple[Interval, Flags]:
+        """All pieces of the path."""
+        times = self._path.times
+        return Interval(times[:-1], times[1:]), np.tile(asked, (len(times) - 1, 1))
+
+    def _chunks(
+        self, intervals: Interval, active: Flags
+    ) -> Iterator[tuple[Interval, Flags, Middle]]:
+        for k in range(0, len(intervals.start), TOGETHER):
+            rows = slice(k, k + TOGETHER)
+            part = Interval(intervals.start[rows], intervals.end[rows])
+            yield part, active[rows], self._travel.middle(part)
+
+    def _margins(self, active: Flags, at: Middle) -> Numbers:
+        """How far each pair travels; NaN where it is not active."""
+        margins = np.full(active.shape, np.nan)
+        for k in np.flatnonzero(active.any(axis=0)).tolist():
+            travelled = self._travel.between(at, *self._pairs.places[k])
+            margins[:, k] = np.where(active[:, k], travelled, np.nan)
+        return margins
+
+    def _settle(
+        self, part: Interval, active: Flags, at: Middle, found: list[Found]
+    ) -> tuple[Flags, Flags]:
+        """(intervals that stay unknown, those whose later half does, too)"""
+        margins = self._margins(active, at)
+        codes = self._pairs.sift(at.matrices, margins, clearances=False)
+        middles = part.middle
+        for row, k in np.argwhere(active & (codes == DEEP)).tolist():
+            found[k].hit = min(found[k].hit, float(middles[row]))
+        unknown = active & (codes != APART)
+        later = active & (codes == OPEN)
+        for row, k in np.argwhere(later & (margins <= NEAR * self._sizes)).tolist():
+            if middles[row] >= found[k].hit or found[k].climbs >= self._climbs:
+                continue
+            found[k].climbs += 1
+            pair = self._pair(at, row, k, float(margins[row, k]))
+            finding = examine(pair, Trace()).finding
+            if overlaps(finding):
+                found[k].hit, later[row, k] = float(middles[row]), False
+            elif _is_clear(finding):
+                unknown[row, k] = later[row, k] = False
+            elif finding.exact_relation in FREE and margins[row, k] <= pair.tolerance:
+                found[k].touch = min(found[k].touch, float(part.start[row]))
+                unknown[row, k] = later[row, k] = False
+        return unknown, later
+
+    def _compare(self, part: Interval, active: Flags, at: Middle, found: list[Found]) -> Flags:
+        """The intervals in which the pairs may be nearer than the least known distance."""
+        travelled = self._margins(active, at)
+        limits = np.array([f.nearest.lower if f.nearest else 0.0 for f in found])
+        codes = self._pairs.sift(at.matrices, travelled + limits, clearances=False)
+        unknown: Flags = active & (codes != APART)
+        worth = unknown & (travelled <= np.maximum(0.25 * limits, NEAR * self._sizes))
+        for k in np.flatnonzero(worth.any(axis=0)).tolist():
+            rows = np.flatnonzero(worth[:, k])
+            nearest = found[k].nearest
+            assert nearest is not None
+            for row in rows[:: -(-len(rows) // MEASURED)].tolist():
+                enough = nearest.lower + float(travelled[row, k])
+                finding = examine(self._pair(at, row, k, enough), Trace()).finding
+                unknown[row, k] = not _is_clear(finding)
+                if finding.distance is not None and finding.distance < nearest.upper:
+                    nearest.upper, nearest.time = finding.distance, float(part.middle[row])
+                    nearest.lower = min(nearest.lower, NARROWED * finding.distance)
+        return unknown
+
+    def _pair(self, at: Middle, row: int, k: int, clearance: float) -> Pair:
+        (pair,) = self._pairs.at(at.matrices, row, [k])
+        by: dict[Effect, str] = {"overlap": ALWAYS, "distance": ALWAYS}
+        request = Request(by, clearance=clearance, tolerance=max(pair.tolerance, self._band(at, k)))
+        return replace(pair, request=request)
+
+    def _band(self, at: Middle, k: int) -> float:
+        return max(PADS_IN_BAND * at.pad, FINEST * float(self._sizes[k]))
+
+    def _worth_it(
+        self, intervals: Interval, active: Flags, found: list[Found], *, narrowing: bool = False
+    ) -> Flags:
+        """The intervals to ask about: no later than a known overlap, within the budget of the pair,
+        and not too short. Others leave the pair open from their start on."""
+        active = active & (intervals.start[:, None] < np.array([f.hit for f in found]))
+        short = intervals.end - intervals.start <= SHORTEST
+        for k in np.flatnonzero(active.any(axis=0)).tolist():
+            found[k].steps += int(active[:, k].sum())
+            found[k].is_spent = found[k].steps > self._steps
+            ends = active[:, k] if found[k].is_spent else active[:, k] & short
+            if not ends.any():
+                continue
+            since = float(intervals.start[ends].min())
+            if narrowing:
+                nearest = found[k].nearest
+                assert nearest is not None
+                nearest.lower = 0.0
+            else:
+                found[k].free_until = min(found[k].free_until, since)
+            active[:, k] &= ~ends
+        return active
+
+
+def _is_clear(finding: Finding) -> bool:
+    return finding.relation == "separated" and finding.undecided is None
+
+
+def _halved(part: Interval, earlier: Flags, later: Flags) -> Iterator[tuple[Interval, Flags]]:
+    middle = part.middle
+    yield Interval(part.start, middle), earlier
+    yield Interval(middle, part.end), later
+
+
+def _joined(halves: list[tuple[Interval, Flags]], pairs: int) -> tuple[Interval, Flags]:
+    """The intervals with an open pair, in the order of t."""
+    if not halves:
+        return Interval(np.empty(0), np.empty(0)), np.empty((0, pairs), dtype=bool)
+    start = np.concatenate([part.start for part, _ in halves])
+    end = np.concatenate([part.end for part, _ in halves])
+    active = np.concatenate([own for _, own in halves])
+    order = np.argsort(start, kind="stable")
+    return _kept(Interval(start[order], end[order]), active[order])
+
+
+def _kept(intervals: Interval, active: Flags) -> tuple[Interval, Flags]:
+    rows = active.any(axis=1)
+    return Interval(intervals.start[rows], intervals.end[rows]), active[rows]
