@@ -14,53 +14,28 @@ from satcheck.cli.report.columns import broken
 from satcheck.cli.report.order import groups_of
 from satcheck.cli.report.table import render
 from satcheck.report.report import (
-    INTERNAL_ERROR,
-    NOTHING_TO_CHECK,
-    Exempt,
     Finding,
-    Issue,
     RuleReport,
-    Stage,
 )
-from satcheck.report.sweep import Place, Sweep
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
     CONTACTS,
     CROSSING,
-    ESTIMATE,
-    HIT,
     PENETRATING,
     SEPARATED,
-    SWEEP,
     SWEPT,
     THICK,
     TOUCHING,
     UNDECIDED,
     report,
 )
+from tests.cli.shown import ESCAPES, shown
 
 ALL = (PENETRATING, BOUNDED, TOUCHING, SEPARATED, UNDECIDED)
+
+
 BOLD_RED = "\x1b[1;31m"
-UNMEASURED = replace(PENETRATING, b="other", depth=None, depth_bounds=None)
-WAY = Sweep(
-    relation="penetrating",
-    tolerance=0.0,
-    reached=0.5,
-    time_of_impact=(0.25, 0.5),
-    at=(Place("passer", "degrees", 60.0),),
-)
-HIT_AT_60 = replace(HIT, motion=WAY)
-ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
-
-
-def shown(*findings: object, page: Page = PLAIN_PAGE, **options: bool) -> str:
-    return render(
-        report(*findings),  # type: ignore[arg-type]
-        page,
-        explain=options.get("explain", False),
-        timings=options.get("timings", True),
-    )
 
 
 def test_a_row_says_it_all() -> None:
@@ -329,209 +304,3 @@ def test_explain_shows_each_step() -> None:
     assert re.search(r"hull +penetrating +11.5 us +both are convex: nothing finer is needed", text)
     assert re.search(r"soup +soup.stl: 1,234 triangles, not closed, concave", text)
     assert "3 convex parts: they stick out of the mesh by at most 0.25, and the mesh" in text
-
-
-def test_warnings_are_in_the_text_and_errors_are_not() -> None:
-    text = render(
-        report(SEPARATED, issues=(reports.OPEN, reports.MISSING)),
-        PLAIN_PAGE,
-        explain=False,
-        timings=True,
-    )
-    assert "warning: soup: 1 hole, 2 across: there, nothing is inside [not-closed]" in text
-    assert "gone.obj" not in text
-    assert text.endswith("\nERROR: 1 input could not be used.\n")
-
-
-@pytest.mark.parametrize(
-    ("findings", "lines"),
-    [
-        ((SEPARATED,), ("2 bodies, 1 pair: 1 separated.", "PASS: no collision.")),
-        (
-            (THICK,),
-            (
-                "2 bodies, 1 pair: 1 penetrating.",
-                "FAIL: block and block_pushed overlap (thickness 0.5, depth 1). "
-                "Next: -o report.html shows it in 3-D.",
-            ),
-        ),
-        (
-            (THICK, BOUNDED, UNMEASURED, UNDECIDED, HIT),
-            (
-                "2 bodies, 5 pairs: 3 penetrating, 1 containing, 1 indeterminate. "
-                "1 pair hits while moving.",
-                "FAIL: block and other overlap; "
-                "a_rather_long_name contains another_rather_long_name (depth 1.24123 .. 1.25001); "
-                "block and block_pushed overlap (thickness 0.5, depth 1); and 1 more pair. "
-                "1 pair is indeterminate. Next: --depth measures the overlaps.",
-            ),
-        ),
-        (
-            (replace(SEPARATED, severity="error", relation="near", distance=0.5),),
-            (
-                "2 bodies, 1 pair: 1 near.",
-                "FAIL: block and far are 0.5 apart. Next: -o report.html shows it in 3-D.",
-            ),
-        ),
-        (
-            (HIT_AT_60,),
-            (
-                "2 bodies, 1 pair: 1 penetrating. 1 pair hits while moving.",
-                "FAIL: block and passer, while they move: hits at 60 deg. "
-                "Next: -o report.html shows it in 3-D.",
-            ),
-        ),
-        (
-            (UNDECIDED,),
-            (
-                "2 bodies, 1 pair: 1 indeterminate.",
-                "INCOMPLETE: no collision was found, but 1 pair is indeterminate. Next: "
-                "close the holes, or give --allow-open if they are meant to be open.",
-            ),
-        ),
-        (
-            (
-                SWEPT,
-                replace(
-                    SWEPT,
-                    severity="warning",
-                    undecided="inside",
-                    motion=replace(SWEEP, reason="what fills the holes ..."),
-                ),
-            ),
-            (
-                "2 bodies, 2 pairs: 2 separated.",
-                "INCOMPLETE: no collision was found, "
-                "but 1 pair moves past holes that may be filled. Next: --explain shows the steps.",
-            ),
-        ),
-        (
-            (replace(SWEPT, severity="warning", undecided="limit", rule="clearance"),),
-            (
-                "2 bodies, 1 pair: 1 separated.",
-                "INCOMPLETE: no collision was found, but 1 pair may be closer than its clearance. "
-                "Next: --explain shows the steps.",
-            ),
-        ),
-        (
-            (replace(ESTIMATE, severity="warning", undecided="relation"),),
-            (
-                "2 bodies, 1 pair: 1 possibly penetrating.",
-                "INCOMPLETE: no collision was found, but 1 pair is indeterminate. "
-                "Next: --explain shows the steps.",
-            ),
-        ),
-        (
-            (replace(ESTIMATE, severity="note", rule="cell.toml:3"),),
-            (
-                "2 bodies, 1 pair: 1 overlapping in a way that is not proven.",
-                "PASS: no collision beyond what rules allow.",
-            ),
-        ),
-        (
-            (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
-            (
-                "2 bodies, 1 pair: 1 penetrating.",
-                "INCOMPLETE: no collision beyond what rules allow was found, "
-                "but 1 pair may exceed its limits. Next: a larger --depth-budget may decide it.",
-            ),
-        ),
-    ],
-)
-def test_the_last_lines_are_counts_and_a_verdict(
-    findings: tuple[object, ...], lines: tuple[str, str]
-) -> None:
-    assert tuple(shown(*findings).splitlines()[-2:]) == lines
-
-
-def test_many_overlaps_ask_for_rules() -> None:
-    many = [replace(THICK, b=f"block{k}") for k in range(11)]
-    assert "Next: satcheck suggest proposes rules" in shown(*many)
-
-
-def test_what_hulls_cannot_prove_asks_for_accuracy() -> None:
-    made = report(ESTIMATE)
-    made = replace(made, settings=replace(made.settings, accuracy="hull"))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "FAIL: block and perhaps possibly overlap (depth at most 2). Next: --accuracy" in text
-
-
-def test_an_internal_error_is_no_unusable_input() -> None:
-    fault = Issue(INTERNAL_ERROR, "error", None, None, "block and soup: internal error: ...")
-    made = report(UNDECIDED, issues=(fault,))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "1 pair is indeterminate; 1 pair failed by an internal error. Next" in text
-    made = replace(made, issues=(fault, reports.MISSING))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "; 1 input could not be used; 1 pair failed by an internal error. Next" in text
-
-
-def test_opinions_that_could_not_be_had_are_told_once() -> None:
-    silent = Stage("cross-check", "no answer", 1.0, "python-fcl: it did not answer in 30 s")
-    pairs = [replace(PENETRATING, id=str(k), plan=(*PENETRATING.plan, silent)) for k in range(2)]
-    text = shown(*pairs)
-    assert text.count("python-fcl") == 1
-    assert "cross-check: no answer on 2 pairs: python-fcl: it did not answer in 30 s\n" in text
-
-
-def test_no_pair_checked_is_no_verdict() -> None:
-    made = report()
-    pairs = replace(made.summary.pairs, total=3, allowed=3)
-    why = Issue(NOTHING_TO_CHECK, "warning", None, None, "no pair was checked: 3 allowed by rules")
-    summary = replace(made.summary, verdict="incomplete", pairs=pairs)
-    made = replace(made, summary=summary, issues=(why,))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    last = "INCOMPLETE: No pair was checked: 3 allowed by rules.\n"
-    assert text.endswith(f"\n2 bodies, 3 pairs.\n{last}")
-
-
-@pytest.mark.parametrize(
-    ("static", "exempt", "said"),
-    [
-        (2, 1, "1 separated; 1 pair exempt (static)."),
-        (0, 3, "1 separated; 3 pairs exempt (within ignored groups)."),
-        (2, 3, "1 separated; 3 pairs exempt (1 static, 2 within ignored groups)."),
-    ],
-)
-def test_exempt_pairs_are_counted_apart(static: int, exempt: int, said: str) -> None:
-    made = report(SEPARATED)
-    pairs = replace(made.summary.pairs, exempt=exempt)
-    bodies = tuple(replace(body, static=k < static) for k, body in enumerate(made.bodies))
-    made = replace(made, summary=replace(made.summary, pairs=pairs), bodies=bodies)
-    made = replace(made, exempt=Exempt(static_pairs=True))
-    assert said in render(made, PLAIN_PAGE, explain=False, timings=True)
-
-
-def test_one_line_a_body_with_holes() -> None:
-    hollow = replace(SWEEP, reason="what fills the holes ...")
-    past = replace(SWEPT, severity="warning", undecided="inside", motion=hollow)
-    text = shown(*(replace(past, a=f"far{i}", b="soup") for i in range(3)))
-    assert "soup has holes: 3 pairs move past them, and they may be filled\n" in text
-    assert "but 3 pairs move past holes that may be filled." in text
-
-
-def test_what_is_not_proven_is_called_possible() -> None:
-    made = report(PENETRATING, ESTIMATE)
-    made = replace(made, settings=replace(made.settings, accuracy="aabb"))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "1 penetrating, 1 possibly penetrating (not proven at --accuracy aabb)." in text
-    assert "<= 2" in text
-    assert text.count("not proven") == 1
-
-
-def test_pairs_of_an_unreadable_body_are_no_rows() -> None:
-    lost = replace(reports.BLOCK, id="gone", triangles=None, health=None)
-    undecided = replace(UNDECIDED, b="gone", reason="unreadable gone.obj: file-not-found")
-    made = report(SEPARATED, undecided, bodies=(reports.BLOCK, lost), issues=(reports.MISSING,))
-    text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "file-not-found" not in text
-    assert "gone: could not be used, its 1 pair not checked" in text
-
-
-@pytest.mark.parametrize("colour", [False, True])
-@pytest.mark.parametrize("name", ["a\x1b[2A\x1b[2K", "\u202eb", "c\x0b\x85d", "\ud800"])
-def test_a_name_gives_a_terminal_no_orders(name: str, colour: bool) -> None:
-    page = Page(width=PLAIN_PAGE.width, colour=colour, unicode=True)
-    lines = ESCAPES.sub("", shown(replace(PENETRATING, a=name), page=page)).split("\n")
-    assert all(line.isprintable() for line in lines)
-    assert any("\N{REPLACEMENT CHARACTER}" in line for line in lines)

@@ -16,94 +16,20 @@ from tests.audit.shapes import (
     box,
     bracket,
     open_box,
-    placed_scene,
-    pose,
     scene_of,
     unit_box,
     write,
 )
-
-SQUARE: Mesh = ([(-5, -5, 0), (5, -5, 0), (5, 5, 0), (-5, 5, 0)], [(0, 1, 2, 3)])
-
-
-def only(report):
-    (finding,) = report.findings
-    return finding
-
-
-def relation(folder, a: Mesh, b: Mesh, **settings):
-    finding = only(check(scene_of(folder, a=a, b=b), Settings(**settings)))
-    assert finding.quality in ("exact", "bounded", None)
-    return finding.relation
-
-
-def together(*meshes: Mesh) -> Mesh:
-    points, faces = [], []
-    for more_points, more_faces in meshes:
-        faces += [tuple(len(points) + k for k in face) for face in more_faces]
-        points += more_points
-    return points, faces
-
-
-def triangulated(mesh: Mesh) -> Mesh:
-    points, faces = mesh
-    return points, [(f[0], f[k], f[k + 1]) for f in faces for k in range(1, len(f) - 1)]
-
-
-def without(mesh: Mesh, *triangles: int) -> Mesh:
-    points, faces = triangulated(mesh)
-    return points, [face for k, face in enumerate(faces) if k not in triangles]
-
-
-def with_reverse(mesh: Mesh) -> Mesh:
-    points, faces = mesh
-    return points, [*faces, *(face[::-1] for face in faces)]
-
-
-DOUBLE = with_reverse(SQUARE)
-SHEET_AND_BOX = together(DOUBLE, unit_box(20))
-
-
-@pytest.mark.parametrize("sheet", [SQUARE, DOUBLE, SHEET_AND_BOX], ids=["open", "double", "beside"])
-@pytest.mark.parametrize(
-    ("z", "expected"),
-    [(-0.5, "penetrating"), (0.0, "touching"), (-1.0, "touching"), (0.25, "separated")],
+from tests.audit.surfaces import (
+    SQUARE,
+    inverted,
+    only,
+    relation,
+    split_square,
+    together,
+    triangulated,
+    without,
 )
-def test_a_sheet_is_material_that_a_box_crosses(tmp_path, sheet, z, expected):
-    assert relation(tmp_path, sheet, unit_box(z=z)) == expected
-    assert relation(tmp_path, unit_box(z=z), sheet) == expected
-
-
-@pytest.mark.parametrize("sheet", [SQUARE, DOUBLE, SHEET_AND_BOX], ids=["open", "double", "beside"])
-def test_a_sheet_can_lie_within_a_solid(tmp_path, sheet):
-    around = box((-9, -9, -9), (30, 9, 9))
-    assert relation(tmp_path, around, sheet) == "contains"
-    assert relation(tmp_path, sheet, around) == "inside"
-
-
-def test_nothing_hides_in_a_double_sided_shell(tmp_path):
-    shell = with_reverse(unit_box(edge=4.0))
-    assert relation(tmp_path, shell, unit_box(1, 1, 1)) == "separated"
-    assert relation(tmp_path, shell, unit_box(1, 1, 3.5)) == "penetrating"
-
-
-@pytest.mark.parametrize("turned", [False, True])
-def test_sheets_cross_along_their_edges(tmp_path, turned):
-    """Two squares of four triangles about a middle line: no two triangles cross, the squares do."""
-    flat = [(-1, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 1, 0), (1, -1, 0), (-1, -1, 0)]
-    faces = [(0, 1, 2, 3), (0, 5, 4, 1)]
-    a = with_reverse(([(x, y, z) for x, y, z in flat], faces))
-    b = with_reverse(([(x, z, y) if turned else (x, z, y * y) for x, y, z in flat], faces))
-    assert relation(tmp_path, a, b) == ("penetrating" if turned else "touching")
-
-
-def test_flush_sheets_touch(tmp_path):
-    """Tiles that overlap in one plane: moved by however little, they are apart."""
-    tile: Mesh = ([(0, 0, 0), (3, 0, 0), (3, 3, 0), (0, 3, 0)], [(0, 1, 2, 3)])
-    for sheet in (tile, with_reverse(tile)):
-        assert relation(tmp_path, SQUARE, sheet) == "touching"
-        assert relation(tmp_path, DOUBLE, sheet) == "touching"
-
 
 HALF = box((0.5, 0.125, 0.125), (1.5, 0.875, 0.875))
 
@@ -227,12 +153,9 @@ def test_the_report_counts_holes_and_gives_the_largest(tmp_path):
     assert message.startswith("3 holes, the largest in a box 2.83 from corner to corner")
 
 
-def inverted(mesh: Mesh) -> Mesh:
-    points, faces = mesh
-    return points, [face[::-1] for face in faces]
-
-
 BAR = box((1, 1, 1), (3, 5, 3))  # from the bracket into its notch
+
+
 IN_BOTH = box((1.25, 1.25, 1.5), (1.75, 1.75, 2.5))
 
 
@@ -266,39 +189,6 @@ def test_a_crack_does_not_part_components(tmp_path):
     report = check(load_scene([path], split="components"))
     assert [body.id for body in report.bodies] == ["both#1", "both#2"]
     assert only(report).relation == "contains"
-
-
-def split_square(axis: int, at: float) -> Mesh:
-    """A face of a box of edge 4, wound outward, with a vertex on each of its edges."""
-    t = 1 + axis / 2 + at / 8
-    corners = [(0, 0), (t, 0), (4, 0), (4, t), (4, 4), (4 - t, 4), (0, 4), (0, 4 - t)]
-    points = []
-    for u, v in corners if at else corners[::-1]:
-        point = [0.0, 0.0, 0.0]
-        point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3] = at, u, v
-        points.append((point[0], point[1], point[2]))
-    return points, [tuple(range(8))]
-
-
-def test_a_flat_part_within_a_solid_is_no_boundary_of_it(tmp_path):
-    around, part = unit_box(-3, -3, -3, edge=6.0), box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
-    for sheet in (SQUARE, DOUBLE):
-        points, faces = sheet
-        small = [(x / 5, y / 5, z) for x, y, z in points], faces
-        assert relation(tmp_path, together(around, small), part) == "contains"
-
-
-def test_a_wall_with_a_window_stays_a_sheet_where_it_is_turned(tmp_path):
-    """Rounding bends it, and a rod stands in the window."""
-    outer, inner = ([(x * k, y * k, 0) for x, y, _ in SQUARE[0]] for k in (1.0, 0.4))
-    ring = [(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
-    rod = box((-1, -1, -4), (1, 1, 4))
-    write(tmp_path, wall=(outer + inner, ring), rod=rod)
-    c, s = math.cos(0.5), math.sin(0.5)
-    turned = [[c, -s * c, s * s, 0], [s, c * c, -c * s, 0], [0, s, c, 0], [0, 0, 0, 1]]
-    for rows in (pose(), turned):
-        bodies = [(name, f"{name}.obj", rows) for name in ("wall", "rod")]
-        assert only(check(placed_scene(tmp_path, bodies))).relation == "separated"
 
 
 def over_the_hole(folder, body, **extra):
@@ -383,15 +273,6 @@ def test_pieces_of_one_surface_keep_their_winding(tmp_path):
     body = together(sides, ring, hollow)
     assert relation(tmp_path, body, box((1.5, 1.5, 1.5), (2.5, 2.5, 2))) == "separated"
     assert relation(tmp_path, body, box((0.25, 0.25, 0.25), (0.5, 0.5, 0.5))) == "contains"
-
-
-@pytest.mark.parametrize("accuracy", ["aabb", "obb", "hull", "parts"])
-@pytest.mark.parametrize("sheet", [SQUARE, DOUBLE, SHEET_AND_BOX], ids=["open", "double", "beside"])
-def test_no_rung_leaves_a_sheet_out(tmp_path, accuracy, sheet):
-    """A rung below the triangles may err towards an overlap only."""
-    settings = Settings(accuracy=accuracy, cache=False)
-    report = check(scene_of(tmp_path, a=sheet, b=unit_box(z=-0.5)), settings)
-    assert (only(report).relation, report.summary.verdict) == ("penetrating", "fail")
 
 
 def test_a_triangle_that_comes_twice_leaves_a_solid_what_it_is(tmp_path):
