@@ -104,7 +104,7 @@ def _check_scaled(
 ) -> Report | None:
     """The check of a scene with bodies beyond the number range of the core. None: scaling would not
     bring more bodies than the `placed` ones into the range."""
-    if scene.asks_for_support:
+    if scene.asks_for_support or scene.joint_path is not None:
         return None  # the bodies beyond the range stay unusable, and the answers open
     from satcheck.audit.scaled_check import Scaling
     from satcheck.scene.scaled_scene import exponent_for, scaled_scene

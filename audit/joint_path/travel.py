@@ -65,7 +65,7 @@ class Travel:
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
         self._scene, self._path = scene, path
-        self._centres = np.array([centre for centre, _ in around])
+        self._centres = np.array([centre for centre, _ in around]).reshape(-1, 3)
         self._radii = [radius for _, radius in around]
         self._joints = [
             (number, joint)
@@ -99,7 +99,9 @@ class Travel:
         linear = matrices.reshape(count, -1, 3, 4)
         centres = np.einsum("nbij,bj->bni", linear[..., :3], self._centres)
         centres += linear[..., 3].transpose(1, 0, 2)
-        reach = float(np.abs(matrices[:, :, 3::4]).max(initial=0.0)) + 2 * max(self._radii)
+        reach = float(np.abs(matrices[:, :, 3::4]).max(initial=0.0)) + 2 * max(
+            self._radii, default=0.0
+        )
         reach += float(np.abs(origins).max(initial=0.0))
         return Middle(
             matrices, np.array(axes), origins, turns, shifts, centres, self._pad(values, reach)

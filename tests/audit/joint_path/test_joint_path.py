@@ -234,3 +234,33 @@ def test_scenes_without_an_answer_are_refused(tmp_path: Path) -> None:
     scene = arm(tmp_path, fixed("post", "0 2.2 0", box("0.1 0.1 1")))
     with pytest.raises(SatcheckError, match="--accuracy hull"):
         swept(scene, poses((0, 0), (1, 0)), Settings(depth=False, accuracy="hull"))
+
+
+@pytest.mark.parametrize(
+    "forearm",
+    [solid('<mesh filename="lost.stl"/>', "0.5 0 0"), box("1e50 1e50 1e50", "0.5 0 0")],
+    ids=["missing", "beyond the range"],
+)
+@pytest.mark.parametrize("others", [0, 1, 2])
+def test_a_link_that_cannot_be_used_leaves_the_others_their_answers(
+    tmp_path: Path, forearm: str, others: int
+) -> None:
+    """Its pairs are undecided; a hand on the same forearm still hits the post."""
+    post, hand = (
+        fixed("post", "1.2 1.2 0", box("0.1 0.1 1")),
+        link("hand", box("1 0.08 0.08", "0.5 0 0")),
+    )
+    carried = joint("wrist", "fore", "hand")
+    scene = arm(tmp_path, *(post, hand + carried)[:others], forearm=forearm)
+    path = poses((0, 0), (1.5, 0))
+    if len(scene.bodies) + len(scene.unreadable) < 2:
+        with pytest.raises(SatcheckError, match="two bodies"):
+            swept(scene, path)
+        return
+    report = swept(scene, path)
+    assert report.summary.verdict == ("fail" if others == 2 else "incomplete")
+    assert between(report, "fore", "post").relation == "indeterminate"
+    if others == 2:
+        motion = between(report, "hand", "post").motion
+        assert motion is not None
+        assert motion.relation == "penetrating"
