@@ -58,6 +58,10 @@ class JointMovers:
         )
         return low, high  # type: ignore[return-value]
 
+    def may_meet(self, *_: object) -> bool:
+        """True: `sweep` asks."""
+        return True
+
     def sweep(self, close: Collection[tuple[int, int]]) -> None:
         """Sweeps these pairs, by the numbers of their bodies; `paths` then has the results."""
         wanted = set(close)

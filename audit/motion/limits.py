@@ -15,6 +15,8 @@ SLID = 64
 STEPS = 4096
 # Pairs of boxes and triangles that all these queries may visit: a few seconds.
 VISITS = 10_000_000
+# The broad phase halves the motion so often: after 6 halvings a part is 1/64 of it.
+HALVINGS = 6
 # Poses after an unproven contact in which an overlap is searched.
 PROBES = 64
 # The search for the worst pose ends when the interval is narrower than this share of the figure.

@@ -102,7 +102,7 @@ def test_any_curved_shape_turns_in_front_of_a_wall(tmp_path: Path, kind: str) ->
     write(tmp_path, l=bracket())
     body = f'{{id = "a", shape = {{type = "{kind}", {sizes[kind]}}}}}'
     turn = "rotation = {axis = [1, 0, 0], degrees = 180}"
-    far = '{id = "b", mesh = "l.obj", position = [-3, 1.51, -2]}'
+    far = '{id = "b", mesh = "l.obj", position = [-3, 1.5002, -2]}'
     assert swept(tmp_path, f"{body}, {far}", turn).relation == "separated"
     close = '{id = "b", mesh = "l.obj", position = [-3, 1.4, -2]}'
     found = swept(tmp_path, f"{body}, {close}", turn)

@@ -44,6 +44,20 @@ def test_what_hits_on_the_way_fails(tmp_path: Path) -> None:
     assert (effect.asked_by, effect.pairs) == (("the motions of the scene",), 1)
 
 
+def test_bodies_far_from_the_path_are_not_swept(tmp_path: Path) -> None:
+    """The box over the whole diagonal holds all of the grid. Bodies meet if they are on it: unit
+    boxes on multiples of 4, where x + y is that of the mover."""
+    grid = {f"g{k}": unit_box(4.0 * (k % 8), 4.0 * (k // 8), 0.0) for k in range(64)}
+    movers = {"a": unit_box(-6.0, 26.0, 0.0), "c": unit_box(-6.0, 30.0, 0.0)}
+    along = Motion(("a", "c"), Translation((40.0, -40.0, 0.0)))
+    report = checked(tmp_path, [along], settings=Settings(depth=False), **movers, **grid)
+    swept = [finding for finding in report.findings if finding.motion]
+    hits = {(f.a, f.b) for f in swept if f.relation == "penetrating"}
+    on_it = {("a", f"g{k}") for k in range(64) if k % 8 + k // 8 == 5}
+    assert hits == on_it | {("c", f"g{k}") for k in range(64) if k % 8 + k // 8 == 6}
+    assert len(swept) <= 2 * len(hits)
+
+
 @pytest.mark.parametrize("accuracy", ["aabb", "obb", "hull", "parts", "exact"])
 @pytest.mark.parametrize("shape", [unit_box(), moved(bracket(), -3.0, 0.0, 0.0)])
 def test_a_hit_fails_as_the_same_overlap_at_rest_does(tmp_path: Path, accuracy: str, shape) -> None:
@@ -62,9 +76,9 @@ def test_a_hit_fails_as_the_same_overlap_at_rest_does(tmp_path: Path, accuracy: 
 
 
 def test_boxes_that_meet_in_no_pose_that_was_tried_pass_nothing(tmp_path: Path) -> None:
-    """The box of the whole way meets the other body, that of no pose does."""
+    """The box of the part from 45 degrees on meets the other body, that of no pose does."""
     turn = Motion(("a",), Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 90.0))
-    meshes = {"a": box((4, 0, 0), (5, 0.5, 1)), "b": box((4.2, 4.2, 0), (5, 5, 1))}
+    meshes = {"a": box((4, 0, 0), (5, 0.5, 1)), "b": box((3.53, 3.9, 0), (5, 5, 1))}
     report = checked(tmp_path, [turn], [], Settings(accuracy="aabb"), **meshes)
     (finding,) = report.findings
     assert (finding.relation, finding.undecided) == ("indeterminate", "motion")
@@ -93,7 +107,7 @@ def test_bodies_of_one_motion_stand_still_against_each_other(tmp_path: Path) -> 
         [Motion(("a", "b"), turn)],
         a=unit_box(1.0),
         b=unit_box(1.5),
-        c=box((1.8, 1.8, 0), (2.2, 2.2, 1)),
+        c=box((1.6, 1.6, 0), (2.2, 2.2, 1)),
     )
     found = {(f.a, f.b): f for f in report.findings}
     assert found["a", "b"].motion is None

@@ -8,21 +8,23 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.swept import swept_box
+from satcheck.audit.motion.movers import Movers
+from satcheck.audit.motion.swept import EVERYWHERE, SweptBoxes, may_meet, swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.motion.turn import applied
-from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
+ORIGIN = (0.0, 0.0, 0.0)
 BOUNDS = ((1.0, -0.5, 0.0), (3.0, 0.5, 1.0))
 
 
-def samples(path, count=2000):
+def samples(path, start=0.0, end=1.0, count=2000):
     track = track_of(path)
     corners = list(itertools.product(*zip(*BOUNDS, strict=True)))
     found = []
     for k in range(count + 1):
-        turn, shift = track.pose_at(k / count)
+        turn, shift = track.pose_at(start + (end - start) * k / count)
         found += [np.add(applied(turn, corner), shift) for corner in corners]
     return np.array(found)
 
@@ -54,6 +56,14 @@ def test_the_body_is_always_inside(path):
     assert (np.minimum(BOUNDS[0], points.min(axis=0)) - low <= 0.5).all() or path.degrees == 1e5
 
 
+def test_a_motion_beyond_float64_may_meet_everything():
+    """The velocity of the first leg is infinite, so that its centre is not a number."""
+    back = (Waypoint(5e-324, (5.0, 0.0, 0.0)), Waypoint(1.0, ORIGIN))
+    boxes = SweptBoxes(BOUNDS, track_of(PosePath((Waypoint(0.0, ORIGIN), *back))))
+    assert boxes.over(0.0, 1.0) == EVERYWHERE
+    assert may_meet(boxes, SweptBoxes(((4.0, 0.0, 0.0), (4.5, 1.0, 1.0))), 0.0)
+
+
 def test_a_translation_is_boxed_tightly():
     low, high = swept_box(BOUNDS, track_of(Translation((3.0, -4.0, 0.0))))
     assert low == pytest.approx((1.0, -4.5, 0.0), abs=1e-12)
@@ -62,9 +72,45 @@ def test_a_translation_is_boxed_tightly():
 
 def test_where_it_was_placed_counts_too():
     far = PosePath((Waypoint(0.0, (50.0, 0.0, 0.0)), Waypoint(1.0, (60.0, 0.0, 0.0))))
-    low, high = swept_box(BOUNDS, track_of(far))
-    assert low[0] <= 1.0
-    assert high[0] == pytest.approx(63.0, abs=1e-11)
+    low, high = Movers([Motion(("a",), far)]).bounds("a", BOUNDS)
+    assert low == pytest.approx(BOUNDS[0], abs=1e-11)
+    assert high == pytest.approx((63.0, *BOUNDS[1][1:]), abs=1e-11)
+    near_the_place = SweptBoxes(((0.0, 0.0, 0.0), (2.0, 1.0, 1.0)))
+    assert may_meet(SweptBoxes(BOUNDS, track_of(far)), near_the_place, 0.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_over_a_part_the_body_is_inside(seed):
+    rng = np.random.default_rng(seed)
+    path = path_of(rng)
+    boxes = SweptBoxes(BOUNDS, track_of(path))
+    for _ in range(8):
+        start, end = sorted(map(float, rng.uniform(size=2)))
+        low, high = boxes.over(start, end)
+        points = samples(path, start, end, count=100)
+        assert (points >= low).all()
+        assert (points <= high).all()
+
+
+def test_bodies_that_pass_the_same_place_at_other_times_do_not_meet():
+    """Both cross the origin."""
+    corner = ((-20.5, -20.5, 0.0), (-19.5, -19.5, 1.0))
+    a = SweptBoxes(corner, track_of(Translation((40.0, 40.0, 0.0))))
+    other = ((-20.5, 19.5, 0.0), (-19.5, 20.5, 1.0))
+    there = Waypoint(1.0, (40.0, -40.0, 0.0))
+    at_once = PosePath((Waypoint(0.0, ORIGIN), there))
+    later = PosePath((Waypoint(0.0, ORIGIN), Waypoint(0.9, ORIGIN), there))
+    assert may_meet(a, SweptBoxes(other, track_of(at_once)), 0.0)
+    assert not may_meet(a, SweptBoxes(other, track_of(later)), 0.0)
+
+
+def test_beside_the_path_boxes_are_apart():
+    """The corners that are nearest pass each other at sqrt 2, along the diagonal."""
+    corner = ((-20.5, -20.5, 0.0), (-19.5, -19.5, 1.0))
+    a = SweptBoxes(corner, track_of(Translation((40.0, 40.0, 0.0))))
+    aside = SweptBoxes(((5.0, 9.0, 0.0), (6.0, 10.0, 1.0)))
+    assert not may_meet(a, aside, 1.0)
+    assert may_meet(a, aside, 1.5)
 
 
 def test_whole_turns_are_boxed_by_their_circle():
