@@ -6,7 +6,7 @@ The core sorts them without placing a body (`core/native/poses/sift.hpp`).
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -98,20 +98,24 @@ class PosedPairs:
         return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
     def sift(
-        self, matrices: Numbers, margins: Numbers | None = None, clearances: bool = True
+        self,
+        matrices: Numbers,
+        margins: Numbers | None = None,
+        tolerances: Sequence[float] | None = None,
     ) -> Codes:
         """Shape (poses, pairs): OPEN, APART or DEEP. matrices: those of `PoseBatch`. margins: of
         the same shape; pairs are APART only if they are farther apart by this much, and those with
-        NaN stay OPEN. clearances: whether APART pairs keep their clearances."""
+        NaN stay OPEN. tolerances: those of the pairs, on a path of joints; then only they count,
+        and no clearances."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for pair, (a, b) in zip(self.pairs, self._places, strict=True):
-            tolerance = pair.request.tolerance
+        for k, (pair, (a, b)) in enumerate(zip(self.pairs, self._places, strict=True)):
+            tolerance = pair.request.tolerance if tolerances is None else tolerances[k]
             if tolerance is None:
-                deviations = (self._bodies[k].body.file.deviation for k in (a, b))
+                deviations = (self._bodies[body].body.file.deviation for body in (a, b))
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
-            off = max(self._bodies[k].surface_tolerance for k in (a, b))
-            clearance = (clearances and pair.request.clearance) or 0.0
+            off = max(self._bodies[body].surface_tolerance for body in (a, b))
+            clearance = (tolerances is None and pair.request.clearance) or 0.0
             gap_limit = max(clearance, tolerance)
             never = pair.request.limited
             depth = inf if never else max(0.5 * tolerance, off)

@@ -141,7 +141,7 @@ class Search:
     ) -> tuple[Flags, Flags]:
         """(intervals that stay unknown, those whose later half does, too)"""
         margins = self._margins(active, at)
-        codes = self._pairs.sift(at.matrices, margins, clearances=False)
+        codes = self._pairs.sift(at.matrices, margins, [f.tolerance for f in found])
         middles = part.middle
         for row, k in np.argwhere(active & (codes == DEEP)).tolist():
             found[k].hit = min(found[k].hit, float(middles[row]))
@@ -151,22 +151,32 @@ class Search:
             if middles[row] >= found[k].hit or found[k].climbs >= self._climbs:
                 continue
             found[k].climbs += 1
-            pair = self._pair(at, row, k, float(margins[row, k]))
+            pair = self._pair(at, row, k, found[k].tolerance, float(margins[row, k]))
             finding = examine(pair, Trace()).finding
             if overlaps(finding):
                 found[k].hit, later[row, k] = float(middles[row]), False
             elif _is_clear(finding):
                 unknown[row, k] = later[row, k] = False
-            elif finding.exact_relation in FREE and margins[row, k] <= pair.tolerance:
+            elif self._stays_within(at, row, k, found[k].tolerance, float(margins[row, k])):
                 found[k].touch = min(found[k].touch, float(part.start[row]))
                 unknown[row, k] = later[row, k] = False
         return unknown, later
+
+    def _stays_within(
+        self, at: Middle, row: int, k: int, tolerance: float, travelled: float
+    ) -> bool:
+        """Whether no overlap in the interval is beyond the tolerance, because none in its middle is
+        beyond what the bodies do not travel."""
+        if travelled >= tolerance:
+            return False
+        pair = self._pair(at, row, k, tolerance - travelled, 0.0)
+        return examine(pair, Trace()).finding.relation in FREE
 
     def _compare(self, part: Interval, active: Flags, at: Middle, found: list[Found]) -> Flags:
         """The intervals in which the pairs may be nearer than the least known distance."""
         travelled = self._margins(active, at)
         limits = np.array([f.nearest.lower if f.nearest else 0.0 for f in found])
-        codes = self._pairs.sift(at.matrices, travelled + limits, clearances=False)
+        codes = self._pairs.sift(at.matrices, travelled + limits, [f.tolerance for f in found])
         unknown: Flags = active & (codes != APART)
         worth = unknown & (travelled <= np.maximum(0.25 * limits, NEAR * self._sizes))
         for k in np.flatnonzero(worth.any(axis=0)).tolist():
@@ -175,17 +185,18 @@ class Search:
             assert nearest is not None
             for row in rows[:: -(-len(rows) // MEASURED)].tolist():
                 enough = nearest.lower + float(travelled[row, k])
-                finding = examine(self._pair(at, row, k, enough), Trace()).finding
+                pair = self._pair(at, row, k, found[k].tolerance, enough)
+                finding = examine(pair, Trace()).finding
                 unknown[row, k] = not _is_clear(finding)
                 if finding.distance is not None and finding.distance < nearest.upper:
                     nearest.upper, nearest.time = finding.distance, float(part.middle[row])
                     nearest.lower = min(nearest.lower, NARROWED * finding.distance)
         return unknown
 
-    def _pair(self, at: Middle, row: int, k: int, clearance: float) -> Pair:
+    def _pair(self, at: Middle, row: int, k: int, tolerance: float, clearance: float) -> Pair:
         (pair,) = self._pairs.at(at.matrices, row, [k])
         by: dict[Effect, str] = {"overlap": ALWAYS, "distance": ALWAYS}
-        request = Request(by, clearance=clearance, tolerance=max(pair.tolerance, self._band(at, k)))
+        request = Request(by, clearance=clearance, tolerance=tolerance)
         return replace(pair, request=request)
 
     def _band(self, at: Middle, k: int) -> float:

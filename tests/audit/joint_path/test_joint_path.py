@@ -70,7 +70,7 @@ def test_a_straight_arm_hits_a_post_at_a_known_angle(tmp_path: Path) -> None:
     low, high = motion.time_of_impact
     # An overlap within the touch band is none yet; the arm is more than 1 long there.
     assert low * 1.5 - motion.tolerance <= angle <= high * 1.5 + 1e-12
-    assert high - low < 1e-13
+    assert high - low < 1e-12
     assert motion.joints == {"shoulder": pytest.approx(angle), "elbow": 0.0}
     assert motion.poses == (1, 2)
 
@@ -264,3 +264,24 @@ def test_a_link_that_cannot_be_used_leaves_the_others_their_answers(
         motion = between(report, "hand", "post").motion
         assert motion is not None
         assert motion.relation == "penetrating"
+
+
+@pytest.mark.parametrize(("share", "relation"), [(0.5, "touching"), (2.0, "penetrating")])
+def test_the_touch_band_ends_at_the_tolerance_of_the_sweep(
+    tmp_path: Path, share: float, relation: str
+) -> None:
+    """A block slides into a wall by a share of the least tolerance of a path."""
+    slide = '<axis xyz="1 0 0"/><limit lower="0" upper="2" effort="1" velocity="1"/>'
+    text = robot_of(
+        link("wall", box("1 4 4", "2 0 0")),
+        link("block", box("1 1 1")),
+        joint("slide", "wall", "block", "prismatic", slide),
+    )
+    (tmp_path / "r.urdf").write_text(text)
+    scene = load_scene([tmp_path / "r.urdf"])
+    deep = swept(scene, [{"slide": (0.0,)}, {"slide": (1.5,)}])
+    motion = between(deep, "wall", "block").motion
+    assert motion is not None
+    depth = share * motion.tolerance
+    report = swept(scene, [{"slide": (0.0,)}, {"slide": (1.0 + depth,)}, {"slide": (0.0,)}])
+    assert between(report, "wall", "block").relation == relation
