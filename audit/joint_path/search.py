@@ -37,8 +37,8 @@ NEAR = 1 / 256
 # The most intervals of one pair, and the most that climb: those of a sweep, and so many for each
 # piece of the path.
 STEPS_A_PIECE = 64
-CLIMBS = 512
-CLIMBS_A_PIECE = 16
+CLIMBS = 96
+CLIMBS_A_PIECE = 8
 # An interval of t is halved down to this length. A travel of its length is within the touch band,
 # which is at least this share of the smaller body.
 SHORTEST = 2.0**-46
