@@ -27,6 +27,7 @@ POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point
 # The fields of a finding and its parts that state lengths and areas. _finding scales volumes.
 DIMENSIONS = {
     **dict.fromkeys(("tolerance", "distance", "distance_bounds", "depth", "depth_bounds"), 1),
+    "distance_at_least": 1,
     **dict.fromkeys(("thickness", "thickness_bounds", "ball"), 1),
     **dict.fromkeys(("mtv", "witness", "points", "outlines", "length"), 1),
     **dict.fromkeys(("bounds", "point", "thickness_bounds", "curve_length"), 1),

@@ -186,3 +186,22 @@ def test_other_commands_say_that_they_do_not_scale(tmp_path: Path) -> None:
         with pytest.raises(SatcheckError, match="beyond 1e45") as caught:
             ask(scene)
         assert caught.value.code == "out-of-range"
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e50, 1e-50])
+def test_the_gap_that_a_motion_keeps_is_in_the_unit_of_the_scene(
+    tmp_path: Path, scale: float
+) -> None:
+    """The scan proves that the balls stay apart by the clearance, and no more is asked."""
+    shape = {"type": "sphere", "radius": scale}
+    bodies = [
+        {"id": "still", "shape": shape},
+        {"id": "moved", "shape": shape, "position": [1.8 * scale, 1.8 * scale, -2 * scale]},
+    ]
+    motion = [{"bodies": "moved", "translation": [0, 0, 4 * scale]}]
+    content = {"schema": "satcheck.scene/1", "bodies": bodies, "motion": motion}
+    (tmp_path / "s.json").write_text(json.dumps(content))
+    settings = Settings(depth=False, clearance=0.5 * scale)
+    sweep = check(load_scene([tmp_path / "s.json"]), settings).findings[0].motion
+    assert sweep is not None
+    assert sweep.distance_at_least == pytest.approx(0.5 * scale)
