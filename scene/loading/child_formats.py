@@ -1,4 +1,4 @@
-"""Reads 3MF, DAE, 3DXML, XAML, ZAE, STEP, USD and some glTF files in a child process.
+"""Reads 3MF, DAE, ZAE, 3DXML, XAML, STEP, IFC, USD and some glTF files in a child process.
 
 Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
 `serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
