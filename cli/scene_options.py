@@ -58,7 +58,7 @@ reading_options = together(
         metavar="RADIANS",
         default=ANGULAR_TOLERANCE,
         show_default=True,
-        help="Between such facets.",
+        help="The largest angle between them.",
     ),
 )
 split_option = click.option(
@@ -72,7 +72,7 @@ units_option = click.option(
     "--units",
     type=click.Choice(tuple(MICROMETRES)),
     metavar="UNIT",
-    help=f"Of files that state none: {', '.join(MICROMETRES)}.",
+    help=f"The unit of files without one: {', '.join(MICROMETRES)}.",
 )
 merge_option = click.option(
     "--merge",
@@ -116,7 +116,7 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="The folder of a package, a model or a part of it. Repeatable.",
+    help="The folder of a package or model, or of a part of it. Repeatable.",
 )
 
 
@@ -139,20 +139,20 @@ geometry_options = together(
         multiple=True,
         type=click.Choice(get_args(Purpose)),
         metavar="NAME",
-        help="Of drawn USD prims: render (the default), proxy, guide.",
+        help="The drawn prims of USD: render (default), proxy, guide.",
     ),
     click.option(
         "--time",
         type=float,
         metavar="TIME",
         callback=_time,
-        help="Of animations: seconds in glTF, time code in USD.",
+        help="The time in animations: glTF seconds, USD time code.",
     ),
-    click.option("--animation", metavar="NAME", help="Of glTF: which one --time means."),
+    click.option("--animation", metavar="NAME", help="The glTF animation that --time refers to."),
     click.option(
         "--mesh-hulls",
         is_flag=True,
-        help="Of MJCF: check hulls of meshes, as MuJoCo does.",
+        help="Check the hulls of MJCF meshes, as MuJoCo does.",
     ),
 )
 # That pose robots.
@@ -198,7 +198,7 @@ one_pose_options = together(
         "--pose",
         multiple=True,
         metavar="FILE",
-        help="Values of the joints of a robot, as in a check, of one pose.",
+        help="Values of the joints of a robot, for one pose, as in a check.",
     ),
     click.option(
         "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."

@@ -86,7 +86,7 @@ _PATTERN = frozenset("*?[")
     type=parse_shard,
     metavar="I/N",
     default="1/1",
-    help="Only part I of N of the scenes. The names of its files decide in which part a scene is.",
+    help="Check only part I of N of the scenes. The names of its files decide the part of a scene.",
 )
 @click.option(
     "--engine",
@@ -125,11 +125,11 @@ def command(
 ) -> int:
     """Check thousands of scenes: none stops the others.
 
-    A scene is a scene file, a robot or a mesh file; a folder stands for all of them in it, and -
-    reads their names from standard input. Any of the files may be a URL, as s3://bucket/a.toml. A
-    process that crashes, hangs or needs too much memory is replaced; its scene is checked again
-    without the file or the pair that did it, which is reported. Each result is on the disk as soon
-    as it is known, in FILE.part; FILE itself appears when all results are there.
+    A scene is a scene file, a robot or a mesh file. A folder stands for all scenes in it, and -
+    reads their names from standard input. Any of the files may be a URL, as s3://bucket/a.toml. If
+    a process crashes, hangs or needs too much memory, satcheck replaces it, checks its scene again
+    without the file or pair at fault, and reports that file or pair. FILE.part receives each
+    result at once; FILE itself appears when all results are there.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.

@@ -205,7 +205,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="RATIO",
     default=DEFAULTS.thickness_width,
     show_default=True,
-    help="The same of the thickness.",
+    help="The same for the thickness.",
 )
 @planar_option
 @split_option

@@ -23,19 +23,19 @@ _ANY = {**HELP_NAMES, "ignore_unknown_options": True}
 def command() -> None:
     """The config file: show which options are in effect.
 
-    Options of a check and of `satcheck each` can be in the nearest satcheck.toml or in
-    [tool.satcheck] of pyproject.toml, from the current folder upward. `satcheck schema config`
-    prints the JSON Schema of the file.
+    The file is the nearest satcheck.toml, or pyproject.toml with [tool.satcheck], from the current
+    folder upward. It sets options of a check, of `satcheck each` and of `satcheck batch`. `satcheck
+    schema config` prints its JSON Schema.
     """
 
 
 @command.command("show", cls=Command, context_settings=_ANY)
-@click.argument("arguments", metavar="[each] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
+@click.argument("arguments", metavar="[each|batch] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
 def show(arguments: Sequence[str]) -> None:
     """Print the options in effect, and where each comes from.
 
-    Of `satcheck [OPTIONS]`, or of `satcheck each [OPTIONS]`: default, the line of the config file,
-    or the command line.
+    The options are those of `satcheck [OPTIONS]`, `satcheck each [OPTIONS]` or `satcheck batch
+    [OPTIONS]`. An option comes from its default, a line of the config file, or the command line.
     """
     name, rest = COMMANDS[0], list(arguments)
     if rest and rest[0] in COMMANDS:

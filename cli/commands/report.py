@@ -42,7 +42,7 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
 @click.option(
     "--manifest",
     metavar="FILE",
-    help="Expect a result of each scene that FILE names, one in a line, as for satcheck batch.",
+    help="Expect a result for each scene that FILE names, one per line, as satcheck batch does.",
 )
 @click.option(
     "--format",

@@ -63,9 +63,10 @@ def command(
 ) -> int:
     """Check whether equivalent inputs get the same answer.
 
-    The mesh files A and B are scaled by powers of two, stored in another order of vertices and
-    faces, given other axes, swapped, moved, given other triangles, turned, and disturbed by one
-    unit in the last place, N samples of each. Each change is compared with its proven bound.
+    satcheck makes variants of the mesh files A and B, N of each kind: scaled by powers of two,
+    vertices and faces reordered, axes exchanged, A and B swapped, moved, turned, faces divided into
+    other triangles, coordinates changed by one unit in the last place. It compares each change of
+    the answer with its proven bound.
 
     Exit codes: 0, everything is within its bound; 1, something is not; 2, wrong usage, an
     unreadable input, or an internal error; 3, something could not be decided.

@@ -43,7 +43,7 @@ from satcheck.report.report import Report
 @click.option(
     "--asset",
     metavar="FILE",
-    help="Which asset, of a report of satcheck each that has several.",
+    help="The asset to show, if a report of satcheck each has several.",
 )
 @root_option
 @click.option(
@@ -68,9 +68,9 @@ def command(
 ) -> int:
     """Show a report in 3-D, from its mesh files.
 
-    REPORT is a JSON report of a check. The mesh files are read again, and a file that has changed
-    since is named. Without an output the page opens in the browser; -o takes .html, .png, .glb and
-    .bcf. Where surfaces cross is shown if the check had --contacts.
+    REPORT is a JSON report of a check. satcheck reads the mesh files again, and names each file
+    that has changed since the check. Without -o the page opens in the browser; -o takes .html,
+    .png, .glb, .bcf and .bcfzip. The page shows where surfaces cross if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.
