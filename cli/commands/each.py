@@ -56,9 +56,9 @@ def command(
 ) -> int:
     """Check each asset of a folder as a scene of its own.
 
-    An asset is a mesh file, a scene or a robot. In a folder every asset below it counts; a pattern
-    ("props/**/*.glb") may stand for files, and - reads their names from standard input, a line
-    each, or with a NUL behind each. Bodies of different assets are never compared. An asset with
+    An asset is a mesh file, a scene or a robot. A folder stands for all assets below it, and a
+    pattern ("props/**/*.glb") for files. - reads names of files from standard input, one per line,
+    or each ended by a NUL. Bodies of different assets are never compared. An asset with
     one body passes if that body can be read. A URDF is read without its SRDF.
 
     The exit code is that of the worst asset: 2 if one cannot be read, else 1 if one fails, else 3

@@ -109,8 +109,8 @@ def command(
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked or the batch did not finish, else 0. With --sql only the files
     count: 2 if one has lines that are no results, 3 if a batch did not finish, else 0. With
-    --against it is 1 if a finding is new or worse, 3 if that is not decided for one, and 2 if a
-    scene cannot be read that could be.
+    --against it is 1 if a finding is new or worse, 3 if that is undecided for a finding, and 2 if a
+    scene cannot be read now but could be read before.
     """
     forms = _forms(sql, against, folder)
     form = form_of(form, output, forms)

@@ -96,9 +96,9 @@ def command(
 ) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
-    These are the pairs in contact as they are placed, and links of a robot with a joint between
-    them. With --sample, or several poses, pairs in contact in every pose are added; a single pose
-    places the robot. The reason of each rule has the evidence. Confirm each rule: an intended
+    satcheck suggests the pairs that are in contact as placed, and the links of a robot that a joint
+    connects. With --sample, or several poses, it adds the pairs in contact in every pose; a single
+    pose places the robot. The reason of each rule states the evidence. Confirm each rule: an intended
     contact and a fault look the same.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
