@@ -98,8 +98,8 @@ def command(
 
     satcheck suggests the pairs that are in contact as placed, and the links of a robot that a joint
     connects. With --sample, or several poses, it adds the pairs in contact in every pose; a single
-    pose places the robot. The reason of each rule states the evidence. Confirm each rule: an intended
-    contact and a fault look the same.
+    pose places the robot. The reason of each rule states the evidence. Confirm each rule: an
+    intended contact and a fault look the same.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
