@@ -1,7 +1,18 @@
 #include "motion/moving.hpp"
 
+#include <numbers>
+
+#include "base/tolerances.hpp"
+
 namespace satcheck {
 namespace {
+
+// Rounding of the height of a point, in roundoffs of its distance from the origin and of that of the centre: a dot
+// product 4, the axis and the products of `a` and `b` 16 each. The angle has an error of 16 roundoffs, 4 of them from
+// each function and the rest from half a turn, and with it the point moves by so many roundoffs of its radius. The
+// cosine of the angle between the top of the circle and the height has an error of 8, which is a height of 8 roundoffs
+// of the radius. The radius is at most the sum of both distances.
+constexpr double kHeightError = 128 * kUnitRoundoff;
 
 // The largest s with room >= rate s + bend s^2 / 2, for room > 0 and bend >= 0.
 double time_by_bend(double room, double rate, double bend) {
@@ -26,6 +37,20 @@ double least(double gap, const Approach::Speed& speed, double bend, double windo
 }
 
 }  // namespace
+
+double time_below(Vec3 p, const Moving& turning, Vec3 n, double height, double limit) {
+  const double speed = norm(turning.spin);
+  const Vec3 axis = turning.spin * (1 / speed), r = p - turning.centre;
+  const double a = dot(n, r) - dot(n, axis) * dot(axis, r), b = dot(n, cross(axis, r));
+  const double room = height - dot(n, p) - kHeightError * (norm(p) + norm(turning.centre));
+  if (!(room > 0)) return 0;
+  const double radius = std::hypot(a, b);
+  if (a + room >= radius) return limit;
+  // The height is reached this angle before the top of the circle.
+  const double before_top = std::acos((a + room) / radius), top = std::atan2(b, a);
+  const double angle = top > 0 ? std::fmax(top - before_top, 0.0) : top - before_top + 2 * std::numbers::pi;
+  return std::fmin(angle / speed, limit);
+}
 
 double MotionQuestion::answer(const Approach& approach) const {
   if (std::isnan(approach.gap)) return trivial();

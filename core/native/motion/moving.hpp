@@ -21,7 +21,13 @@ struct Moving {
   Vec3 spin;      // unit axis times radians per unit of time, right-handed
 
   Vec3 velocity_at(Vec3 world) const { return velocity + cross(spin, world - centre); }
+  bool stands() const { return velocity == Vec3{} && spin == Vec3{}; }
+  bool only_turns() const { return velocity == Vec3{} && !(spin == Vec3{}); }
 };
+
+// The time until which the point p of a body that only turns stays below a height along the unit direction n, up to
+// `limit`. The height of a point on its circle is that of the circle's centre plus a sine.
+double time_below(Vec3 p, const Moving& turning, Vec3 n, double height, double limit);
 
 // The frames in which two bodies are seen. In the world, the axis of a gap is fixed. If one body is at rest and the
 // other turns about a fixed axis, the frame may also turn with that body. The axis of the gap then turns too, like the
@@ -33,8 +39,8 @@ class Views {
   };
 
   Views(const Moving& a, const Moving& b) : views_{{a, b}, {a, b}} {
-    if (turns(a) && stands(b)) exchange(views_[1].a, views_[1].b);
-    if (turns(b) && stands(a)) exchange(views_[1].b, views_[1].a);
+    if (a.only_turns() && b.stands()) exchange(views_[1].a, views_[1].b);
+    if (b.only_turns() && a.stands()) exchange(views_[1].b, views_[1].a);
   }
 
   const View* begin() const { return views_; }
@@ -42,9 +48,6 @@ class Views {
   const View& world() const { return views_[0]; }
 
  private:
-  static bool stands(const Moving& m) { return m.velocity == Vec3{} && m.spin == Vec3{}; }
-  static bool turns(const Moving& m) { return m.velocity == Vec3{} && !(m.spin == Vec3{}); }
-
   void exchange(Moving& turning, Moving& standing) {
     standing.centre = turning.centre;
     standing.spin = -turning.spin;
@@ -87,6 +90,9 @@ class MotionQuestion {
   double answer(const Approach& approach) const;
   // Whether a pair with this gap now may have a larger answer than a known one.
   bool may_raise(double gap, double known) const { return time_ ? gap > level_ : gap > known; }
+  bool is_time() const { return time_; }
+  // The gap that shall be kept, for a time.
+  double level() const { return level_; }
   // No answer is larger.
   double largest() const { return time_ ? extent_ : INFINITY; }
   // No smaller answer is of use.
@@ -140,6 +146,29 @@ Approach approach_of(double gap, const PartA& a, const PartB& b, const Views::Vi
   return approach;
 }
 
+// The time, up to `limit`, for which all points of a part that only turns stay below a height along n. No time is
+// proven for a part without corners. Bodies that turn about a line of their contact stay in contact there; their other
+// points leave it, which no bound of the whole part by its fastest point shows.
+template <class Part>
+double time_below(const Part& part, const Moving& turning, Vec3 n, double height, double limit) {
+  if (!part.has_corners()) return 0;
+  part.each_corner([&](Vec3 p) {
+    if (limit > 0) limit = time_below(p, turning, n, height, limit);
+  });
+  return limit;
+}
+
+// The time for which the plane between the bodies, in one view, keeps their points apart; 0 unless one body stands and
+// the other only turns.
+template <class PartA, class PartB>
+double time_by_corners(const PartA& a, const PartB& b, const Views::View& view, Vec3 n, const MotionRounding& rounding,
+                       const MotionQuestion& question) {
+  const double limit = question.largest(), room = question.level() + rounding.gap + rounding.rate * limit;
+  if (view.a.only_turns() && view.b.stands()) return time_below(a, view.a, n, b.along(n).low - room, limit);
+  if (view.b.only_turns() && view.a.stands()) return time_below(b, view.b, -n, -a.along(n).high - room, limit);
+  return 0;
+}
+
 // Raises `answer`, a lower bound of the requested value, to what an axis from A to B, of any length, proves in all
 // views.
 template <class PartA, class PartB>
@@ -151,6 +180,9 @@ void raise_answer(const PartA& a, const PartB& b, Vec3 axis, const Views& views,
   if (!question.may_raise(gap, answer)) return;
   for (const Views::View& view : views) {
     answer = std::fmax(answer, question.answer(approach_of(gap, a, b, view, n, rounding.rate)));
+    if (question.is_time() && answer < question.largest()) {
+      answer = std::fmax(answer, time_by_corners(a, b, view, n, rounding, question));
+    }
   }
 }
 

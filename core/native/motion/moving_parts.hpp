@@ -28,6 +28,14 @@ struct PlacedBox {
   double turning(const Moving& moving) const {
     return norm(cross(moving.spin, centre - moving.centre)) + norm(moving.spin) * radius;
   }
+  bool has_corners() const { return true; }
+  template <class Visit>
+  void each_corner(Visit&& visit) const {
+    for (int k = 0; k < 8; ++k) {
+      visit(centre + axis(0) * (k & 1 ? half.x : -half.x) + axis(1) * (k & 2 ? half.y : -half.y) +
+            axis(2) * (k & 4 ? half.z : -half.z));
+    }
+  }
   Vec3 axis(int k) const { return {rotation.row[0][k], rotation.row[1][k], rotation.row[2][k]}; }
 };
 
@@ -47,6 +55,11 @@ struct PlacedTriangle {
     double largest = 0;
     for (const Vec3& p : corners) largest = std::fmax(largest, norm(cross(moving.spin, p - moving.centre)));
     return largest;
+  }
+  bool has_corners() const { return true; }
+  template <class Visit>
+  void each_corner(Visit&& visit) const {
+    for (const Vec3& p : corners) visit(p);
   }
   Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) * (1.0 / 3); }
   Vec3 normal() const { return cross(corners[1] - corners[0], corners[2] - corners[0]); }
@@ -70,6 +83,12 @@ class PlacedShape {
   }
   double turning(const Moving& moving) const {
     return norm(cross(moving.spin, centre_ - moving.centre)) + norm(moving.spin) * radius_;
+  }
+  bool has_corners() const { return shape_.kind == ShapeKind::hull; }
+  template <class Visit>
+  void each_corner(Visit&& visit) const {
+    const VertexLanes& v = shape_.lanes;
+    for (std::size_t k = 0; k < v.padded(); ++k) visit(core_ * Vec3{v.x[k], v.y[k], v.z[k]});
   }
   Vec3 centre() const { return centre_; }
 

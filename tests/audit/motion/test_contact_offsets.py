@@ -82,6 +82,16 @@ def test_opening_like_a_door():
     assert impact.contact == 0.0
 
 
+@pytest.mark.parametrize("tolerance", BANDS)
+@pytest.mark.parametrize("frame", [box((-1, -1, 0), (0, 0, 8)), moved(bracket(), -6, -2, 0)])
+@pytest.mark.parametrize("door", [box((0, -1, 0), (5, 0, 8)), moved(bracket(), 0, -2, 0)])
+def test_on_a_flush_hinge(door, frame, tolerance):
+    """The door touches its frame along the axis of its turn, at every moment."""
+    impact = impact_of(door, Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 85.0), frame, tolerance)
+    assert impact.free
+    assert impact.contact == 0.0
+
+
 def test_into_the_wall_of_a_corner():
     path = Translation((-0.5, 0.0, 1.0))
     impact = impact_of(unit_box(3, 2, 1), path, bracket())

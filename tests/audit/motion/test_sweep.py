@@ -142,11 +142,13 @@ def test_a_budget_that_ends_at_a_contact_leaves_the_gap_open(monkeypatch):
 
 
 def test_a_million_turns_end():
-    """Next to a wall that the corners pass at 0.1. A step is a part of a turn: that is more of them
-    than the budget has."""
+    """Next to a wall that the corners pass at 0.1. While the wall stands, one plane keeps them
+    apart. If the wall turns too, a step is a part of a turn, and the budget ends first."""
     square = box((-1, -1, 0), (1, 1, 1))
     wall = box((math.sqrt(2.0) + 0.1, -5, 0), (9, 5, 1))
     found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall)
+    assert (found.relation, found.steps) == ("separated", 1)
+    found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall, Rotation((9.0, 0.0, 0.0), Z, 1e-9))
     assert (found.relation, found.steps) == ("indeterminate", STEPS + 1)
     assert found.reason.startswith("the budget of the sweep was spent")
 

@@ -140,6 +140,53 @@ void an_opening_door_is_not_held() {
   CHECK(time(shuts, door, {}, sill) < 0.001);
 }
 
+// The heights of a turning point, sampled: below the height until then, and at it then.
+void a_turning_point_stays_below() {
+  int never = 0, later = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Moving turning{{}, random_vector(2), {}, random_vector(4)};
+    const Vec3 p = i % 5 ? random_vector(2) : turning.centre + turning.spin, n = unit_along(random_vector(1));
+    const double height = dot(n, p) + uniform(0, 2), limit = uniform(0, 5);
+    const auto height_at = [&](double time) { return dot(n, moved({p}, turning, time)[0]); };
+    const double time = time_below(p, turning, n, height, limit);
+    CHECK(time >= 0 && time <= limit);
+    for (int k = 0; k <= 50; ++k) CHECK(height_at(time * k / 50) <= height + kRounding);
+    if (time < limit) CHECK(std::fabs(height_at(time) - height) <= kRounding);
+    never += time == limit;
+    later += time > 0 && time < limit;
+  }
+  CHECK(never > 500 && later > 300);
+  // Where sine or cosine vanish: points of a lattice about a coordinate axis, seen along another.
+  for (int i = 0; i < 27 * 4; ++i) {
+    const Vec3 p{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 % 3 - 1.0}, along = i / 27 % 2 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    const Moving turning{{}, {}, {}, {0, 0, i / 54 % 2 ? 3.0 : -3.0}};
+    for (const Vec3 n : {along, -along}) {
+      for (const double height : {0.0, 0.5, 1.0}) {
+        if (!(dot(n, p) < height)) continue;
+        const double time = time_below(p, turning, n, height, 1);
+        for (int k = 0; k <= 50; ++k) CHECK(dot(n, moved({p}, turning, time * k / 50)[0]) <= height + kRounding);
+      }
+    }
+  }
+  // At the height already; and on the axis, where nothing moves.
+  const Moving turning{{}, {}, {}, {0, 0, 1}};
+  CHECK(time_below({1, 0, 0}, turning, {0, 1, 0}, 0, 1) == 0);
+  CHECK(time_below({0, 0, 3}, turning, {0, 1, 0}, 1e-9, 1) == 1);
+}
+
+// A door that is flush with its frame along the axis touches it all the way and goes no deeper.
+void a_flush_hinge_does_not_hold_a_door() {
+  const Mesh frame = box({-1, -1, 0}, {0, 0, 9}), door = box({0, -1, 0}, {9, 0, 9});
+  const Moving opens{{}, {}, {}, {0, 0, 1.5}};
+  for (const double band : {1e-6, 1e-9}) {
+    const MotionQuestion question = MotionQuestion::time(-band, 1);
+    CHECK(ask_motion(make_hull(door.vertices), opens, make_hull(frame.vertices), {}, question, {}).value == 1);
+    const Surface moved_off = make_surface(box({band, -1, 0}, {9, 0, 9}), true), wall = make_surface(frame, true);
+    CHECK(ask_motion(moved_off, opens, wall, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
+    CHECK(ask_motion(wall, {}, moved_off, opens, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
+  }
+}
+
 void shapes_keep_their_promises() {
   const Shape ball = make_sphere(0.5), cone = make_cone(0.7, 1.0);
   const Shape hull = make_hull(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
@@ -206,6 +253,8 @@ UNIT(moving_surfaces) {
   cut_short_is_less();
   sliding_is_not_slowed_down();
   an_opening_door_is_not_held();
+  a_turning_point_stays_below();
+  a_flush_hinge_does_not_hold_a_door();
   shapes_keep_their_promises();
   a_shape_and_a_surface_keep_theirs();
 }
