@@ -19,8 +19,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
-from satcheck.audit.motion.impact import overlaps
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
+from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPairs
 from satcheck.audit.request.planner import ALWAYS, Request
 from satcheck.audit.request.trace import Trace

@@ -15,7 +15,7 @@ from satcheck.audit.bodies.triangles import triangle_normal
 from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
-from satcheck.audit.motion.moving_pair import MovingPair
+from satcheck.audit.motion.moving_pair import MovingPair, overlaps
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
 
@@ -53,10 +53,16 @@ class ContactOffsets:
             if _is_step(on, t, end) and (seamless or self._frees(self._pair.placed(t), self._last)):
                 return self._keep(self._last, t, on)
         placed = self._pair.placed(t)
-        for offset in self._candidates(t, end, placed):
-            on = self._pair.apart(t, end, offset).time
-            if _is_step(on, t, end) and self._frees(placed, offset):
-                return self._keep(offset, t, on)
+        ahead = self._ahead(t, end)
+        ways = self._ways_off(t, end, placed, self._pair.placed(ahead))
+        for walls in range(1, WALLS + 1):
+            for offset in self._offsets(ways, walls):
+                on = self._pair.apart(t, end, offset).time
+                if _is_step(on, t, end) and self._frees(placed, offset):
+                    return self._keep(offset, t, on)
+            # A contact as short as this does not move the start of the impact (SLID).
+            if walls == 1 and overlaps(self._pair.found_at(ahead)):
+                break
         self._last = None
         return 0.0
 
@@ -68,23 +74,25 @@ class ContactOffsets:
     def _frees(placed: Pair, offset: Vector) -> bool:
         return relation_after(placed, offset) in FREE
 
-    def _candidates(self, t: float, end: float, placed: Pair) -> Iterator[Vector]:
-        ways = self._ways_off(t, end, placed)
+    def _offsets(self, ways: list[Vector], walls: int) -> Iterator[Vector]:
+        """Offsets away from so many walls at once."""
         for share in SHARES:
             length = share * self._pair.tolerance
-            for walls in range(1, WALLS + 1):
-                for chosen in combinations(ways, walls):
-                    x, y, z = (sum(way[axis] for way in chosen) for axis in range(3))
-                    yield scaled((x, y, z), length / walls)
+            for chosen in combinations(ways, walls):
+                x, y, z = (sum(way[axis] for way in chosen) for axis in range(3))
+                yield scaled((x, y, z), length / walls)
 
-    def _ways_off(self, t: float, end: float, placed: Pair) -> list[Vector]:
+    def _ahead(self, t: float, end: float) -> float:
+        """When triangles that are about to meet have met."""
+        speed = self._pair.fastest(t)
+        return min(t + AHEAD * self._pair.tolerance / speed, end) if speed > 0.0 else t
+
+    def _ways_off(self, t: float, end: float, placed: Pair, later: Pair) -> list[Vector]:
         """Unit directions in which A may leave B: the most frequent normals of triangles that
         touch, now or a few bands of motion later, when near triangles cross."""
         nearest = self._pair.apart(t, end).triangles
         normals = _normals(placed, [] if nearest is None else [nearest])
-        speed = self._pair.fastest(t)
-        ahead = min(t + AHEAD * self._pair.tolerance / speed, end) if speed > 0.0 else t
-        for there in (placed, self._pair.placed(ahead)):
+        for there in (placed, later):
             surfaces = there.a.surface(), there.b.surface()
             meeting = core.surface_intersection(*surfaces, MOST_MEETING)
             normals += _normals(there, meeting.triangle_pairs)

@@ -23,8 +23,8 @@ from msgspec import Struct
 from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SHORTEST_WIDE_STEP, SLID
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.report.report import OVERLAPS, Finding
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps
+from satcheck.report.report import OVERLAPS
 
 
 class Impact(Struct, frozen=True):
@@ -67,11 +67,6 @@ def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
     except Unanswerable as why:
         scan.reason = f"{why}, at t = {scan.t:.6g}"
     return scan.impact()
-
-
-def overlaps(finding: Finding) -> bool:
-    """Proven, and not shown to be within the touch band."""
-    return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
 def possible_overlap(pair: MovingPair, start: float) -> float | None:

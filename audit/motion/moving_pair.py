@@ -20,6 +20,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -201,6 +202,11 @@ class MovingPair:
         self.steps += 1
         if self.steps > STEPS or self.visits >= VISITS:
             raise BudgetSpent
+
+
+def overlaps(finding: Finding) -> bool:
+    """Proven, and not shown to be within the touch band."""
+    return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
 def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
