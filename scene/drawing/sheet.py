@@ -2,8 +2,8 @@
 
 The boundary of the triangles is exactly the edges of the contours. Therefore the number of
 counter-clockwise triangles over a point minus the number of clockwise ones is the winding number of
-the contours there. The triangles cover exactly what the non-zero rule fills, and no areas have to
-be compared.
+the contours there. The sum of the signs is not 0 exactly where the non-zero rule fills, and no
+areas have to be compared. No triangle may cover a place where the sum is 0 (`cancelled`).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core import Surface, covers_once
+from satcheck.scene.drawing.cancelled import covers_empty_places
 from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.planar.prism import prism
@@ -88,6 +89,11 @@ def _sheet_of(shape: DrawnShape) -> Sheet:
         raise MeshFileError(
             "unsupported-feature",
             f"shape {shape.name!r}: outlines that cross under the even-odd rule are not read",
+        )
+    if covers_empty_places(points, triangles, polygons):
+        raise MeshFileError(
+            "unsupported-feature",
+            f"shape {shape.name!r}: its outlines cross; unite its paths in the drawing program",
         )
     deviation = max(contour.deviation for contour in contours)
     inscribed = len(contours) == 1 and contours[0].inscribed  # polygons of holes lie within them

@@ -32,17 +32,35 @@ def test_the_fill_rules() -> None:
     assert winding(hole, "nonzero", 5.0, 5.0) == 0
 
 
+EIGHT: tuple[Point, ...] = ((0, 0), (4, 4), (4, 0), (0, 4))
+PENTAGRAM: tuple[Point, ...] = ((50, 0), (79, 90), (2, 35), (98, 35), (21, 90))
+
+
+@pytest.mark.parametrize(
+    "contours", [[square(0, 4), square(2, 6)[::-1]], [EIGHT], [PENTAGRAM], [PENTAGRAM[::-1]]]
+)
+def test_outlines_whose_triangles_cover_empty_places_are_refused(
+    contours: list[tuple[Point, ...]],
+) -> None:
+    """The common square of two squares, or the notches between the lobes, are empty, but any
+    triangles between these corners lie over them."""
+    with pytest.raises(MeshFileError, match="its outlines cross") as caught:
+        winding(contours, "nonzero", 0, 0)
+    assert caught.value.code == "unsupported-feature"
+
+
+def test_outlines_that_leave_nothing_between_are_read() -> None:
+    """Squares that cross in the same direction, and squares apart in opposite directions."""
+    crossed = [square(0, 4), square(2, 6)]
+    assert [winding(crossed, "nonzero", x, x) for x in (1.0, 3.0, 5.0, 7.0)] == [1, 2, 1, 0]
+    apart = [square(0, 4), square(5, 6)[::-1]]
+    assert [winding(apart, "nonzero", x, x) for x in (1.0, 4.5, 5.5)] == [1, 0, -1]
+
+
 def test_an_island_in_a_hole() -> None:
     contours = [square(4, 6), square(0, 10), square(2, 8)]
     found = [winding(contours, "evenodd", x, 5) for x in (1.0, 3.0, 5.0)]
     assert found == [1, 0, 1]
-
-
-def test_a_figure_of_eight_is_filled_on_both_sides() -> None:
-    """Against the clock in one half; what is not 0 is filled."""
-    eight = ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0))
-    assert {winding([eight], "nonzero", x, 2.0 + 0.1) for x in (0.5, 3.5)} == {1, -1}
-    assert winding([eight], "nonzero", 2.0, 3.5) == 0
 
 
 def test_outlines_that_cross_have_no_even_odd_reading() -> None:
@@ -79,9 +97,9 @@ def test_shapes_together_cover_what_any_of_them_covers(turned: bool) -> None:
     assert [solid.winding_number((c, c, 0.5)) for c in (1.0, 3.0, 5.0, 7.0)] == [1, 2, 1, 0]
 
 
-def test_a_figure_of_eight_is_not_put_together_with_others() -> None:
-    eight = ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0))
-    sheets = [sheet_of(DrawnShape("s", (Contour(p),), "nonzero")) for p in (eight, square(0, 1))]
+def test_areas_of_opposite_directions_are_not_put_together_with_others() -> None:
+    both = (Contour(square(0, 4)), Contour(square(5, 6)[::-1]))
+    sheets = [sheet_of(DrawnShape("s", c, "nonzero")) for c in (both, (Contour(square(0, 1)),))]
     with pytest.raises(MeshFileError) as caught:
         united(sheets)
     assert caught.value.code == "unsupported-feature"
