@@ -29,19 +29,19 @@ void require_convex(const std::vector<Vec2>& polygon) {
   if (n < 3 || left < 3) throw std::invalid_argument("a polygon needs three corners that are not on one line");
 }
 
-struct EdgeSigns {
-  bool outside = true;  // no corner of the other polygon lies left of the edge
-  bool touches = false;
-};
+enum class Beyond : std::uint8_t { no, touching, apart };
 
-EdgeSigns signs_across(Vec2 from, Vec2 to, const std::vector<Vec2>& other) {
-  EdgeSigns signs;
+// Whether the other polygon lies on the right of an edge or on its line. inmost: its corner that is farthest to the
+// left, before rounding; it decides most edges alone.
+Beyond beyond(Vec2 from, Vec2 to, const std::vector<Vec2>& other, Vec2 inmost) {
+  if (side_of(from, to, inmost) > 0) return Beyond::no;
+  Beyond result = Beyond::apart;
   for (Vec2 p : other) {
     const int side = side_of(from, to, p);
-    signs.outside = signs.outside && side <= 0;
-    signs.touches = signs.touches || side == 0;
+    if (side > 0) return Beyond::no;
+    if (side == 0) result = Beyond::touching;
   }
-  return signs;
+  return result;
 }
 
 }  // namespace
@@ -69,10 +69,17 @@ PolygonResult sat_polygons(const std::vector<Vec2>& a, const std::vector<Vec2>& 
       const Vec2 outward{(to.y - from.y) / length, -(to.x - from.x) / length};
       // Projections are relative to a corner of the edge, so they keep their digits far from the origin.
       double nearest = INFINITY;
-      for (Vec2 p : other) nearest = std::min(nearest, (p.x - from.x) * outward.x + (p.y - from.y) * outward.y);
-      const EdgeSigns signs = signs_across(from, to, other);
-      apart = apart || (signs.outside && !signs.touches);
-      weakly_apart = weakly_apart || signs.outside;
+      Vec2 inmost = other[0];
+      for (Vec2 p : other) {
+        const double height = (p.x - from.x) * outward.x + (p.y - from.y) * outward.y;
+        if (height < nearest) {
+          nearest = height;
+          inmost = p;
+        }
+      }
+      const Beyond side = beyond(from, to, other, inmost);
+      apart = apart || side == Beyond::apart;
+      weakly_apart = weakly_apart || side != Beyond::no;
       if (-nearest < result.penetration) {
         result.penetration = -nearest;
         result.normal = owner_is_a ? outward : Vec2{-outward.x, -outward.y};
