@@ -9,10 +9,10 @@ hold every orientation: a proper crossing of two edges, or a corner of one withi
 
 shapely answers in one call for all pairs. Box2D is called from a loop in C, which needs gcc and the
 library in pyb2d3; it takes at most 8 corners. satcheck answers convex pairs one by one
-(`sat_polygons`, a call from Python each) and all outlines as prisms over signed fans. All take
-turns in every round; the least CPU time counts. So what satcheck keeps with a surface after its
-first question is free, while shapely's polygons are not prepared. What is not installed is left out
-and said so.
+(`sat_polygons`, a call from Python each) and all outlines as prisms, made as those of a drawing.
+All take turns in every round; the least CPU time counts. So what satcheck keeps with a surface
+after its first question is free, while shapely's polygons are not prepared. What is not installed
+is left out and said so.
 """
 
 from __future__ import annotations
@@ -35,8 +35,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck import core
+from satcheck.scene.drawing.contour import Contour, DrawnShape
+from satcheck.scene.drawing.sheet import sheet_of
 from satcheck.scene.planar.prism import prism
-from satcheck.scene.planar.region import fan_of
 
 Polygon = NDArray[np.float64]
 PolygonPair = tuple[Polygon, Polygon]
@@ -139,7 +140,9 @@ def one_by_one(meet: Callable[[Any, Any], bool], pairs: list[tuple[Any, Any]]) -
 
 def prisms(pairs: list[PolygonPair]) -> Ask:
     def made(polygon: Polygon, height: float) -> core.Surface:
-        return core.Surface(prism(polygon, fan_of(len(polygon)), height), solid=True)
+        corners = tuple((x, y) for x, y in polygon.tolist())
+        sheet = sheet_of(DrawnShape("outline", (Contour(corners),), "nonzero"))
+        return core.Surface(prism(sheet.points, sheet.triangles, height), solid=True)
 
     # As flat_scene does: taller than wide, of different heights.
     height = 8.0 * max(float(np.abs(polygon).max()) for pair in pairs for polygon in pair)
