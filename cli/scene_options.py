@@ -189,6 +189,7 @@ pose_options = together(
 joint_path_option = click.option(
     "--path",
     "joint_path",
+    type=click.Path(),
     metavar="FILE",
     help="Sweep robots through these poses (JSON or CSV).",
 )

@@ -82,6 +82,15 @@ def test_paths_are_relative_to_the_config_file(folder: Path, command: tuple[str,
     assert report["config"]["file"] == "../satcheck.toml"
 
 
+def test_the_path_of_a_robot_is_relative_to_the_config_file(folder: Path) -> None:
+    config(folder, "elbow\n0\n0.1\n", "poses.csv")
+    config(folder, 'path = "poses.csv"\n')
+    arm = SAMPLES / "arm.urdf"
+    ran = satcheck(str(arm), str(arm.with_suffix(".srdf")), *JSON, cwd=folder / "sub")
+    assert ran.code == 0, ran.err
+    assert [motion["kind"] for motion in ran.document["motions"]] == ["joints"]
+
+
 def test_the_nearest_file_counts(folder: Path) -> None:
     config(folder, "jobs = 1\n")
     assert in_effect(cwd=folder / "sub")["jobs"] == ("1", "../satcheck.toml:1")
