@@ -9,7 +9,6 @@ in it. The test is exact, in rational numbers.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from fractions import Fraction
 
 import numpy as np
 
@@ -22,25 +21,25 @@ _MOST_PIECES = 1000
 
 def covers_empty_places(points: Floats, triangles: Indices, contours: list[Floats]) -> bool:
     """contours: closed polygons, the boundary of the triangles. True also if the test would take
-    too long."""
+    too long, or if a piece is too thin to hold a point in float64."""
     signs = turns(points, triangles)
     if (signs >= 0).all() or (signs <= 0).all():
         return False
     rarer = 1 if (signs > 0).sum() < (signs < 0).sum() else -1
     starts = np.concatenate(contours)
     ends = np.concatenate([np.roll(contour, -1, axis=0) for contour in contours])
-    edges = [tuple(exact(pair)) for pair in np.stack((starts, ends), axis=1)]
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
     for triangle in triangles[signs == rarer]:
         corners = points[triangle[::rarer]]
         meets = (low < corners.max(axis=0)).all(axis=1) & (high > corners.min(axis=0)).all(axis=1)
-        pieces = _pieces(exact(corners), [edges[k] for k in np.flatnonzero(meets)])
-        if pieces is None or any(_winding(edges, _centre(piece)) == 0 for piece in pieces):
+        edges = zip(exact(starts[meets]), exact(ends[meets]), strict=True)
+        pieces = _pieces(exact(corners), edges)
+        if pieces is None or any(_is_empty(piece, starts, ends) for piece in pieces):
             return True
     return False
 
 
-def _pieces(polygon: Polygon, edges: Iterable[tuple[Point, ...]]) -> list[Polygon] | None:
+def _pieces(polygon: Polygon, edges: Iterable[tuple[Point, Point]]) -> list[Polygon] | None:
     """The polygon, cut along the lines of the edges; None: there are too many pieces."""
     pieces = [polygon]
     for start, end in edges:
@@ -53,17 +52,23 @@ def _pieces(polygon: Polygon, edges: Iterable[tuple[Point, ...]]) -> list[Polygo
     return pieces
 
 
-def _centre(polygon: Polygon) -> Point:
-    x, y = (sum((p[axis] for p in polygon), Fraction(0)) for axis in range(2))
-    return x / len(polygon), y / len(polygon)
+def _is_empty(piece: Polygon, starts: Floats, ends: Floats) -> bool:
+    """Whether the edges wind around no point of the piece, which lies on one side of each."""
+    middle = tuple(sum(corner[axis] for corner in piece) / len(piece) for axis in range(2))
+    point = np.array([float(c) for c in middle])
+    corner = exact(point[None])[0]
+    sides = zip(piece, piece[1:] + piece[:1], strict=True)
+    return not all(turn(*side, corner) > 0 for side in sides) or _winding(point, starts, ends) == 0
 
 
-def _winding(edges: Iterable[tuple[Point, ...]], point: Point) -> int:
+def _winding(point: Floats, starts: Floats, ends: Floats) -> int:
     """Of a point on no edge: the edges that a ray to the right crosses, upwards minus downwards."""
-    y: Fraction = point[1]
-    count = 0
-    for start, end in edges:
-        if (start[1] <= y) != (end[1] <= y):
-            up = 1 if start[1] <= y else -1
-            count += up if up * turn(start, end, point) > 0 else 0
-    return count
+    up = (starts[:, 1] <= point[1]) & (ends[:, 1] > point[1])
+    down = (ends[:, 1] <= point[1]) & (starts[:, 1] > point[1])
+    crossed = np.flatnonzero(up | down)
+    corners = np.concatenate((starts[crossed], ends[crossed], point[None]))
+    count = len(crossed)
+    edges = np.arange(count)
+    of_point = np.full(count, 2 * count)
+    signs = turns(corners, np.column_stack((edges, edges + count, of_point)))
+    return int((up[crossed] & (signs > 0)).sum() - (down[crossed] & (signs < 0)).sum())
