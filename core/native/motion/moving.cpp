@@ -13,6 +13,9 @@ namespace {
 // cosine of the angle between the top of the circle and the height has an error of 8, which is a height of 8 roundoffs
 // of the radius. The radius is at most the sum of both distances.
 constexpr double kHeightError = 128 * kUnitRoundoff;
+// Rounding of the angular velocity: the unit axis 4, the rate 4. The rate of the gap allows for it at the body that
+// turns; a body at rest that is seen as turning may be far larger, and the angle is not limited here.
+constexpr double kSpinError = 16 * kUnitRoundoff;
 
 // The largest s with room >= rate s + bend s^2 / 2, for room > 0 and bend >= 0.
 double time_by_bend(double room, double rate, double bend) {
@@ -42,7 +45,8 @@ double time_below(Vec3 p, const Moving& turning, Vec3 n, double height, double l
   const double speed = norm(turning.spin);
   const Vec3 axis = turning.spin * (1 / speed), r = p - turning.centre;
   const double a = dot(n, r) - dot(n, axis) * dot(axis, r), b = dot(n, cross(axis, r));
-  const double room = height - dot(n, p) - kHeightError * (norm(p) + norm(turning.centre));
+  const double error = (kHeightError + kSpinError * speed * limit) * (norm(p) + norm(turning.centre));
+  const double room = height - dot(n, p) - error;
   if (!(room > 0)) return 0;
   const double radius = std::hypot(a, b);
   if (a + room >= radius) return limit;

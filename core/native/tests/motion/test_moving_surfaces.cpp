@@ -172,6 +172,10 @@ void a_turning_point_stays_below() {
   const Moving turning{{}, {}, {}, {0, 0, 1}};
   CHECK(time_below({1, 0, 0}, turning, {0, 1, 0}, 0, 1) == 0);
   CHECK(time_below({0, 0, 3}, turning, {0, 1, 0}, 1e-9, 1) == 1);
+  // After a million turns the rounding of the spin moves a point by more than 1e-10, but by less than 1e-6.
+  const Moving fast{{}, {}, {}, {0, 0, 6e6}};
+  CHECK(time_below({1, 0, 0}, fast, {1, 0, 0}, 1 + 1e-10, 1) == 0);
+  CHECK(time_below({1, 0, 0}, fast, {1, 0, 0}, 1 + 1e-6, 1) == 1);
 }
 
 // A door that is flush with its frame along the axis touches it all the way and goes no deeper.
