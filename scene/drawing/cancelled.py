@@ -15,8 +15,8 @@ import numpy as np
 from satcheck.scene.planar.polygon import Point, Polygon, exact, left_of, turn
 from satcheck.scene.planar.turns import Floats, Indices, turns
 
-# Limit on the pieces of one triangle.
-_MOST_PIECES = 1000
+# Limit on the cuts of pieces by lines, for one shape: about a second.
+_MOST_CUTS = 20_000
 
 
 def covers_empty_places(points: Floats, triangles: Indices, contours: list[Floats]) -> bool:
@@ -26,34 +26,35 @@ def covers_empty_places(points: Floats, triangles: Indices, contours: list[Float
     if (signs >= 0).all() or (signs <= 0).all():
         return False
     rarer = 1 if (signs > 0).sum() < (signs < 0).sum() else -1
+    mixed = points[triangles[signs == rarer][:, ::rarer]]
     starts = np.concatenate(contours)
     ends = np.concatenate([np.roll(contour, -1, axis=0) for contour in contours])
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
-    for triangle in triangles[signs == rarer]:
-        corners = points[triangle[::rarer]]
+    if any(_is_empty(exact(corners), starts, ends) for corners in mixed):
+        return True
+    cuts = 0
+    for corners in mixed:
         meets = (low < corners.max(axis=0)).all(axis=1) & (high > corners.min(axis=0)).all(axis=1)
-        edges = zip(exact(starts[meets]), exact(ends[meets]), strict=True)
-        pieces = _pieces(exact(corners), edges)
-        if pieces is None or any(_is_empty(piece, starts, ends) for piece in pieces):
+        pieces = [exact(corners)]
+        for start, end in zip(exact(starts[meets]), exact(ends[meets]), strict=True):
+            cuts += len(pieces)
+            if cuts > _MOST_CUTS:
+                return True
+            pieces = _halves(pieces, start, end)
+        if any(_is_empty(piece, starts, ends) for piece in pieces):
             return True
     return False
 
 
-def _pieces(polygon: Polygon, edges: Iterable[tuple[Point, Point]]) -> list[Polygon] | None:
-    """The polygon, cut along the lines of the edges; None: there are too many pieces."""
-    pieces = [polygon]
-    for start, end in edges:
-        halves = [
-            left_of(piece, *line) for piece in pieces for line in ((start, end), (end, start))
-        ]
-        pieces = [half for half in halves if half]
-        if len(pieces) > _MOST_PIECES:
-            return None
-    return pieces
+def _halves(pieces: Iterable[Polygon], start: Point, end: Point) -> list[Polygon]:
+    """The parts of the pieces to the left and to the right of a line."""
+    halves = (left_of(piece, *line) for piece in pieces for line in ((start, end), (end, start)))
+    return [half for half in halves if half]
 
 
 def _is_empty(piece: Polygon, starts: Floats, ends: Floats) -> bool:
-    """Whether the edges wind around no point of the piece, which lies on one side of each."""
+    """Whether the edges wind around the middle of the piece as often in one direction as in the
+    other. Where no edge crosses the piece, that holds for all of it."""
     middle = tuple(sum(corner[axis] for corner in piece) / len(piece) for axis in range(2))
     point = np.array([float(c) for c in middle])
     corner = exact(point[None])[0]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
+from collections.abc import Sequence
 
 import manifold3d
 import numpy as np
@@ -80,7 +81,7 @@ def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
 def _sheet_of(shape: DrawnShape) -> Sheet:
 
     contours = _alternating(shape.contours) if shape.rule == "evenodd" else shape.contours
-    polygons = [np.array(contour.points, dtype=np.float64) for contour in contours]
+    polygons = _outward([np.array(contour.points, dtype=np.float64) for contour in contours])
     triangles = np.asarray(manifold3d.triangulate(polygons), dtype=np.int64).reshape(-1, 3)
     if _boundary(triangles) != _edges([len(polygon) for polygon in polygons]):
         raise MeshFileError("reader-failed", f"shape {shape.name!r} cannot be split into triangles")
@@ -122,6 +123,26 @@ def _boundary(triangles: npt.NDArray[np.int64]) -> Counter[tuple[int, int]]:
     return edges - Counter({(b, a): n for (a, b), n in edges.items()})
 
 
+def _outward(polygons: list[npt.NDArray[np.float64]]) -> list[npt.NDArray[np.float64]]:
+    """The polygons, turned over in groups, so that each group has an area of at least 0 in all.
+
+    The library splits clockwise outlines into triangles that reach beyond them. Boxes of polygons
+    of different groups have no common point, so what the non-zero rule fills stays the same.
+    """
+    low = np.array([polygon.min(axis=0) for polygon in polygons])
+    high = np.array([polygon.max(axis=0) for polygon in polygons])
+    group = np.arange(len(polygons))
+    for k in range(len(polygons)):
+        meets = (low[k] <= high[:k]).all(axis=1) & (high[k] >= low[:k]).all(axis=1)
+        group[np.isin(group, group[:k][meets])] = k
+    areas = np.array([_area(polygon.tolist()) for polygon in polygons])
+    inward = np.bincount(group, areas, len(polygons)) < 0
+    return [
+        polygon[::-1] if inward[label] else polygon
+        for polygon, label in zip(polygons, group, strict=True)
+    ]
+
+
 def _alternating(contours: tuple[Contour, ...]) -> list[Contour]:
     """Turns each contour: counter-clockwise if it lies within an even number of others, else
     clockwise.
@@ -151,7 +172,7 @@ def _holds(polygon: tuple[Point, ...], point: Point) -> bool:
     return inside
 
 
-def _area(polygon: tuple[Point, ...]) -> float:
+def _area(polygon: Sequence[Point]) -> float:
     """Signed, relative to the first corner, so that a shape far from the origin keeps its sign."""
     ox, oy = polygon[0]
     return sum(

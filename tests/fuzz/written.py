@@ -21,7 +21,8 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" vi
 <style>.a { fill: none; stroke: red } #b > rect { fill-rule: evenodd }</style>
 <defs><symbol id="s"><circle r="3"/></symbol></defs>
 <g id="b" transform="translate(10, 20) rotate(30) matrix(1 0 0 1 2 3)"><rect width="5" height="4"
- rx="1"/><path d="M0 0 h10 v10 l-5 5 z m2 2 c1 1 2 1 3 0 s1-1 2 0 q1 1 2 0 t1 0 a2 3 10 0 1 4 4 z"/>
+ rx="1"/><path d="M0 0 h10 v10 l-5 5 z m1 1 c1 .5 2 .5 3 0 s1-.5 2 0 q.5 .5 1 0 t1 0
+ a2 3 9 0 1-4 4 z"/>
 </g><use href="#s" x="4"/><polygon points="0,0 4,0 4,4"/><ellipse rx="4" ry="2"/>
 <line x1="0" y1="0" x2="4" y2="1" stroke-width="2"/></svg>"""
 
