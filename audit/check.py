@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import UNSET, Struct, UnsetType
-from msgspec.structs import replace
+from msgspec import UNSET, UnsetType
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
+from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
 from satcheck.audit.doubtful_sizes import doubtful_sizes
-from satcheck.audit.finding import Examined, apart_by_boxes, examine, indeterminate
+from satcheck.audit.finding import apart_by_boxes, indeterminate
 from satcheck.audit.ladder.close_pairs import close_pairs
-from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
-from satcheck.audit.pair_queue import PairQueue, Steps
+from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.request.effects import effects_of
 from satcheck.audit.request.planner import Planner, Request
 from satcheck.audit.request.settings import (
@@ -39,27 +38,18 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
-from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
+from satcheck.report.report import Finding, Issue, Report
 
 if TYPE_CHECKING:
     from satcheck.audit.joint_path.movers import JointMovers
     from satcheck.audit.motion.movers import Movers
     from satcheck.audit.statics.support import Support
-    from satcheck.core import Climb
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
     from satcheck.report.regions import Regions
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
-Progress = Callable[[int, int], None]
-
-
-class CheckedPair(Struct, frozen=True):
-    finding: Finding
-    request: Request
-    issues: tuple[Issue, ...] = ()
 
 
 def check(
@@ -284,18 +274,6 @@ def _examine_all(
         return examine_pairs(pairs, queue, progress)
 
 
-def examine_pairs(
-    pairs: Sequence[Pair], queue: PairQueue, progress: Progress | None = None
-) -> list[CheckedPair]:
-    """The findings of pairs with the same settings, in their order."""
-    done: dict[int, CheckedPair] = {}
-    for k, checked in queue.each(pairs, _steps()):
-        done[k] = checked
-        if progress is not None:
-            progress(len(done), len(pairs))
-    return [done[k] for k in range(len(pairs))]
-
-
 def _request_and_finding(pair: CheckedPair) -> tuple[Request, Finding]:
     return (pair.request if pair.finding.motion is None else pair.request.swept()), pair.finding
 
@@ -310,74 +288,6 @@ def _peers(settings: Settings) -> Peers:
     from satcheck.core.peers import Peers
 
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
-
-
-def _steps() -> Steps[Climb | None, CheckedPair]:
-    if is_careful():
-        return Steps(lambda pairs, _: lambda: [None] * len(pairs), _examine_carefully, _never)
-    return Steps(start_climbs, _examine, leaves_work)
-
-
-def _never(*_: object) -> bool:
-    return False
-
-
-def _examine_carefully(pair: Pair, _: Climb | None) -> CheckedPair:
-    """One pair after another, and none that has ended the process before."""
-    a, b = pair.a.id, pair.b.id
-    try:
-        with risky_step(f"checking {a!r} and {b!r}"):
-            return _examine(pair, *start_climbs([pair], 1)())
-    except LeftOut as error:
-        reason = f"the process that checked this pair {error.message}"
-        issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
-        return CheckedPair(indeterminate(a, b, reason, Trace()), pair.request, (issue,))
-
-
-def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
-    """One pair. A failure becomes a finding, so that the other pairs are still checked."""
-    trace = Trace()
-    try:
-        examined = examine(pair, trace, climb)
-        if pair.paths is not None:
-            from satcheck.audit.motion.swept_finding import with_sweep
-
-            examined = with_sweep(examined, pair, pair.paths, trace)
-        finding = examined.finding
-        if pair.request.wants("certificate"):
-            finding = _with_certificate(pair, examined)
-        return CheckedPair(finding, pair.request, tuple(trace.issues))
-    except Exception as error:
-        not_for_lack_of_memory(error)
-        import logging
-
-        logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
-        reason = f"internal error: {type(error).__name__}: {error}"
-        message = f"{pair.a.id} and {pair.b.id}: {reason}"
-        issue = Issue(INTERNAL_ERROR, "error", None, None, message)
-        finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
-        return CheckedPair(finding, pair.request, (*trace.issues, issue))
-
-
-def _with_certificate(pair: Pair, examined: Examined) -> Finding:
-    """The finding with its evidence, or with a stage that says why there is none."""
-    from satcheck.audit.certify import NoCertificate, certified
-
-    trace, finding = Trace(), examined.finding
-    if finding.motion is not None:
-        trace.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
-        return replace(finding, plan=(*finding.plan, *trace.stages))
-    try:
-        certificate = certified(pair, examined)
-    except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-        not_for_lack_of_memory(error)
-        certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
-    if isinstance(certificate, NoCertificate):
-        trace.record("certificate", "none", certificate.reason)
-        return replace(finding, plan=(*finding.plan, *trace.stages))
-    kind = certificate.relation.__struct_config__.tag
-    trace.record("certificate", str(kind), "accepted by the checker")
-    return replace(finding, certificate=certificate, plan=(*finding.plan, *trace.stages))
 
 
 def _findings(
@@ -401,6 +311,6 @@ def _findings(
                 pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
                 apart = apart_by_boxes(pair)
                 findings[i, j] = (
-                    _with_certificate(pair, apart) if settings.certificate else apart.finding
+                    with_certificate(pair, apart) if settings.certificate else apart.finding
                 )
     return [findings[pair] for pair in sorted(findings)]

@@ -17,7 +17,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache, place
-from satcheck.audit.check import DEFAULT_SETTINGS, check, examine_pairs, volume_meter
+from satcheck.audit.check import DEFAULT_SETTINGS, check, volume_meter
+from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.doubtful_sizes import size_of
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPair, PosedPairs, same_way

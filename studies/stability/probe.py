@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from satcheck.audit.check import Progress
+from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene

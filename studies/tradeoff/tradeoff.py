@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.check import Progress
+from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.ladder.close_pairs import close_pairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Method, Settings

@@ -129,7 +129,7 @@ def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
             raise RuntimeError("boom")
         return examine(pair, trace, climb)
 
-    monkeypatch.setattr(sys.modules["satcheck.audit.check"], "examine", fails)
+    monkeypatch.setattr(sys.modules["satcheck.audit.checked_pairs"], "examine", fails)
     found = suggest(ARM, poses=POSES[:2], seed=0)
     assert INTERNAL_ERROR in {issue.code for issue in found.issues}
 

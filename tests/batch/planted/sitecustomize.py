@@ -62,7 +62,7 @@ _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
         lambda request: Path(request.directory).name,
     ),
     "satcheck.decompose.coacd_server": ("serve", _split),
-    "satcheck.audit.check": ("examine", lambda pair: pair.a.id),
+    "satcheck.audit.checked_pairs": ("examine", lambda pair: pair.a.id),
 }
 
 
