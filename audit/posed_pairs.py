@@ -119,7 +119,9 @@ class PosedPairs:
             gap_limit = max(clearance, tolerance)
             never = pair.request.limited
             depth = inf if never else max(0.5 * tolerance, off)
-            crossing = inf if never or off else tolerance
+            # A crossing proves no thickness, and closed bodies with a thin overlap may touch.
+            closed = all(self._bodies[body].solid for body in (a, b))
+            crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
         return codes

@@ -9,16 +9,18 @@ body add to them. The joints above both bodies move neither relative to the othe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck.core.tolerances import UNIT_ROUNDOFF
-from satcheck.core.transform import compose
+from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
 from satcheck.scene.robot import Joint, JointPath
+from satcheck.scene.robot.kinematics import motion
 from satcheck.scene.robot.pose_batches import link_frames, placements
 
 Numbers = NDArray[np.float64]
@@ -45,10 +47,10 @@ class Interval(Struct, frozen=True):
 class Middle(Struct, frozen=True):
     """The robots in the middle of intervals.
 
-    matrices: shape (intervals, bodies, 12). axes, origins: of the joints that move, shape (joints,
-    intervals, 3). turns, shifts: how far each joint turns and slides until the ends of the
-    interval, shape (joints, intervals). centres: of the balls around bodies, shape (bodies,
-    intervals, 3). pad: how far rounding moves a point.
+    matrices: shape (intervals, bodies, 12). axes, origins: the axis of each joint that
+    moves, and a point on it, shape (joints, intervals, 3). turns, shifts: how far each joint turns
+    and slides until the ends of the interval, shape (joints, intervals). centres: of the balls
+    around bodies, shape (bodies, intervals, 3). pad: how far rounding moves a point.
     """
 
     matrices: Numbers
@@ -89,8 +91,7 @@ class Travel:
         frames = link_frames(self._scene, values)
         matrices = placements(self._scene, frames, count)
         placed = [
-            _entries(compose(frames[number][joint.parent], joint.origin), count)
-            for number, joint in self._joints
+            _entries(_moved(joint, frames[number], values), count) for number, joint in self._joints
         ]
         movers = [joint for _, joint in self._joints]
         axes = [_turned(entries, joint) for entries, joint in zip(placed, movers, strict=True)]
@@ -172,6 +173,11 @@ class Travel:
         )
         depth = max((len(robot.robot.joints) for robot in self._scene.robots), default=0)
         return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + largest) * reach
+
+
+def _moved(joint: Joint, links: Mapping[str, Transform], values: Mapping[str, Any]) -> Transform:
+    """The frame of a joint after its own motion: a planar joint turns about where it has slid."""
+    return compose(compose(links[joint.parent], joint.origin), motion(joint, values[joint.name]))
 
 
 def _entries(pose: Sequence[float | Numbers], count: int) -> Numbers:

@@ -47,6 +47,7 @@ _NOT_HERE = (
     "top",
     "pose",
     "state",
+    "joint_path",
     "sample",
     "seed",
     "explain",

@@ -27,6 +27,7 @@ _NOT_HERE = (
     "glb",
     "pose",
     "state",
+    "joint_path",
     "sample",
     "seed",
     "explain",

@@ -11,8 +11,8 @@ from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
 class Region(Struct, frozen=True):
-    """All points where the sum of the signs of the triangles is not 0. points: (n, 2), each once;
-    triangles: (m, 3), none of area 0."""
+    """All points where the sum of the signs of the triangles is not 0. points: (n, 2), each once,
+    and each a corner; triangles: (m, 3), none of area 0."""
 
     points: Floats
     triangles: Indices
@@ -27,15 +27,21 @@ def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
     points, triangles = _merged(np.asarray(mesh.vertices)[:, axes_of(plane)], mesh.triangles)
     signs = turns(points, triangles)
     if solid:
-        return Region(points, triangles[signs > 0])
+        return _of_corners(points, triangles[signs > 0])
     turned = np.where(signs[:, None] < 0, triangles[:, ::-1], triangles)
-    return Region(points, turned[signs != 0])
+    return _of_corners(points, turned[signs != 0])
 
 
 def drawn_region(mesh: Mesh) -> Region:
     """The region of a sheet in the plane z = 0. Its triangles keep their signs."""
     points, triangles = _merged(np.asarray(mesh.vertices)[:, :2], mesh.triangles)
-    return Region(points, triangles[turns(points, triangles) != 0])
+    return _of_corners(points, triangles[turns(points, triangles) != 0])
+
+
+def _of_corners(points: Floats, triangles: Indices) -> Region:
+    """Without the points of no triangle, as the end of a spike that has no area."""
+    corners, index = np.unique(triangles, return_inverse=True)
+    return Region(points[corners], index.reshape(-1, 3))
 
 
 def _merged(points: Floats, triangles: object) -> tuple[Floats, Indices]:

@@ -112,8 +112,10 @@ def _times(poses: Sequence[Pose], is_joint: bool) -> tuple[list[Pose], Numbers]:
     if len(stated) < len(poses) or any(len(time) != 1 for time in stated):
         raise SatcheckError("bad-pose", "each pose of a path needs a time, or none does")
     seconds = [time[0] for time in stated]
-    if any(later <= earlier for earlier, later in pairwise(seconds)):
-        raise SatcheckError("bad-pose", "the times of the poses of a path must increase")
+    for number, (earlier, later) in enumerate(pairwise(seconds), 2):
+        if later <= earlier:
+            message = f"pose {number}: the times must increase, and {later:g} follows {earlier:g}"
+            raise SatcheckError("bad-pose", message)
     times = (np.array(seconds) - seconds[0]) / (seconds[-1] - seconds[0])
     if not (np.diff(times) > 0).all():
         raise SatcheckError("bad-pose", "the times of a path differ too little from each other")
@@ -133,11 +135,13 @@ def _read_table(file: str) -> list[Pose]:
     rows = csv.reader(text.splitlines(), delimiter=separator, skipinitialspace=True)
     lines = [(number, [cell.strip() for cell in row]) for number, row in enumerate(rows, 1)]
     filled = [(number, row) for number, row in lines if any(row)]
-    if len(filled) < 2:
-        raise SatcheckError("bad-pose", "no line of joints with lines of values below", file=file)
-    _, names = filled[0]
+    if len(filled) < 3:
+        message = "a path needs a line with the names of joints, and two lines of values below it"
+        raise SatcheckError("bad-pose", message, file=file)
+    first, names = filled[0]
     if len(set(names)) < len(names) or not all(names):
-        raise SatcheckError("bad-pose", "line 1: a column has no name, or two have one", file=file)
+        message = f"line {first}: a column has no name, or two have one"
+        raise SatcheckError("bad-pose", message, file=file)
     return [_row(names, row, f"line {number}", file) for number, row in filled[1:]]
 
 

@@ -140,6 +140,28 @@ def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
     assert seen == {OPEN, APART, DEEP}
 
 
+def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
+    """An edge of a box reaches 0.011 into another box, and the largest ball in both is only 0.0091
+    thick: within the tolerance, although no translation as short as that frees them."""
+    slide = '<origin xyz="0 0.5 0"/><axis xyz="1 0 0"/><limit lower="0" upper="3"/>'
+    turned = '<origin rpy="0 0 0.7853981633974483"/><geometry><box size="1 1 2"/></geometry>'
+    wall = '<origin xyz="2 0 0"/><geometry><box size="1 6 1"/></geometry>'
+    text = robot_of(
+        link("wall", f"<collision>{wall}</collision>"),
+        link("block", f"<collision>{turned}</collision>"),
+        joint("slide", "wall", "block", "prismatic", slide),
+    )
+    (tmp_path / "r.urdf").write_text(text)
+    scene = load_scene([tmp_path / "r.urdf"])
+    settings = Settings(depth=False, tolerance=0.01)
+    pose = {"slide": (1.5 - math.sqrt(0.5) + 0.011,)}
+    assert [f.relation for f in check(posed(scene, pose), settings).findings] == ["touching"]
+    bodies = place(scene, settings)
+    pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
+    (batch,) = pose_batches(scene, [pose], 1)
+    assert pairs.sift(batch.matrices(scene)).tolist() == [[OPEN]]
+
+
 def test_a_report_of_many_poses_counts_all_and_lists_the_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -39,6 +39,8 @@ from tests.cli.process import (
         (["box.obj", "."], "."),
         (["gone.json"], "gone.json"),
         (["-o", "no/such/folder/report.json", *PUSHED], "folder does not exist"),
+        (["each", "--path", "poses.csv", "arm.urdf"], "No such option '--path'"),
+        (["batch", "--path", "poses.csv", "arm.urdf"], "No such option '--path'"),
     ],
 )
 def test_refusals(arguments: list[str], told: str) -> None:

@@ -18,6 +18,23 @@ Vec3 lift(Vec2 p) { return {p.x, p.y, 0}; }
 // +1 when p lies left of the edge from -> to, exactly.
 int side_of(Vec2 from, Vec2 to, Vec2 p) { return orientation_2d(lift(from), lift(to), lift(p), 2); }
 
+bool rises(Vec2 from, Vec2 to) { return to.x != from.x ? to.x > from.x : to.y > from.y; }
+
+// Whether the edges turn round once in all. Those of a star turn left everywhere, too, but more than once.
+bool goes_round_once(const std::vector<Vec2>& polygon) {
+  int ends = 0, edges = 0;
+  bool first = false, last = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+    if (from.x == to.x && from.y == to.y) continue;
+    const bool now = rises(from, to);
+    if (edges++ == 0) first = last = now;
+    ends += now != last;
+    last = now;
+  }
+  return ends + (last != first) == 2;
+}
+
 void require_convex(const std::vector<Vec2>& polygon) {
   const std::size_t n = polygon.size();
   int left = 0;
@@ -26,6 +43,7 @@ void require_convex(const std::vector<Vec2>& polygon) {
     if (side < 0) throw std::invalid_argument("the polygon is not convex and counter-clockwise");
     left += side;
   }
+  if (left > 2 && !goes_round_once(polygon)) throw std::invalid_argument("the polygon goes round more than once");
   if (n < 3 || left < 3) throw std::invalid_argument("a polygon needs three corners that are not on one line");
 }
 

@@ -132,6 +132,19 @@ def test_joints_above_both_bodies_do_not_count(tmp_path: Path) -> None:
     assert report.summary.verdict == "pass"
 
 
+def test_a_planar_joint_turns_about_where_it_has_slid(tmp_path: Path) -> None:
+    """A block at the origin of the joint passes a post on a circle about a far centre."""
+    text = robot_of(
+        link("post", box("0.02 0.02 1", "2 0.95 0")),
+        link("hand", box("0.1 0.1 0.1", "-8 0 0")),
+        joint("slide", "post", "hand", "planar", '<axis xyz="0 0 1"/>'),
+    )
+    (tmp_path / "r.urdf").write_text(text)
+    scene = load_scene([tmp_path / "r.urdf"])
+    report = swept(scene, [{"slide": (10.0, 0.0, 0.3)}, {"slide": (10.0, 0.0, -0.3)}])
+    assert between(report, "post", "hand").relation == "penetrating"
+
+
 def test_fingers_that_close_touch(tmp_path: Path) -> None:
     """They slide towards each other until their faces meet, one as a mimic of the other."""
     slide = '<axis xyz="{} 0 0"/><limit lower="0" upper="1" effort="1" velocity="1"/>'

@@ -47,6 +47,15 @@ def test_a_region_covered_twice_is_not_taken_for_convex() -> None:
     assert convex_corners(drawn_region(twice)) is None
 
 
+def test_a_spike_without_area_adds_no_corner() -> None:
+    """From a corner of a triangle to a point outside of it, and back."""
+    spiked = sheet([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (-3.0, 2.0)], [(0, 1, 2), (2, 3, 2)])
+    for region in (drawn_region(spiked), region_of(spiked, False, "xy")):
+        corners = convex_corners(region)
+        assert corners is not None
+        assert sorted(map(tuple, corners.tolist())) == [(0, 0), (0, 2), (2, 0)]
+
+
 def test_points_that_coincide_in_the_plane_are_one() -> None:
     box = mesh_of(Box((1.0, 1.0, 1.0)))
     assert len(region_of(box, True, "xy").points) == 4

@@ -85,7 +85,7 @@ def test_joints_without_a_value_keep_the_given_one(tmp_path: Path) -> None:
         (turns(1.0), "two poses"),
         ([{"turn": (0.0,)}, {"elbow": (1.0,)}], "unknown joint 'elbow'"),
         ([{"time": (0.0,)}, {"turn": (1.0,)}], "needs a time"),
-        ([{"time": (1.0,)}, {"time": (1.0,)}], "must increase"),
+        ([{"time": (0.0,)}, {"time": (1.0,)}, {"time": (1.0,)}], "pose 3: .* must increase"),
     ],
 )
 def test_paths_that_no_robot_follows(tmp_path: Path, poses: list[Pose], message: str) -> None:
@@ -116,13 +116,14 @@ def test_tables(tmp_path: Path, separator: str, mark: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "no line of joints"),
-        ("a,b\n", "no line of joints"),
-        ("a,a\n1,2\n", "line 1"),
-        ("a,\n1,2\n", "line 1"),
-        ("a,b\n1\n", "line 2: 1 values for 2 columns"),
+        ("", "a line with the names"),
+        ("a,b\n", "a line with the names"),
+        ("a,a\n1,2\n3,4\n", "line 1"),
+        ("\na,\n1,2\n3,4\n", "line 2"),
+        ("0,0.5\n1,1\n", "names of joints, and two lines"),
+        ("a,b\n1\n2\n", "line 2: 1 values for 2 columns"),
         ("a\n1\nnan\n", "line 3: a: 'nan'"),
-        ("a;b\n0,5;1\n", "line 2: a: '0,5'"),
+        ("a;b\n0,5;1\n0;1\n", "line 2: a: '0,5'"),
     ],
 )
 def test_tables_that_are_refused(tmp_path: Path, text: str, message: str) -> None:

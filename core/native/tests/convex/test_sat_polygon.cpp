@@ -51,6 +51,8 @@ void test_refusals() {
   CHECK(refused({{0, 0}, {0, 1}, {1, 0}}));                        // clockwise
   CHECK(refused({{0, 0}, {2, 0}, {1, 0.5}, {2, 2}, {0, 2}}));      // a notch
   CHECK(refused({{0, 0}, {1, 0}, {2, 0}}));                        // on one line
+  CHECK(refused({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}));    // a star
+  CHECK(!refused({{0, 0}, {0, 0}, {2, 0}, {2, 2}, {0, 2}}));       // the same corner twice
   CHECK(!refused({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}));       // a corner on a straight edge is fine
 }
 
