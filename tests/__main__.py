@@ -1,7 +1,9 @@
-"""Every check of the project, one after another: `python -m tests` (what `make test` runs).
+"""Every check of the project: `python -m tests` (what `make test` runs).
 
 Needs satcheck installed with its extra `test`. `python -m tests types pytest` runs just those two.
-Exit code 0 when every step passed or could not apply here (said so in the table), else 1.
+Steps run two at a time: one that waits, or that uses one core, leaves no core idle. What a step
+prints comes when it ends. Exit code 0 when every step passed or could not apply here (said so in
+the table), else 1.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ import sys
 import sysconfig
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,9 +29,16 @@ NO_SANITIZERS = "SATCHECK_SANITIZE: not available"
 PASSED, FAILED, SKIPPED = "passed", "FAILED", "skipped"
 
 
+# At once.
+MOST_STEPS = 2
+
+
 class Outcome(NamedTuple):
+    """printed: by the tools of the step, both streams."""
+
     state: str
     remark: str = ""
+    printed: str = ""
 
 
 def lint() -> Outcome:
@@ -79,14 +89,15 @@ def browser() -> Outcome:
     return run(sys.executable, "-m", "pytest", "tests/browser/driven_page.py")
 
 
+# In the order in which they start: the longest first.
 STEPS: dict[str, tuple[str, Callable[[], Outcome]]] = {
+    "pytest": ("pytest", pytest),
     "lint": ("ruff check", lint),
     "layout": ("ruff format --check", layout),
     "types": ("mypy --strict", types),
     "arrows": ("import-linter", arrows),
     "native": ("C++ unit tests", native),
     "sanitized": ("C++ unit tests under ASan and UBSan", sanitized),
-    "pytest": ("pytest", pytest),
     "browser": ("the page in Chromium", browser),
 }
 
@@ -95,15 +106,17 @@ def native_tests(folder: Path, *options: str) -> Outcome:
     """Configure, build and run the C++ tests, which need no Python."""
     configure = ["cmake", "-S", str(ROOT), "-B", str(folder), *generator(folder)]
     configure += ["-DSATCHECK_PYTHON=OFF", "-DSATCHECK_CXX_TESTS=ON", *options]
-    code, output = captured(*configure)
-    if code and NO_SANITIZERS in output:
+    configured = run(*configure)
+    if configured.state == FAILED and NO_SANITIZERS in configured.printed:
         return Outcome(SKIPPED, "this compiler has no AddressSanitizer")
-    if code:
-        say(output)
-        return Outcome(FAILED, "cmake could not configure")
+    if configured.state == FAILED:
+        return configured._replace(remark="cmake could not configure")
     jobs = str(os.cpu_count() or 1)
     built = run("cmake", "--build", str(folder), "--parallel", jobs, "--config", "Release")
-    return built if built.state == FAILED else ctest(folder)
+    if built.state == FAILED:
+        return built
+    tested = ctest(folder)
+    return tested._replace(printed=built.printed + tested.printed)  # with the warnings
 
 
 def ctest(folder: Path) -> Outcome:
@@ -118,9 +131,11 @@ def generator(folder: Path) -> list[str]:
 
 
 def environment(**more: str) -> dict[str, str]:
-    """The tools of this Python environment first."""
+    """The tools of this Python environment first. Python keeps what it compiles, also where it is
+    told not to: thousands of processes import the same modules."""
     path = os.pathsep.join([sysconfig.get_path("scripts"), os.environ.get("PATH", "")])
-    return {**os.environ, "PATH": path, "UBSAN_OPTIONS": "print_stacktrace=1", **more}
+    ours = {"PATH": path, "UBSAN_OPTIONS": "print_stacktrace=1", "PYTHONDONTWRITEBYTECODE": ""}
+    return {**os.environ, **ours, **more}
 
 
 def run(tool: str, *arguments: str, **variables: str) -> Outcome:
@@ -128,25 +143,18 @@ def run(tool: str, *arguments: str, **variables: str) -> Outcome:
     if program is None:
         return Outcome(FAILED, f"{tool} is missing: pip install '.[test]'")
     done = subprocess.run(
-        [program, *arguments], cwd=ROOT, env=environment(**variables), check=False
-    )
-    code = done.returncode
-    return Outcome(PASSED) if code == 0 else Outcome(FAILED, f"exit code {code}")
-
-
-def captured(tool: str, *arguments: str) -> tuple[int, str]:
-    program = located(tool)
-    if program is None:
-        return 1, f"{tool} is missing: pip install '.[test]'"
-    done = subprocess.run(
         [program, *arguments],
         cwd=ROOT,
-        env=environment(),
+        env=environment(**variables),
         check=False,
-        capture_output=True,
-        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        errors="replace",
     )
-    return done.returncode, done.stdout + done.stderr
+    if done.returncode:
+        return Outcome(FAILED, f"exit code {done.returncode}", done.stdout)
+    return Outcome(PASSED, printed=done.stdout)
 
 
 def located(tool: str) -> str | None:
@@ -165,16 +173,25 @@ def main(wanted: Sequence[str]) -> int:
         say(f"unknown: {', '.join(sorted(unknown))}; the steps are {', '.join(STEPS)}")
         return 2
     make_links(LINKS)
-    results: list[tuple[str, Outcome, float]] = []
-    for name in wanted or STEPS:
-        title, step = STEPS[name]
-        say(f"\n--- {title}")
-        start = time.monotonic()
-        results.append((title, step(), time.monotonic() - start))
+    with ThreadPoolExecutor(MOST_STEPS) as pool:
+        running = [pool.submit(timed, name) for name in wanted or STEPS]
+        try:
+            ended = [step.result() for step in running]
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            raise
     say("")
-    for title, outcome, seconds in results:
+    for title, outcome, seconds in ended:
         say(f"{outcome.state:8}{title:40}{seconds:7.1f} s  {outcome.remark}".rstrip())
-    return 1 if any(outcome.state == FAILED for _, outcome, _ in results) else 0
+    return 1 if any(outcome.state == FAILED for _, outcome, _ in ended) else 0
+
+
+def timed(name: str) -> tuple[str, Outcome, float]:
+    title, step = STEPS[name]
+    start = time.monotonic()
+    outcome = step()
+    say(f"\n--- {title}\n{outcome.printed.rstrip()}")
+    return title, outcome, time.monotonic() - start
 
 
 if __name__ == "__main__":

@@ -95,6 +95,8 @@ def main(files: Sequence[str]) -> int:
     if all(outcome.state != FAILED for _, outcome in outcomes[1:]):
         outcomes.append(("x86-64 and aarch64 agree", dumps(pairs)))
     for title, outcome in outcomes:
+        if outcome.state == FAILED:
+            say(outcome.printed)
         say(f"{outcome.state:8}{title:40}{outcome.remark}".rstrip())
     return 1 if any(outcome.state == FAILED for _, outcome in outcomes) else 0
 

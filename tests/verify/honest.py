@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 from collections.abc import Callable
 from functools import cache
@@ -177,4 +176,5 @@ def _text(name: str) -> str:
 
 def honest(name: str) -> Json:
     """A fresh copy."""
-    return copy.deepcopy(json.loads(_text(name)))
+    made: Json = json.loads(_text(name))
+    return made
