@@ -105,8 +105,8 @@ class _Scan:
             since, self._outside = self.t, False
             if not self._advance(self._in_contact(end), end):
                 self.reason = (
-                    f"in contact at t = {self.t:.6g}, and nothing proves that the contact stays "
-                    f"within the tolerance {self._pair.tolerance:.3g}"
+                    f"not proven apart at t = {self.t:.6g}, and nothing proves that an overlap "
+                    f"stays within the tolerance {self._pair.tolerance:.3g}"
                 )
             elif (self.t - since) * self._pair.fastest(since) > SLID * self._pair.tolerance:
                 self.met = self.t
