@@ -143,7 +143,9 @@ class _Scan:
             return Impact(self.t, None, self.t, self.contact, str(why))
         if upper is None:
             return Impact(self.t, None, self.t, self.contact, self.reason)
-        return Impact(self.met, upper, self.t, self.contact)
+        # If the budget ended before a contact, they stay apart until t.
+        contact = self.t if self.contact is None else self.contact
+        return Impact(self.met, upper, self.t, contact)
 
     def _advance(self, step: float, end: float) -> bool:
         """Whether the step is long enough to be one, or reaches the end."""
