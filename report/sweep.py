@@ -45,7 +45,8 @@ class Sweep(Value, frozen=True, kw_only=True):
     its lower end; at its upper end, a check of the bodies, posed and rounded to float64, finds one.
     at: the pose there. joints: on a path of joints, their values there. poses: the numbers, from 1,
     of the poses of that path before and after it. contact: no common point before this t. reached:
-    no such overlap up to this t. worst: only if the clearance, the tolerance or a limit needs it.
+    no such overlap up to this t. worst: only if the depth is asked, or the clearance, the
+    tolerance or a limit needs it.
     distance_at_least: a lower bound of the distance at every t, where `worst` is None. reason: why
     the answer is `indeterminate`, or what the sweep of surfaces left open. steps: the cost. proven:
     False: only boxes or hulls show the hit, at an accuracy below exact.

@@ -105,8 +105,8 @@ class _Scan:
             since, self._outside = self.t, False
             if not self._advance(self._in_contact(end), end):
                 self.reason = (
-                    f"in contact at t = {self.t:.6g}, and nothing proves that the contact stays "
-                    f"within the tolerance {self._pair.tolerance:.3g}"
+                    f"not proven apart at t = {self.t:.6g}, and nothing proves that an overlap "
+                    f"stays within the tolerance {self._pair.tolerance:.3g}"
                 )
             elif (self.t - since) * self._pair.fastest(since) > SLID * self._pair.tolerance:
                 self.met = self.t
@@ -143,7 +143,9 @@ class _Scan:
             return Impact(self.t, None, self.t, self.contact, str(why))
         if upper is None:
             return Impact(self.t, None, self.t, self.contact, self.reason)
-        return Impact(self.met, upper, self.t, self.contact)
+        # If the budget ended before a contact, they stay apart until t.
+        contact = self.t if self.contact is None else self.contact
+        return Impact(self.met, upper, self.t, contact)
 
     def _advance(self, step: float, end: float) -> bool:
         """Whether the step is long enough to be one, or reaches the end."""

@@ -236,7 +236,7 @@ def test_more_turns_than_the_budget_allows():
     """Nothing is decided without having been looked at."""
     _, impact = impact_of(unit_box(), Rotation((9.0, 0.0, 0.0), Z, 3.6e8), unit_box(1.0 + 1e-6))
     assert not impact.free
-    assert impact.upper is not None or "budget" in impact.reason or "contact" in impact.reason
+    assert impact.upper is not None or "budget" in impact.reason or "not proven" in impact.reason
 
 
 def random_path(rng, kind):
@@ -284,3 +284,13 @@ def test_sampling_finds_no_overlap_where_none_was_proven(seed):
         assert overlaps(pair.found_at(impact.upper))
     else:
         assert impact.free
+
+
+def test_a_hit_after_a_spent_budget_has_a_first_contact(monkeypatch):
+    """No common point is possible before it: the boxes meet at t = 0.5."""
+    monkeypatch.setattr("satcheck.audit.motion.moving_pair.STEPS", 1)
+    pair = moving(unit_box(), Translation((2.0, 0.3, 0.1)), unit_box(2.0))
+    impact = first_impact(pair)
+    assert impact.upper is not None
+    assert impact.contact is not None
+    assert impact.contact <= 0.5
