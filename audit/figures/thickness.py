@@ -79,6 +79,7 @@ def search(
         limit=limit,
         across=across(pair, prove=pair.settings.certificate),
         prove=pair.settings.certificate,
+        threads=pair.settings.jobs if pair.alone else 1,
     )
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
     if interval.stop == "work spent":

@@ -70,7 +70,8 @@ class Settings(Struct, frozen=True):
     half of it. It limits the number of steps and not the time, so that the same input gives the
     same answer on every machine.
     part_*: how concave meshes are split into convex parts, and the limits for it.
-    jobs: threads over pairs; 0: one for each core. jobs, cache and timings change no answer.
+    jobs: threads over pairs, or within the only pair; 0: one for each core. jobs, cache and timings
+    change no answer.
     """
 
     depth: bool | None = None

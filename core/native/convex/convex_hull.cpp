@@ -2,6 +2,7 @@
 // plane, A. M. Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
 // Points are sorted by their coordinates first, so the result does not depend on their order.
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <stdexcept>
 
@@ -97,35 +98,56 @@ Polytope lower_dimensional(const DistinctPoints& set, const std::vector<std::uin
   return result;
 }
 
+// The largest dimension of a simplex of these points, and `dimension` + 1 of them that span it.
+struct Simplex {
+  int dimension;
+  std::array<std::uint32_t, 4> corner;
+};
+
+Simplex first_simplex(const std::vector<Vec3>& points) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const std::uint32_t last = count - 1;
+  if (count == 1) return {0, {0}};
+
+  const Vec3 a = points.front(), b = points.back();  // both extreme
+  const std::uint32_t third = best(
+      points, [&](Vec3 p) { return norm_squared(cross(b - a, p - a)); },
+      [&](Vec3 p) { return !collinear(a, b, p); });
+  if (third == count) return {1, {0, last}};
+
+  const Vec3 c = points[third];
+  const Vec3 normal = rounded_normal(a, b, c);
+  const std::uint32_t fourth = best(
+      points, [&](Vec3 p) { return std::fabs(dot(normal, p - a)); },
+      [&](Vec3 p) { return orientation(a, b, c, p) != 0; });
+  if (fourth == count) return {2, {0, last, third}};
+  return {3, {0, last, third, fourth}};
+}
+
 }  // namespace
 
 Polytope convex_hull(const std::vector<Vec3>& points) {
   const DistinctPoints set = distinct(points);
-  const auto count = static_cast<std::uint32_t>(set.point.size());
-  if (count == 1) return lower_dimensional(set, {0}, 0);
-
-  const Vec3 a = set.point.front(), b = set.point.back();  // both extreme
-  const std::uint32_t third = best(
-      set.point, [&](Vec3 p) { return norm_squared(cross(b - a, p - a)); },
-      [&](Vec3 p) { return !collinear(a, b, p); });
-  if (third == count) return lower_dimensional(set, {0, count - 1}, 1);
-
-  const Vec3 c = set.point[third];
-  const Vec3 normal = rounded_normal(a, b, c);
-  const std::uint32_t fourth = best(
-      set.point, [&](Vec3 p) { return std::fabs(dot(normal, p - a)); },
-      [&](Vec3 p) { return orientation(a, b, c, p) != 0; });
-  if (fourth == count) {
-    const int drop_axis = widest_projection(a, b, c);
+  const auto [dimension, corner] = first_simplex(set.point);
+  if (dimension == 0) return lower_dimensional(set, {corner[0]}, 0);
+  if (dimension == 1) return lower_dimensional(set, {corner[0], corner[1]}, 1);
+  if (dimension == 2) {
+    const int drop_axis = widest_projection(set.point[corner[0]], set.point[corner[1]], set.point[corner[2]]);
     Polytope flat = lower_dimensional(set, planar_hull(set.point, drop_axis), 2);
     add_flat_faces(flat);
     return flat;
   }
   Polytope solid;
   solid.dimension = 3;
-  const std::vector<Triangle> boundary = quickhull(set.point, {0, count - 1, third, fourth});
-  add_solid_faces(solid, set.point, boundary, set.source);
+  add_solid_faces(solid, set.point, quickhull(set.point, corner), set.source);
   return solid;
+}
+
+HullTriangles hull_triangles(const std::vector<Vec3>& points) {
+  HullTriangles result{distinct(points).point, {}};
+  const auto [dimension, corner] = first_simplex(result.points);
+  if (dimension == 3) result.triangles = quickhull(result.points, corner);
+  return result;
 }
 
 }  // namespace satcheck

@@ -12,4 +12,12 @@ namespace satcheck {
 // Convex Hulls" (1996), with exact orientation signs instead of its thickness tolerance.
 Polytope convex_hull(const std::vector<Vec3>& points);
 
+// The same hull without faces and edges, which takes half the time. No triangle is degenerate, but neighbours may lie in
+// one plane. None if all points do.
+struct HullTriangles {
+  std::vector<Vec3> points;         // distinct, by x, then y, then z
+  std::vector<Triangle> triangles;  // outward, counter-clockwise
+};
+HullTriangles hull_triangles(const std::vector<Vec3>& points);
+
 }  // namespace satcheck

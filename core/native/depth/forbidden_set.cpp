@@ -1,9 +1,10 @@
-#include "convex/convex_hull.hpp"
 #include "depth/forbidden_set.hpp"
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "base/work.hpp"
+#include "convex/convex_hull.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
@@ -22,6 +23,12 @@ constexpr double kMostFactor = 64;
 // Roundings of the height of a part of a box, as a share of 1 + factor times the largest coordinate and offset: a sum of
 // normals 2 a coordinate, products, their sum and the difference 8, over three coordinates.
 constexpr double kPartError = 32 * kUnitRoundoff;
+
+// The length of a small normal may be out of range; that of its multiple is not.
+Vec3 unit(Vec3 normal) {
+  const Vec3 scaled = normal * (1 / max_abs(normal));
+  return scaled * (1 / norm(scaled));
+}
 
 }  // namespace
 
@@ -89,20 +96,22 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
   }
   ForbiddenSet result;
   if (!are_in_range(differences)) return result;
-  const Polytope hull = convex_hull(differences);
-  if (hull.dimension != 3) return result;
-  for (const Vec3& v : hull.vertices) result.box.include(v);
+  const HullTriangles hull = hull_triangles(differences);
+  if (hull.triangles.empty()) return result;
   const double pad = (kFacetError + kSetError) * scale;
   Vec3 sum;
-  for (const Vec3& v : hull.vertices) sum = sum + v;
-  for (std::size_t f = 0; f < hull.face_count(); ++f) {
-    const Vec3 v = hull.vertices[hull.face_vertex[hull.face_offset[f]]];
-    result.normal.push_back(hull.face_normal[f]);
-    result.facet.push_back(dot(hull.face_normal[f], v));
+  for (const Triangle& t : hull.triangles) {
+    const Vec3 a = hull.points[t[0]], b = hull.points[t[1]], c = hull.points[t[2]];
+    result.normal.push_back(unit(rounded_normal(a, b, c)));
+    result.facet.push_back(dot(result.normal.back(), a));
     result.offset.push_back(result.facet.back() - pad);
+    for (const Vec3& v : {a, b, c}) {
+      result.box.include(v);
+      sum = sum + v;
+    }
   }
   // The region within the planes is then connected with the inside of the hull, and therefore inside it.
-  const Vec3 middle = sum * (1 / static_cast<double>(hull.vertices.size()));
+  const Vec3 middle = sum * (1.0 / static_cast<double>(3 * hull.triangles.size()));
   return result.exit(middle).depth > 0 ? result : ForbiddenSet{};
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <utility>
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
@@ -187,9 +188,7 @@ class Growth {
       if (is_on_this_side(p)) corner.push_back(p);
     }
     if (corner.size() < 4 || !are_in_range(corner)) return std::nullopt;
-    const Polytope region = convex_hull(corner);
-    if (region.dimension != 3) return std::nullopt;
-    InnerRegion result{region.vertices, {}};
+    InnerRegion result{std::move(corner), {}};
     for (const Vec3& p : result.vertices) result.box.include(p);
     return result;
   }

@@ -11,7 +11,7 @@ namespace satcheck {
 // The convex hull of `vertices` has no point of the surface in its interior, and the winding number there is not 0.
 // Both are proven, rounding included. Frame of the surface.
 struct InnerRegion {
-  std::vector<Vec3> vertices;  // extreme points, at least 4
+  std::vector<Vec3> vertices;  // at least 4; up to rounding, all of them are extreme
   Aabb box;
 };
 

@@ -20,6 +20,8 @@ namespace {
 
 // About how many crossings are tried.
 constexpr std::size_t kPockets = 8;
+// Another set is made if t may be deeper in it by this share.
+constexpr double kWorthwhile = 1.0 / 64;
 // A crossing this near to a common point, in units of its depth, counts as part of the same overlap.
 constexpr double kNear = 2;
 
@@ -127,11 +129,26 @@ class Proof {
   }
 
   void keep_deepest(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
+    if (!may_be_deeper(part_of_a, part_of_b)) return;
     ForbiddenSet set = forbidden_set(part_of_a, part_of_b);
     const double depth = set.exit(t_).depth;
     if (!(depth > depth_)) return;
     depth_ = depth;
     set_ = std::move(set);
+  }
+
+  // Whether t may be deeper in the difference of these parts than in the best set so far. It is no deeper than behind any
+  // plane that supports the difference, and those along the facets of the best set are likely to be near to t.
+  bool may_be_deeper(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) const {
+    return std::none_of(set_.normal.begin(), set_.normal.end(), [&](Vec3 n) {
+      return highest(part_of_b, n) + highest(part_of_a, -n) - dot(n, t_) <= depth_ * (1 + kWorthwhile);
+    });
+  }
+
+  static double highest(const std::vector<Vec3>& points, Vec3 n) {
+    double most = -INFINITY;
+    for (const Vec3 p : points) most = larger(most, dot(n, p));
+    return most;
   }
 
   const Surface& a_;

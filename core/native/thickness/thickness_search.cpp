@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "base/work.hpp"
 #include "depth/exact_centre.hpp"
 #include "mesh/surface_order.hpp"
@@ -33,6 +34,13 @@ constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
 
+// So many cells, those with the largest bounds, are divided at a time, on all cores. The number does not depend on the
+// cores, so neither does the answer. With more, a deeper point that one of them has comes too late for more of the others;
+// with fewer, starting threads takes as long as the cells.
+constexpr std::size_t kBatch = 64;
+// Fewer cells are not worth a thread.
+constexpr std::size_t kWorthThreads = 8;
+
 bool smaller_bound(const std::unique_ptr<OpenCell>& a, const std::unique_ptr<OpenCell>& b) {
   return a->bound != b->bound ? a->bound < b->bound : a->number > b->number;
 }
@@ -57,10 +65,7 @@ class Search {
     push_root();
     while (!open_.empty()) {
       if (finish(open_.front()->bound)) return;
-      std::pop_heap(open_.begin(), open_.end(), smaller_bound);
-      const std::unique_ptr<OpenCell> cell = std::move(open_.back());
-      open_.pop_back();
-      divide(*cell);
+      divide_largest();
     }
     finish(floor_);
   }
@@ -119,15 +124,68 @@ class Search {
     bodies_.make_patches(root.cell.box(), reach, kFlatness * half);
     box_ = box;
     if (record_) root.node = record_->add_root();
-    add(std::make_unique<OpenCell>(std::move(root)));
+    Share share{{}, {}, best_};
+    share.cells.push_back(std::make_unique<OpenCell>(std::move(root)));
+    bound(share, enough());
+    add(share);
   }
 
-  // Bounds the cell, and keeps it if its bound is too large.
-  void add(std::unique_ptr<OpenCell> cell) {
-    ++result_.boxes;
-    work_done += kCellWork;
-    bound_cell(bodies_, axes_, *cell, best_, enough(), [&](Vec3 p) { return consider(p); },
-               record_ ? &*record_ : nullptr);
+  // A cell that is divided, its parts, and what is found in them: the deepest point inside both bodies, if it is deeper
+  // than the best one before. Threads write into shares of their own.
+  struct Share {
+    std::unique_ptr<OpenCell> parent;
+    std::vector<std::unique_ptr<OpenCell>> cells;
+    double depth;
+    bool found = false;
+    Vec3 centre{};  // world frame
+    double radius = 0;
+    std::uint64_t work = 0;
+  };
+
+  void divide_largest() {
+    std::vector<Share> shares;
+    while (shares.size() < kBatch && !open_.empty() && (shares.empty() || open_.front()->bound > enough())) {
+      std::pop_heap(open_.begin(), open_.end(), smaller_bound);
+      shares.push_back({std::move(open_.back()), {}, best_});
+      open_.pop_back();
+    }
+    const double enough = this->enough();
+    // A record is written in order.
+    const unsigned threads = record_ || shares.size() < kWorthThreads ? 1 : goal_.threads;
+    parallel_for(shares.size(), threads, [&](std::size_t i) {
+      divide(shares[i], enough);
+      bound(shares[i], enough);
+    });
+    for (Share& share : shares) add(share);
+  }
+
+  void bound(Share& share, double enough) {
+    const std::uint64_t before = work_done;
+    const double best = share.depth;
+    for (const std::unique_ptr<OpenCell>& cell : share.cells) {
+      work_done += kCellWork;
+      bound_cell(bodies_, axes_, *cell, best, enough, [&](Vec3 p) { return consider(p, share); }, record_ ? &*record_ : nullptr);
+    }
+    // Counted in add(), on the thread of the search.
+    share.work = work_done - before;
+    work_done = before;
+  }
+
+  void add(Share& share) {
+    work_done += share.work;
+    result_.boxes += static_cast<std::uint32_t>(share.cells.size());
+    if (share.cells.empty()) dropped_ = std::fmax(dropped_, share.parent->bound);  // nothing is left to divide
+    if (share.found && share.depth > best_) {
+      best_ = share.depth;
+      result_.found = true;
+      result_.centre = share.centre;
+      result_.radius = share.radius;
+    }
+    for (std::unique_ptr<OpenCell>& cell : share.cells) keep(std::move(cell));
+  }
+
+  // Opens the cell if its bound is too large.
+  void keep(std::unique_ptr<OpenCell> cell) {
     if (cell->bound <= enough()) {
       dropped_ = std::fmax(dropped_, cell->bound);
       return;
@@ -138,7 +196,7 @@ class Search {
   }
 
   // Takes p, rounded to a point of the world frame, for a lower bound, if it is inside both. The body it is outside of.
-  int consider(Vec3 p) {
+  int consider(Vec3 p, Share& share) const {
     const Vec3 world = p + centre_;
     p = world - centre_;
     for (int body = 0; body < 2; ++body) {
@@ -146,29 +204,26 @@ class Search {
     }
     const double in_a = bodies_.clearance(0, p), in_b = bodies_.clearance(1, p);
     const double depth = std::fmin(in_a - bodies_.less(0), in_b - bodies_.less(1)) - bodies_.rounding();
-    if (depth > best_) {
-      best_ = depth;
-      result_.found = true;
-      result_.centre = world;
-      result_.radius = std::fmin(in_a, in_b);
+    if (depth > share.depth) {
+      share.depth = depth;
+      share.found = true;
+      share.centre = world;
+      share.radius = std::fmin(in_a, in_b);
     }
     return -1;
   }
 
-  void divide(OpenCell& parent) {
-    auto halves = divided(parent, kShareOfError * (parent.bound - enough()));
-    if (!halves) halves = divided(parent, kShareOfError * (parent.bound - best_));
-    if (!halves) {  // nothing is left to divide
-      dropped_ = std::fmax(dropped_, parent.bound);
-      return;
-    }
+  void divide(Share& share, double enough) {
+    const OpenCell& parent = *share.parent;
+    auto halves = divided(parent, kShareOfError * (parent.bound - enough));
+    if (!halves) halves = divided(parent, kShareOfError * (parent.bound - share.depth));
+    if (!halves) return;
     std::pair<std::uint32_t, std::uint32_t> nodes;
     if (record_) nodes = record_->divide(parent.node, halves->plane);
     for (Cell* part : {&halves->below, &halves->above}) {
       const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
-      auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.is_listed,
-                                                       parent.columns, parent.inside, {}, 0, node});
-      add(std::move(child));
+      share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.is_listed,
+                                                                parent.columns, parent.inside, {}, 0, node}));
     }
   }
 

@@ -33,6 +33,7 @@ struct ThicknessGoal {
   // A box around a component of the overlap, world frame: its balls lie in it. One of another component may be found that
   // has its centre in the box.
   std::optional<BoxAlong> within = {};
+  unsigned threads = 1;  // 0: one for each core; the answer does not depend on it
   std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/tolerances.hpp"
 #include "base/work.hpp"
@@ -23,22 +24,25 @@ Vec3 farthest_corner(const Aabb& box, Vec3 along) {
   return {along.x > 0 ? box.max.x : box.min.x, along.y > 0 ? box.max.y : box.min.y, along.z > 0 ? box.max.z : box.min.z};
 }
 
+double farthest(std::span<const Vec3> points, Vec3 normal) {
+  double most = -INFINITY;
+  for (const Vec3 p : points) most = larger(most, dot(normal, p));
+  return most;
+}
+
 // Of a convex polygon, the largest normal . x in the box: the polygon, cut by the six sides of the box where that may
 // make it smaller than `enough`.
-double farthest_in(std::vector<Vec3> shape, const Aabb& box, Vec3 normal, double enough) {
-  const auto farthest = [&] {
-    double most = -INFINITY;
-    for (const Vec3 p : shape) most = larger(most, dot(normal, p));
-    return most;
-  };
-  if (farthest() <= enough) return farthest();
-  std::vector<Vec3> cut;
+double farthest_in(std::span<const Vec3> polygon, const Aabb& box, Vec3 normal, double enough) {
+  const double most = farthest(polygon, normal);
+  if (most <= enough) return most;
+  std::vector<Vec3> shape(polygon.begin(), polygon.end()), cut;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       const double wall = sign > 0 ? box.max[axis] : -box.min[axis];
+      if (std::all_of(shape.begin(), shape.end(), [&](Vec3 p) { return sign * p[axis] <= wall; })) continue;
       cut.clear();
       for (std::size_t i = 0; i < shape.size(); ++i) {
-        const Vec3 p = shape[i], q = shape[(i + 1) % shape.size()];
+        const Vec3 p = shape[i], q = shape[i + 1 < shape.size() ? i + 1 : 0];
         const double s = sign * p[axis] - wall, t = sign * q[axis] - wall;
         if (s <= 0) cut.push_back(p);
         if ((s < 0 && t > 0) || (s > 0 && t < 0)) cut.push_back(p + (q - p) * (s / (s - t)));
@@ -46,7 +50,7 @@ double farthest_in(std::vector<Vec3> shape, const Aabb& box, Vec3 normal, double
       std::swap(shape, cut);
     }
   }
-  return farthest();
+  return farthest(shape, normal);
 }
 
 }  // namespace
@@ -136,7 +140,7 @@ double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchLi
     const Aabb& around = this->box(body, number);
     if (dot(normal, farthest_corner(around, normal)) <= least || !meet(around, box)) return;
     const Vec3* outline = patches(body).outlines.data() + from.first;
-    least = larger(least, farthest_in({outline, outline + from.count}, box, normal, enough) + from.slack);
+    least = larger(least, farthest_in({outline, from.count}, box, normal, enough) + from.slack);
   };
   for (const std::uint32_t number : near) {
     work_done += kSideWork;
@@ -166,7 +170,7 @@ double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, doubl
       if (patches(body).patch_of[t] == kNoPatch || !meet(box_at(from.bvh, from.mesh, i), box)) continue;
       work_done += kSideWork;
       const Corners c = corners(from.mesh, t);
-      least = larger(least, farthest_in({c.begin(), c.end()}, box, normal, larger(least, enough)));
+      least = larger(least, farthest_in(c, box, normal, larger(least, enough)));
     }
   }
   return least;

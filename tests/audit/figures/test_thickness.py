@@ -51,6 +51,16 @@ def test_known_balls(tmp_path: Path, a: Mesh, b: Mesh, thickness: float) -> None
     assert found.thickness <= (found.depth or 0.0)
 
 
+def test_threads_change_nothing() -> None:
+    samples = Path(__file__).parents[3] / "sample_meshes"
+    scene = load_scene([samples / "kettle.obj", samples / "snowflake.obj"])
+    one, two = (check(scene, Settings(jobs=jobs)).findings[0] for jobs in (1, 2))
+    assert [(step.stage, step.detail) for step in one.plan] == [
+        (step.stage, step.detail) for step in two.plan
+    ]
+    assert (one.thickness_bounds, one.ball) == (two.thickness_bounds, two.ball)
+
+
 def test_a_ball_in_a_plane_is_a_disc(tmp_path: Path) -> None:
     low = box((0, 0, 0), (1, 1, 0.125))
     found = only(tmp_path, low, box((0.5, 0, 5), (2, 1, 6)), planar="xy")

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "convex/convex_hull.hpp"
 #include "convex/shape.hpp"
@@ -199,6 +201,30 @@ void triangles_without_faces() {
   }
 }
 
+// Triangles contain all points, use every extreme point, and leave no edge open.
+void triangles_of_the_hull() {
+  std::mt19937 generator(13);
+  std::uniform_int_distribution<int> coordinate(-3, 3);
+  for (int i = 0; i < 300; ++i) {
+    Points points;
+    for (int k = 0; k < 12; ++k) points.push_back(Vec3{coordinate(generator) * 0.1, coordinate(generator) * 0.1, coordinate(generator) * 0.1});
+    const Polytope hull = convex_hull(points);
+    const HullTriangles boundary = hull_triangles(points);
+    CHECK(boundary.triangles.empty() == (hull.dimension < 3));
+    if (hull.dimension < 3) continue;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
+    Points corners;
+    for (const Triangle& t : boundary.triangles) {
+      const Vec3 a = boundary.points[t[0]], b = boundary.points[t[1]], c = boundary.points[t[2]];
+      for (const Vec3& p : points) CHECK(orientation(a, b, c, p) <= 0);
+      corners.insert(corners.end(), {a, b, c});
+      for (std::size_t k = 0; k < 3; ++k) CHECK(sides.insert({t[k], t[(k + 1) % 3]}).second);
+    }
+    for (const auto& [tail, head] : sides) CHECK(sides.contains({head, tail}));
+    for (const Vec3& v : hull.vertices) CHECK(std::find(corners.begin(), corners.end(), v) != corners.end());
+  }
+}
+
 }  // namespace
 
 UNIT(convex_hull) {
@@ -210,4 +236,5 @@ UNIT(convex_hull) {
   random_lattice_clouds();
   large_inputs();
   triangles_without_faces();
+  triangles_of_the_hull();
 }

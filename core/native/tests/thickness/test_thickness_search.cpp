@@ -22,6 +22,22 @@ bool holds(const ThicknessInterval& found, double truth) {
   return found.lower <= truth && truth <= found.upper;
 }
 
+// A ball and a block around it with a hollow of fewer facets. The search keeps more cells open than it takes at a time.
+void threads_change_nothing() {
+  Mesh block = box({-2, -2, -2}, {2, 2, 2});
+  append(block, reversed(uv_sphere(16)));
+  const Surface a = make_surface(uv_sphere(20), true), b = make_surface(block, true);
+  ThicknessGoal goal;
+  const ThicknessInterval alone = search(a, b, goal);
+  CHECK(alone.boxes > 500 && alone.found);
+  for (const unsigned threads : {0u, 2u, 5u}) {
+    goal.threads = threads;
+    const ThicknessInterval found = search(a, b, goal);
+    CHECK(found.lower == alone.lower && found.upper == alone.upper && found.centre == alone.centre);
+    CHECK(found.boxes == alone.boxes && found.work == alone.work && found.stop == alone.stop);
+  }
+}
+
 }  // namespace
 
 UNIT(thickness_search) {
@@ -63,4 +79,6 @@ UNIT(thickness_search) {
   const ThicknessInterval distant = search(far_cube, far_slab);
   CHECK(holds(distant, 0.125) && distant.stop == ThicknessStop::narrow);
   CHECK(winding_number(far_cube, distant.centre) == 1 && winding_number(far_slab, distant.centre) == 1);
+
+  threads_change_nothing();
 }
