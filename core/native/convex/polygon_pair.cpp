@@ -1,0 +1,192 @@
+// Two convex polygons are disjoint exactly if an edge normal of one of them separates them. If they overlap, the least
+// overlap is also along an edge normal, because every edge of the Minkowski difference is an edge of A or of -B (C.
+// Ericson, "Real-Time Collision Detection", 2004, 5.2). If they are apart, the nearest point of the difference lies on
+// an edge that the origin is above, or it is a corner.
+
+#include "convex/polygon_pair.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "convex/pair_order.hpp"
+#include "convex/polygon_difference.hpp"
+#include "exact/dyadic.hpp"
+
+namespace satcheck {
+
+namespace {
+
+// A gap whose error is a larger share of it is computed exactly.
+constexpr double kAccurate = 0x1p-40;
+// Of exact_gap(): its quotient 4, the length 3 roundoffs, and one for this bound.
+constexpr double kExactGapError = 8 * kUnitRoundoff;
+// Of the distance of two corners: a difference, the sum of squares 2, the root, and one for this bound.
+constexpr double kCornerError = 5 * kUnitRoundoff;
+// Squares of lengths from 1e-240 to 1e45 stay in the range of float64 after this scaling.
+constexpr double kNoUnderflow = 0x1p300;
+
+Vec3 lift(Vec2 p) { return {p.x, p.y, 0}; }
+
+bool boxes_apart(const ConvexPolygon& a, const ConvexPolygon& b) {
+  return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y;
+}
+
+Gap exact_gap(const DifferenceEdge& e) {
+  const auto difference = [](double head, double tail) { return Dyadic(head) - Dyadic(tail); };
+  const Dyadic ux = difference(e.to.x, e.from.x), uy = difference(e.to.y, e.from.y);
+  const Dyadic wx = difference(e.corner.x, e.from.x), wy = difference(e.corner.y, e.from.y);
+  const EdgeLength length = edge_length(e.from, e.to);
+  const double gap = rounded_ratio((uy * wx - ux * wy) * Dyadic(length.scale), Dyadic(length.scaled));
+  return {gap, kExactGapError * std::fabs(gap)};
+}
+
+Gap accurate_gap(const DifferenceEdge& e) {
+  const Gap gap = gap_of(e);
+  return gap.error <= kAccurate * std::fabs(gap.value) ? gap : exact_gap(e);
+}
+
+// Sign of (to - from) . (p - from).
+int sign_along(Vec2 from, Vec2 to, Vec2 p) {
+  const auto turned = [](Vec2 v) { return Vec2{v.y, -v.x}; };
+  return turn_sign(turned(from), turned(to), from, p);
+}
+
+// Whether the foot of the corner on the line of the edge lies on the edge.
+bool foot_on_edge(const DifferenceEdge& e) {
+  return sign_along(e.from, e.to, e.corner) >= 0 && sign_along(e.to, e.from, e.corner) >= 0;
+}
+
+struct EdgeGap {
+  DifferenceEdge edge{};
+  Gap gap{-INFINITY, 0};
+};
+
+struct Scan {
+  Outcome outcome = Outcome::penetrating;
+  EdgeGap widest;           // of all edges if penetrating, else of the edge that proves the outcome
+  double reach = -INFINITY;  // no gap is wider
+};
+
+Scan scan_edges(const ConvexPolygon& a, const ConvexPolygon& b) {
+  Scan scan;
+  walk_difference(a, b, [&](const DifferenceEdge& e) {
+    const Gap gap = gap_of(e);
+    if (gap.value > scan.widest.gap.value) scan.widest = {e, gap};
+    scan.reach = larger(scan.reach, gap.value + gap.error);
+    const int sign = sign_of(e, gap);
+    if (sign < 0 || (sign == 0 && !foot_on_edge(e))) return true;
+    scan = {sign > 0 ? Outcome::separated : Outcome::touching, {e, gap}, INFINITY};
+    return false;
+  });
+  return scan;
+}
+
+// The widest gap of all edges of two polygons that overlap. Edges within the rounding errors compete in exact arithmetic.
+EdgeGap widest_gap(const ConvexPolygon& a, const ConvexPolygon& b, const Scan& scan) {
+  const auto& [edge, gap] = scan.widest;
+  const double lower = gap.value - gap.error;
+  if (scan.reach - lower <= kAccurate * std::fabs(gap.value)) return {edge, {gap.value, scan.reach - gap.value}};
+  EdgeGap best;
+  walk_difference(a, b, [&](const DifferenceEdge& e) {
+    const Gap rough = gap_of(e);
+    if (rough.value + rough.error < lower) return true;
+    const Gap exact = exact_gap(e);
+    if (exact.value > best.gap.value) best = {e, exact};
+    return true;
+  });
+  return best;
+}
+
+struct CornerPair {
+  Vec2 a, b;
+};
+
+void write(const EdgeGap& found, PairResult& result) {
+  const auto& [e, gap] = found;
+  const Vec2 foot = e.corner - e.normal * gap.value;
+  result.has_distance = true;
+  result.distance = gap.value;
+  result.lower = gap.value - gap.error;
+  result.upper = gap.value + gap.error;
+  result.normal = lift(e.of_a ? e.normal : Vec2{} - e.normal);
+  result.witness_a = lift(e.of_a ? foot : e.corner);
+  result.witness_b = lift(e.of_a ? e.corner : foot);
+  result.feature = e.of_a ? Feature::face_a : Feature::face_b;
+  (e.of_a ? result.index_a : result.index_b) = e.index;
+}
+
+void write(CornerPair nearest, PairResult& result) {
+  const EdgeLength length = edge_length(nearest.a, nearest.b);
+  const double distance = length.scaled / length.scale;
+  result.has_distance = true;
+  result.distance = distance;
+  result.lower = distance - kCornerError * distance;
+  result.upper = distance + kCornerError * distance;
+  result.normal = lift((nearest.b - nearest.a) * (length.scale / length.scaled));
+  result.witness_a = lift(nearest.a);
+  result.witness_b = lift(nearest.b);
+  result.feature = Feature::vertices;
+}
+
+// Two separated polygons.
+void write_distance(const ConvexPolygon& a, const ConvexPolygon& b, PairResult& result) {
+  std::optional<DifferenceEdge> edge;
+  CornerPair nearest{};
+  double least = INFINITY;
+  walk_difference(a, b, [&](const DifferenceEdge& e) {
+    const Vec2 w = (e.corner - e.from) * kNoUnderflow;
+    if (const double squared = dot(w, w); squared < least) {
+      least = squared;
+      nearest = e.of_a ? CornerPair{e.from, e.corner} : CornerPair{e.corner, e.from};
+    }
+    if (sign_of(e, gap_of(e)) > 0 && foot_on_edge(e)) edge = e;
+    return !edge;
+  });
+  if (edge) {
+    write({*edge, accurate_gap(*edge)}, result);
+  } else {
+    write(nearest, result);
+  }
+}
+
+PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
+  PairResult result;
+  result.method = Method::sat;
+  const bool apart = boxes_apart(a, b);
+  const Scan scan = apart ? Scan{Outcome::separated, {}} : scan_edges(a, b);
+  result.outcome = scan.outcome;
+  if (query == Query::overlap) return result;
+  switch (scan.outcome) {
+    case Outcome::separated:
+      write_distance(a, b, result);
+      break;
+    case Outcome::touching:
+      write({scan.widest.edge, {0, 0}}, result);
+      break;
+    default:
+      write(widest_gap(a, b, scan), result);
+  }
+  return result;
+}
+
+bool corners_less(const ConvexPolygon& a, const ConvexPolygon& b) {
+  return std::lexicographical_compare(a.corners, a.corners + a.count, b.corners, b.corners + b.count,
+                                      [](Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
+}
+
+// An order of polygons that does not depend on which is given first, as comes_before() of shapes.
+bool comes_before(const ConvexPolygon& a, const ConvexPolygon& b) {
+  return a.low.x != b.low.x ? a.low.x < b.low.x : a.low.y != b.low.y ? a.low.y < b.low.y : corners_less(a, b);
+}
+
+}  // namespace
+
+PairResult check_polygons(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
+  const ConvexPolygon* const polygons[2] = {&a, &b};
+  const bool swapped = !comes_before(a, b);
+  PairResult result = check_in_order(*polygons[swapped], *polygons[!swapped], query);
+  if (swapped) mirror(result);
+  return result;
+}
+
+}  // namespace satcheck
