@@ -17,7 +17,7 @@ Edge = tuple[Point, Point]
 
 
 def signed_square(a: NDArray[np.float64], b: NDArray[np.float64]) -> Fraction:
-    """The squared gap; 0: touching; < 0: minus the squared depth. a, b: (n, 2), counter-clockwise."""
+    """The squared gap; 0: touching; < 0: minus the squared depth. a, b: (n, 2) corners."""
     first, second = _exact(a), _exact(b)
     overlaps = [
         min(_height(edge, p) for p in other)

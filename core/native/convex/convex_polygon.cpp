@@ -1,5 +1,7 @@
 #include "convex/convex_polygon.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -60,6 +62,24 @@ void find_extremes(ConvexPolygon& p) {
   }
 }
 
+std::uint32_t sectors_for(std::uint32_t corners) { return std::bit_ceil(std::max(corners, 4u)); }
+
+// The direction at a pseudo_angle().
+Vec2 direction_at(double angle) {
+  const double quarter = std::floor(angle), along = angle - quarter;
+  const Vec2 first{1 - along, along};
+  const Vec2 turned[4] = {first, {-first.y, first.x}, -first, {first.y, -first.x}};
+  return turned[static_cast<int>(quarter)];
+}
+
+void fill_sectors(const ConvexPolygon& p, std::uint32_t* starts) {
+  std::uint32_t corner = p.climb(p.lowest, {1, 0});
+  for (std::uint32_t k = 0; k < p.sectors; ++k) {
+    corner = p.climb(corner, direction_at(4.0 * k / p.sectors));
+    starts[k] = corner;
+  }
+}
+
 }  // namespace
 
 EdgeLength edge_length(Vec2 p, Vec2 q) {
@@ -73,13 +93,22 @@ ConvexPolygons::ConvexPolygons(std::vector<Vec2> corners, const std::vector<std:
   if (starts.empty() || starts.front() != 0 || starts.back() != corners_.size()) {
     throw std::invalid_argument("starts begins with 0 and ends with the number of corners");
   }
+  std::size_t sectors = 0;
   for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
     if (starts[k] > starts[k + 1] || starts[k + 1] > corners_.size()) throw std::invalid_argument("starts decreases");
-    ConvexPolygon p{&corners_[starts[k]], &normals_[starts[k]], starts[k + 1] - starts[k], 0, 0, {}, {}};
+    sectors += sectors_for(starts[k + 1] - starts[k]);
+  }
+  sector_starts_.resize(sectors);
+  std::uint32_t* free_sectors = sector_starts_.data();
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+    const std::uint32_t count = starts[k + 1] - starts[k];
+    ConvexPolygon p{&corners_[starts[k]], &normals_[starts[k]], count, 0, 0, {}, {}, free_sectors, sectors_for(count)};
     require_in_range(p.corners, p.count);
     require_convex(p, k);
     find_extremes(p);
-    for (std::uint32_t i = 0; i < p.count; ++i) normals_[starts[k] + i] = normal_of(p.corners[i], p.corners[p.next(i)]);
+    for (std::uint32_t i = 0; i < count; ++i) normals_[starts[k] + i] = normal_of(p.corners[i], p.corners[p.next(i)]);
+    fill_sectors(p, free_sectors);
+    free_sectors += p.sectors;
     polygons_.push_back(p);
   }
 }

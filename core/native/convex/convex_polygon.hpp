@@ -18,8 +18,36 @@ struct ConvexPolygon {
   std::uint32_t highest;  // with the largest y; of two, the one with the largest x
   Vec2 low, high;         // the box around the corners
 
+  // The support corners of the directions at pseudo_angle() 4 k / sectors. sectors: a power of two, at least 4.
+  const std::uint32_t* sector_starts;
+  std::uint32_t sectors;
+
   std::uint32_t next(std::uint32_t i) const { return i + 1 == count ? 0 : i + 1; }
+  std::uint32_t previous(std::uint32_t i) const { return (i == 0 ? count : i) - 1; }
+
+  // The corner farthest along a direction, whose pseudo_angle() is given; kSupportRoundoffs says how far it may fall
+  // short.
+  std::uint32_t support(Vec2 direction, double angle) const {
+    const auto sector = static_cast<std::uint32_t>(angle * (sectors / 4)) & (sectors - 1);
+    return climb(sector_starts[sector], direction);
+  }
+  // From a corner that is at most half a turn short of it.
+  std::uint32_t climb(std::uint32_t i, Vec2 direction) const {
+    while (cross(normals[i], direction) > 0) i = next(i);
+    return i;
+  }
 };
+
+// Grows with the angle of the direction, from 0 at +x over 1 at +y to 4. The direction is not 0.
+inline double pseudo_angle(Vec2 d) {
+  const double slope = d.y / (std::fabs(d.x) + std::fabs(d.y));
+  return d.x < 0 ? 2 - slope : d.y < 0 ? 4 + slope : slope;
+}
+
+// The edges between a corner that support() returns and the farthest one leave the direction by at most this angle, in
+// roundoffs: a normal 4 sqrt(2), a product 3, the angle 8, rounded up. So a support value falls short by at most that
+// share of half the outline, which is at most the width and the height of the box.
+inline constexpr double kSupportRoundoffs = 20;
 
 class ConvexPolygons {
  public:
@@ -35,6 +63,7 @@ class ConvexPolygons {
 
  private:
   std::vector<Vec2> corners_, normals_;
+  std::vector<std::uint32_t> sector_starts_;
   std::vector<ConvexPolygon> polygons_;
 };
 

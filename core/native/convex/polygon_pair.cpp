@@ -10,6 +10,7 @@
 
 #include "convex/pair_order.hpp"
 #include "convex/polygon_difference.hpp"
+#include "convex/polygon_gjk.hpp"
 #include "exact/dyadic.hpp"
 
 namespace satcheck {
@@ -45,15 +46,12 @@ Gap accurate_gap(const DifferenceEdge& e) {
   return gap.error <= kAccurate * std::fabs(gap.value) ? gap : exact_gap(e);
 }
 
-// Sign of (to - from) . (p - from).
-int sign_along(Vec2 from, Vec2 to, Vec2 p) {
-  const auto turned = [](Vec2 v) { return Vec2{v.y, -v.x}; };
-  return turn_sign(turned(from), turned(to), from, p);
-}
+// Sign of (b - a) . (d - c).
+int dot_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) { return turn_sign({a.y, -a.x}, {b.y, -b.x}, c, d); }
 
 // Whether the foot of the corner on the line of the edge lies on the edge.
 bool foot_on_edge(const DifferenceEdge& e) {
-  return sign_along(e.from, e.to, e.corner) >= 0 && sign_along(e.to, e.from, e.corner) >= 0;
+  return dot_sign(e.from, e.to, e.from, e.corner) >= 0 && dot_sign(e.to, e.from, e.to, e.corner) >= 0;
 }
 
 struct EdgeGap {
@@ -97,10 +95,6 @@ EdgeGap widest_gap(const ConvexPolygon& a, const ConvexPolygon& b, const Scan& s
   return best;
 }
 
-struct CornerPair {
-  Vec2 a, b;
-};
-
 void write(const EdgeGap& found, PairResult& result) {
   const auto& [e, gap] = found;
   const Vec2 foot = e.corner - e.normal * gap.value;
@@ -115,47 +109,95 @@ void write(const EdgeGap& found, PairResult& result) {
   (e.of_a ? result.index_a : result.index_b) = e.index;
 }
 
-void write(CornerPair nearest, PairResult& result) {
-  const EdgeLength length = edge_length(nearest.a, nearest.b);
+void write(Vec2 corner_a, Vec2 corner_b, PairResult& result) {
+  const EdgeLength length = edge_length(corner_a, corner_b);
   const double distance = length.scaled / length.scale;
   result.has_distance = true;
   result.distance = distance;
   result.lower = distance - kCornerError * distance;
   result.upper = distance + kCornerError * distance;
-  result.normal = lift((nearest.b - nearest.a) * (length.scale / length.scaled));
-  result.witness_a = lift(nearest.a);
-  result.witness_b = lift(nearest.b);
+  result.normal = lift((corner_b - corner_a) * (length.scale / length.scaled));
+  result.witness_a = lift(corner_a);
+  result.witness_b = lift(corner_b);
   result.feature = Feature::vertices;
 }
 
-// Two separated polygons.
+// Whether the neighbours of a corner do not come nearer to a point than the corner does, along the line between them.
+bool is_nearest_corner(const ConvexPolygon& p, std::uint32_t i, Vec2 point) {
+  const Vec2 corner = p.corners[i];
+  return dot_sign(corner, point, corner, p.corners[p.next(i)]) <= 0 &&
+         dot_sign(corner, point, corner, p.corners[p.previous(i)]) <= 0;
+}
+
+// The edge between two corners of `owner`, if corner j of `other` lies above it and no other corner is nearer.
+std::optional<DifferenceEdge> nearest_edge(const ConvexPolygon& owner, std::uint32_t i, std::uint32_t k,
+                                           const ConvexPolygon& other, std::uint32_t j, bool of_a) {
+  if (owner.next(k) == i) std::swap(i, k);
+  if (owner.next(i) != k) return std::nullopt;
+  const DifferenceEdge e{owner.corners[i], owner.corners[k], owner.normals[i], other.corners[j], i, of_a};
+  const bool faces = turn_sign(e.from, e.to, e.corner, other.corners[other.next(j)]) <= 0 &&
+                     turn_sign(e.from, e.to, e.corner, other.corners[other.previous(j)]) <= 0;
+  if (!faces || sign_of(e, gap_of(e)) <= 0 || !foot_on_edge(e)) return std::nullopt;
+  return e;
+}
+
+// What GJK found, if it is proven: convex shapes have no other local minima of the distance.
+bool write_proven(const ConvexPolygon& a, const ConvexPolygon& b, const PolygonGjk& found, PairResult& result) {
+  const auto& [p, q] = found.simplex;
+  if (found.count == 1) {
+    const Vec2 corner_a = a.corners[p.i], corner_b = b.corners[p.j];
+    if (!is_nearest_corner(a, p.i, corner_b) || !is_nearest_corner(b, p.j, corner_a)) return false;
+    write(corner_a, corner_b, result);
+    return true;
+  }
+  std::optional<DifferenceEdge> edge = nearest_edge(a, p.i, q.i, b, p.j, true);
+  if (!edge) edge = nearest_edge(b, p.j, q.j, a, p.i, false);
+  if (!edge && p.j != q.j) edge = nearest_edge(a, p.i, q.i, b, q.j, true);
+  if (!edge && p.i != q.i) edge = nearest_edge(b, p.j, q.j, a, q.i, false);
+  if (edge) write({*edge, accurate_gap(*edge)}, result);
+  return edge.has_value();
+}
+
+// The distance of two separated polygons by a walk over all edges.
 void write_distance(const ConvexPolygon& a, const ConvexPolygon& b, PairResult& result) {
   std::optional<DifferenceEdge> edge;
-  CornerPair nearest{};
+  DifferenceEdge at_corner{};
   double least = INFINITY;
   walk_difference(a, b, [&](const DifferenceEdge& e) {
     const Vec2 w = (e.corner - e.from) * kNoUnderflow;
     if (const double squared = dot(w, w); squared < least) {
       least = squared;
-      nearest = e.of_a ? CornerPair{e.from, e.corner} : CornerPair{e.corner, e.from};
+      at_corner = e;
     }
     if (sign_of(e, gap_of(e)) > 0 && foot_on_edge(e)) edge = e;
     return !edge;
   });
   if (edge) {
     write({*edge, accurate_gap(*edge)}, result);
+  } else if (at_corner.of_a) {
+    write(at_corner.from, at_corner.corner, result);
   } else {
-    write(nearest, result);
+    write(at_corner.corner, at_corner.from, result);
   }
 }
 
 PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
   PairResult result;
+  const bool overlap = query == Query::overlap, far = boxes_apart(a, b);
+  if (overlap && far) {
+    result.outcome = Outcome::separated;
+    result.method = Method::sat;
+    return result;
+  }
+  const PolygonGjk found = gjk(a, b, !overlap);
+  const bool apart = found.finding == PolygonFinding::apart, meet = found.finding == PolygonFinding::meet;
+  result.method = Method::gjk;
+  result.outcome = apart ? Outcome::separated : Outcome::penetrating;
+  if ((overlap && (apart || meet)) || (apart && write_proven(a, b, found, result))) return result;
   result.method = Method::sat;
-  const bool apart = boxes_apart(a, b);
   const Scan scan = apart ? Scan{Outcome::separated, {}} : scan_edges(a, b);
   result.outcome = scan.outcome;
-  if (query == Query::overlap) return result;
+  if (overlap) return result;
   switch (scan.outcome) {
     case Outcome::separated:
       write_distance(a, b, result);
