@@ -56,7 +56,8 @@ void walk_difference(const ConvexPolygon& a, const ConvexPolygon& b, Visit visit
   std::uint32_t at[2] = {a.highest, b.lowest}, left[2] = {a.count, b.count};
   while (left[0] + left[1] > 0) {
     // Indexed by the owner instead of branches, because the order is unpredictable.
-    const bool owner = left[0] == 0 || (left[1] > 0 && b_comes_first(a, at[0], b, at[1]));
+    const bool b_first = b_comes_first(a, at[0], b, at[1]);
+    const bool owner = (left[1] != 0) & (b_first | (left[0] == 0));
     const ConvexPolygon& p = *polygons[owner];
     const std::uint32_t edge = at[owner];
     at[owner] = p.next(edge);

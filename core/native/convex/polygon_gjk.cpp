@@ -1,35 +1,21 @@
 #include "convex/polygon_gjk.hpp"
 
-#include <utility>
-
-#include "base/tolerances.hpp"
-
 namespace satcheck {
-
 namespace {
 
 // Each step visits new corners, and most pairs need less than six.
 constexpr int kMostSteps = 32;
 // The search for the distance ends when the next corner is nearer by less than this share.
 constexpr double kNoProgress = 1e-12;
-// Of a support value d . w, as a share of |d| |w|: the supports of both, and five roundings of w and of the product. It
-// also covers a product w x w'.
-constexpr double kNoise = (2 * kSupportRoundoffs + 8) * kUnitRoundoff;
-
-DifferenceCorner support(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 direction) {
-  const double angle = pseudo_angle(direction);
-  const std::uint32_t i = a.support(direction, angle), j = b.support(-direction, angle + 2);
-  return {b.corners[j] - a.corners[i], i, j};
+// Whether the origin lies in the triangle, by more than `noise` of each product.
+bool encloses(Vec2 p, Vec2 q, Vec2 r, double noise) {
+  const double pq = cross(p, q), qr = cross(q, r), rp = cross(r, p);
+  return (pq > noise && qr > noise && rp > noise) || (pq < -noise && qr < -noise && rp < -noise);
 }
 
-struct Nearest {
-  Vec2 v;
-  double squared;
-  bool inner;  // not an end
-};
+}  // namespace
 
-// The point of the segment from p to q that is nearest to the origin.
-Nearest nearest_of(Vec2 p, Vec2 q) {
+NearestPoint nearest_to_origin(Vec2 p, Vec2 q) {
   const Vec2 along = q - p;
   const double from_p = -dot(p, along), length = dot(along, along);
   if (!(from_p > 0)) return {p, dot(p, p), false};
@@ -39,32 +25,20 @@ Nearest nearest_of(Vec2 p, Vec2 q) {
   return {normal * height, height * height * length, true};
 }
 
-bool same(const DifferenceCorner& p, const DifferenceCorner& q) { return p.i == q.i && p.j == q.j; }
-
-// Whether the origin lies in the triangle, by more than `noise` of each product.
-bool encloses(Vec2 p, Vec2 q, Vec2 r, double noise) {
-  const double pq = cross(p, q), qr = cross(q, r), rp = cross(r, p);
-  return (pq > noise && qr > noise && rp > noise) || (pq < -noise && qr < -noise && rp < -noise);
-}
-
-double size_of(const ConvexPolygon& p) { return (p.high.x - p.low.x) + (p.high.y - p.low.y); }
-
-}  // namespace
-
 PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, bool to_distance) {
   PolygonGjk found;
-  DifferenceCorner(&simplex)[2] = found.simplex;
+  DifferenceCorner(&simplex)[3] = found.simplex;
   const double size = size_of(a) + size_of(b);
   const Vec2 between = (b.low + b.high) - (a.low + a.high);
-  simplex[0] = support(a, b, between.x == 0 && between.y == 0 ? Vec2{1, 0} : between);
+  simplex[0] = difference_support(a, b, between.x == 0 && between.y == 0 ? Vec2{1, 0} : between);
   found.count = 1;
-  Nearest nearest{simplex[0].w, dot(simplex[0].w, simplex[0].w), false};
+  NearestPoint nearest{simplex[0].w, dot(simplex[0].w, simplex[0].w), false};
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec2 v = nearest.v;
     const double reach = size + std::fabs(v.x) + std::fabs(v.y);  // no corner of the difference is farther away
-    const double noise = kNoise * reach;
+    const double noise = kDifferenceNoise * reach;
     if (!(nearest.squared > noise * noise)) return found;
-    const DifferenceCorner next = support(a, b, v);
+    const DifferenceCorner next = difference_support(a, b, v);
     const double height = dot(v, next.w);
     if (height > 0 && height * height > noise * noise * nearest.squared) {
       found.finding = PolygonFinding::apart;
@@ -74,13 +48,14 @@ PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, bool to_distance)
     if (known || height >= nearest.squared * (1 - kNoProgress)) return found;
     if (found.count == 1) {
       simplex[found.count++] = next;
-      nearest = nearest_of(simplex[0].w, next.w);
+      nearest = nearest_to_origin(simplex[0].w, next.w);
     } else {
       if (encloses(simplex[0].w, simplex[1].w, next.w, noise * reach)) {
+        simplex[found.count++] = next;
         found.finding = PolygonFinding::meet;
         return found;
       }
-      const Nearest by_first = nearest_of(simplex[0].w, next.w), by_second = nearest_of(simplex[1].w, next.w);
+      const NearestPoint by_first = nearest_to_origin(simplex[0].w, next.w), by_second = nearest_to_origin(simplex[1].w, next.w);
       const bool first = by_first.squared < by_second.squared;
       nearest = first ? by_first : by_second;
       simplex[first] = next;

@@ -3,6 +3,7 @@
 // visits few corners, and leaves close decisions to the walk over all edges (polygon_difference.hpp).
 #pragma once
 
+#include "base/tolerances.hpp"
 #include "convex/convex_polygon.hpp"
 
 namespace satcheck {
@@ -13,16 +14,41 @@ struct DifferenceCorner {
   std::uint32_t i, j;  // the corners of A and B
 };
 
+inline bool same(const DifferenceCorner& p, const DifferenceCorner& q) { return p.i == q.i && p.j == q.j; }
+
+// The corner farthest against a direction.
+inline DifferenceCorner difference_support(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 direction) {
+  const double angle = pseudo_angle(direction);
+  const std::uint32_t i = a.support(direction, angle), j = b.support(-direction, angle + 2);
+  return {b.corners[j] - a.corners[i], i, j};
+}
+
+// The error of a support value d . w, as a share of |d| |w|: the supports of both, and five roundings of w and of the
+// product. It also covers a product w x w'.
+inline constexpr double kDifferenceNoise = (2 * kSupportRoundoffs + 8) * kUnitRoundoff;
+
+struct NearestPoint {
+  Vec2 v;
+  double squared;  // |v|^2
+  bool inner;      // not an end
+};
+
+// The point of the segment from p to q that is nearest to the origin.
+NearestPoint nearest_to_origin(Vec2 p, Vec2 q);
+
 enum class PolygonFinding { open, apart, meet };
 
 struct PolygonGjk {
   PolygonFinding finding = PolygonFinding::open;  // apart and meet are proven
-  // The end of the search for the distance: the nearest corner, or the ends of the nearest edge. Not proven.
-  DifferenceCorner simplex[2] = {};
+  // meet: a triangle around the origin. Otherwise the end of the search for the distance: the nearest corner, or the
+  // ends of the nearest edge, not proven.
+  DifferenceCorner simplex[3] = {};
   int count = 0;
 };
 
 // to_distance: goes on after the first proof that the polygons are apart.
 PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, bool to_distance);
+
+inline double size_of(const ConvexPolygon& p) { return (p.high.x - p.low.x) + (p.high.y - p.low.y); }
 
 }  // namespace satcheck

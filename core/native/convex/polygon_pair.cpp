@@ -10,7 +10,7 @@
 
 #include "convex/pair_order.hpp"
 #include "convex/polygon_difference.hpp"
-#include "convex/polygon_gjk.hpp"
+#include "convex/polygon_epa.hpp"
 #include "exact/dyadic.hpp"
 
 namespace satcheck {
@@ -59,40 +59,44 @@ struct EdgeGap {
   Gap gap{-INFINITY, 0};
 };
 
-struct Scan {
-  Outcome outcome = Outcome::penetrating;
-  EdgeGap widest;           // of all edges if penetrating, else of the edge that proves the outcome
-  double reach = -INFINITY;  // no gap is wider
+struct Proof {
+  Outcome outcome;
+  DifferenceEdge edge;  // that proves it, unless it is penetrating
 };
 
-Scan scan_edges(const ConvexPolygon& a, const ConvexPolygon& b) {
-  Scan scan;
+Proof prove_outcome(const ConvexPolygon& a, const ConvexPolygon& b) {
+  Proof proof{Outcome::penetrating, {}};
   walk_difference(a, b, [&](const DifferenceEdge& e) {
-    const Gap gap = gap_of(e);
-    if (gap.value > scan.widest.gap.value) scan.widest = {e, gap};
-    scan.reach = larger(scan.reach, gap.value + gap.error);
-    const int sign = sign_of(e, gap);
+    const int sign = sign_of(e, gap_of(e));
     if (sign < 0 || (sign == 0 && !foot_on_edge(e))) return true;
-    scan = {sign > 0 ? Outcome::separated : Outcome::touching, {e, gap}, INFINITY};
+    proof = {sign > 0 ? Outcome::separated : Outcome::touching, e};
     return false;
   });
-  return scan;
+  return proof;
 }
 
-// The widest gap of all edges of two polygons that overlap. Edges within the rounding errors compete in exact arithmetic.
-EdgeGap widest_gap(const ConvexPolygon& a, const ConvexPolygon& b, const Scan& scan) {
-  const auto& [edge, gap] = scan.widest;
-  const double lower = gap.value - gap.error;
-  if (scan.reach - lower <= kAccurate * std::fabs(gap.value)) return {edge, {gap.value, scan.reach - gap.value}};
-  EdgeGap best;
+// The widest gap of all edges of two polygons that overlap.
+EdgeGap widest_gap(const ConvexPolygon& a, const ConvexPolygon& b) {
+  EdgeGap widest;
+  double reach = -INFINITY;
+  walk_difference(a, b, [&](const DifferenceEdge& e) {
+    const Gap gap = gap_of(e);
+    if (gap.value > widest.gap.value) widest = {e, gap};
+    reach = larger(reach, gap.value + gap.error);
+    return true;
+  });
+  const double lower = widest.gap.value - widest.gap.error;
+  if (reach - lower <= kAccurate * std::fabs(widest.gap.value)) return {widest.edge, {widest.gap.value, reach - widest.gap.value}};
+  // Edges within the rounding errors compete in exact arithmetic.
+  EdgeGap exact;
   walk_difference(a, b, [&](const DifferenceEdge& e) {
     const Gap rough = gap_of(e);
     if (rough.value + rough.error < lower) return true;
-    const Gap exact = exact_gap(e);
-    if (exact.value > best.gap.value) best = {e, exact};
+    const Gap gap = exact_gap(e);
+    if (gap.value > exact.gap.value) exact = {e, gap};
     return true;
   });
-  return best;
+  return exact;
 }
 
 void write(const EdgeGap& found, PairResult& result) {
@@ -129,33 +133,54 @@ bool is_nearest_corner(const ConvexPolygon& p, std::uint32_t i, Vec2 point) {
          dot_sign(corner, point, corner, p.corners[p.previous(i)]) <= 0;
 }
 
-// The edge between two corners of `owner`, if corner j of `other` lies above it and no other corner is nearer.
-std::optional<DifferenceEdge> nearest_edge(const ConvexPolygon& owner, std::uint32_t i, std::uint32_t k,
+// The edge between two corners of `owner`, if no corner of `other` is farther against its normal than corner j.
+std::optional<DifferenceEdge> edge_between(const ConvexPolygon& owner, std::uint32_t i, std::uint32_t k,
                                            const ConvexPolygon& other, std::uint32_t j, bool of_a) {
   if (owner.next(k) == i) std::swap(i, k);
   if (owner.next(i) != k) return std::nullopt;
   const DifferenceEdge e{owner.corners[i], owner.corners[k], owner.normals[i], other.corners[j], i, of_a};
-  const bool faces = turn_sign(e.from, e.to, e.corner, other.corners[other.next(j)]) <= 0 &&
-                     turn_sign(e.from, e.to, e.corner, other.corners[other.previous(j)]) <= 0;
-  if (!faces || sign_of(e, gap_of(e)) <= 0 || !foot_on_edge(e)) return std::nullopt;
+  if (turn_sign(e.from, e.to, e.corner, other.corners[other.next(j)]) > 0) return std::nullopt;
+  if (turn_sign(e.from, e.to, e.corner, other.corners[other.previous(j)]) > 0) return std::nullopt;
   return e;
+}
+
+// An edge of the difference on the segment between two of its corners. If an edge of A is parallel to one of B, the
+// segment may consist of both.
+template <class Accept>
+std::optional<DifferenceEdge> edge_on(const ConvexPolygon& a, const ConvexPolygon& b, const DifferenceCorner& p,
+                                      const DifferenceCorner& q, Accept accept) {
+  for (const DifferenceCorner* end : {&p, &q}) {
+    if (const auto e = edge_between(a, p.i, q.i, b, end->j, true); e && accept(*e)) return e;
+    if (const auto e = edge_between(b, p.j, q.j, a, end->i, false); e && accept(*e)) return e;
+  }
+  return std::nullopt;
 }
 
 // What GJK found, if it is proven: convex shapes have no other local minima of the distance.
 bool write_proven(const ConvexPolygon& a, const ConvexPolygon& b, const PolygonGjk& found, PairResult& result) {
-  const auto& [p, q] = found.simplex;
+  const DifferenceCorner &p = found.simplex[0], &q = found.simplex[1];
   if (found.count == 1) {
     const Vec2 corner_a = a.corners[p.i], corner_b = b.corners[p.j];
     if (!is_nearest_corner(a, p.i, corner_b) || !is_nearest_corner(b, p.j, corner_a)) return false;
     write(corner_a, corner_b, result);
     return true;
   }
-  std::optional<DifferenceEdge> edge = nearest_edge(a, p.i, q.i, b, p.j, true);
-  if (!edge) edge = nearest_edge(b, p.j, q.j, a, p.i, false);
-  if (!edge && p.j != q.j) edge = nearest_edge(a, p.i, q.i, b, q.j, true);
-  if (!edge && p.i != q.i) edge = nearest_edge(b, p.j, q.j, a, q.i, false);
+  const auto edge = edge_on(a, b, p, q, [](const DifferenceEdge& e) { return sign_of(e, gap_of(e)) > 0 && foot_on_edge(e); });
   if (edge) write({*edge, accurate_gap(*edge)}, result);
   return edge.has_value();
+}
+
+// The depth that EPA found, if its bounds are close.
+bool write_depth(const ConvexPolygon& a, const ConvexPolygon& b, const PolygonGjk& found, PairResult& result) {
+  const PolygonEpa nearest = epa(a, b, found);
+  if (!nearest.closed) return false;
+  const auto edge = edge_on(a, b, nearest.p, nearest.q, [](const DifferenceEdge&) { return true; });
+  if (!edge) return false;
+  const Gap gap = gap_of(*edge);
+  const double error = larger(gap.error, -nearest.least - gap.value);
+  if (error > kAccurate * std::fabs(gap.value)) return false;
+  write({*edge, {gap.value, error}}, result);
+  return true;
 }
 
 // The distance of two separated polygons by a walk over all edges.
@@ -194,19 +219,23 @@ PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query 
   result.method = Method::gjk;
   result.outcome = apart ? Outcome::separated : Outcome::penetrating;
   if ((overlap && (apart || meet)) || (apart && write_proven(a, b, found, result))) return result;
+  if (meet) {
+    result.method = Method::epa;
+    if (write_depth(a, b, found, result)) return result;
+  }
   result.method = Method::sat;
-  const Scan scan = apart ? Scan{Outcome::separated, {}} : scan_edges(a, b);
-  result.outcome = scan.outcome;
+  const Proof proof = apart || meet ? Proof{result.outcome, {}} : prove_outcome(a, b);
+  result.outcome = proof.outcome;
   if (overlap) return result;
-  switch (scan.outcome) {
+  switch (proof.outcome) {
     case Outcome::separated:
       write_distance(a, b, result);
       break;
     case Outcome::touching:
-      write({scan.widest.edge, {0, 0}}, result);
+      write({proof.edge, {0, 0}}, result);
       break;
     default:
-      write(widest_gap(a, b, scan), result);
+      write(widest_gap(a, b), result);
   }
   return result;
 }
