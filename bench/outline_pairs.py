@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 Polygon = NDArray[np.float64]
 PolygonPair = tuple[Polygon, Polygon]
-# Heights and distances in float64 that are this close to the best one, as a share of the size, compete
-# in rational arithmetic.
+# Heights and distances in float64 that are this close to the best one, as a share of the size,
+# compete in rational arithmetic.
 CLOSE = 1e-9
 
 

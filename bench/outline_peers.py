@@ -162,10 +162,8 @@ def parry2d(pairs: list[PolygonPair]) -> Ask:
     assert child.stdout is not None
     to, back = child.stdin, child.stdout
     polygons = [polygon for pair in pairs for polygon in pair]
-    words = (
-        f"{len(polygon)} " + " ".join(map(repr, polygon.ravel().tolist())) for polygon in polygons
-    )
-    to.write(" ".join(words).encode() + b"\n")
+    numbers = ([len(polygon), *polygon.ravel().tolist()] for polygon in polygons)
+    to.write(" ".join(repr(x) for row in numbers for x in row).encode() + b"\n")
 
     def ask(query: Query) -> Answer:
         to.write(query.encode() + b"\n")

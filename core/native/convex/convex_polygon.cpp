@@ -13,7 +13,7 @@ namespace satcheck {
 
 namespace {
 
-constexpr double kTinyEdge = 0x1p-500, kTinyScale = 0x1p500;
+constexpr double kTinyEdge = 0x1p-500, kTinyScale = 0x1p1000;
 
 [[noreturn]] void refuse(std::size_t polygon, const char* reason) {
   throw std::invalid_argument("polygon " + std::to_string(polygon) + " " + reason);
@@ -85,7 +85,8 @@ void fill_sectors(const ConvexPolygon& p, std::uint32_t* starts) {
 EdgeLength edge_length(Vec2 p, Vec2 q) {
   const Vec2 along = q - p;
   const double scale = larger(std::fabs(along.x), std::fabs(along.y)) < kTinyEdge ? kTinyScale : 1;
-  return {std::hypot(along.x * scale, along.y * scale), scale};
+  const Vec2 scaled = along * scale;
+  return {std::sqrt(dot(scaled, scaled)), scale};
 }
 
 ConvexPolygons::ConvexPolygons(std::vector<Vec2> corners, const std::vector<std::uint32_t>& starts)

@@ -11,6 +11,17 @@
 
 namespace satcheck {
 
+// turn_sign(), but the usual case is inlined.
+inline int filtered_turn(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 u = b - a, v = d - c;
+  const double left = u.x * v.y, right = u.y * v.x;
+  constexpr double kRoundoffs = 5;  // two differences, a product, the sum, and one for this bound
+  const double bound = kRoundoffs * kUnitRoundoff * (std::fabs(left) + std::fabs(right)) + kUnderflow;
+  if (left - right > bound) return 1;
+  if (left - right < -bound) return -1;
+  return turn_sign(a, b, c, d);
+}
+
 // An edge of one polygon, with the corner of the other one that is farthest against its normal.
 struct DifferenceEdge {
   Vec2 from, to, normal;  // of the owner; the normal points out of it

@@ -47,7 +47,7 @@ Gap accurate_gap(const DifferenceEdge& e) {
 }
 
 // Sign of (b - a) . (d - c).
-int dot_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) { return turn_sign({a.y, -a.x}, {b.y, -b.x}, c, d); }
+int dot_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) { return filtered_turn({a.y, -a.x}, {b.y, -b.x}, c, d); }
 
 // Whether the foot of the corner on the line of the edge lies on the edge.
 bool foot_on_edge(const DifferenceEdge& e) {
@@ -139,8 +139,8 @@ std::optional<DifferenceEdge> edge_between(const ConvexPolygon& owner, std::uint
   if (owner.next(k) == i) std::swap(i, k);
   if (owner.next(i) != k) return std::nullopt;
   const DifferenceEdge e{owner.corners[i], owner.corners[k], owner.normals[i], other.corners[j], i, of_a};
-  if (turn_sign(e.from, e.to, e.corner, other.corners[other.next(j)]) > 0) return std::nullopt;
-  if (turn_sign(e.from, e.to, e.corner, other.corners[other.previous(j)]) > 0) return std::nullopt;
+  if (filtered_turn(e.from, e.to, e.corner, other.corners[other.next(j)]) > 0) return std::nullopt;
+  if (filtered_turn(e.from, e.to, e.corner, other.corners[other.previous(j)]) > 0) return std::nullopt;
   return e;
 }
 
