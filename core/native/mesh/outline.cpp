@@ -163,9 +163,18 @@ Dyadic area(Vec2 from, Vec2 to, Vec2 p) {
   return difference(to.x, from.x) * difference(p.y, from.y) - difference(to.y, from.y) * difference(p.x, from.x);
 }
 
+// The sign of a sum of two numbers of different signs, each off by this share of `size`; 0 if they nearly cancel.
+constexpr double kCancels = 8 * kUnitRoundoff;
+int plain_sign(double sum, double size) {
+  const double bound = kCancels * size + kUnderflow;
+  return sum > bound ? 1 : sum < -bound ? -1 : 0;
+}
+
 // Whether the point is not below y.
 bool reaches(const MiddlePoint& m, double y) {
   if ((m.p.y >= y) == (m.q.y >= y)) return m.p.y >= y;
+  const double by_p = m.p.y - y, by_q = m.q.y - y;
+  if (const int sign = plain_sign(by_p + by_q, std::fabs(by_p) + std::fabs(by_q))) return sign > 0;
   return ((Dyadic(m.p.y) - Dyadic(y)) + (Dyadic(m.q.y) - Dyadic(y))).sign() >= 0;
 }
 
@@ -184,6 +193,9 @@ EdgeContact classify_collinear(const OutlineEdge& e, const OutlineEdge& f) {
 int side_of(Vec2 from, Vec2 to, const MiddlePoint& m) {
   const int at_p = orientation(from, to, m.p), at_q = orientation(from, to, m.q);
   if (at_p * at_q >= 0) return at_p != 0 ? at_p : at_q;
+  const Vec2 along = to - from, p = m.p - from, q = m.q - from;
+  const double size = std::fabs(along.x) * (std::fabs(p.y) + std::fabs(q.y)) + std::fabs(along.y) * (std::fabs(p.x) + std::fabs(q.x));
+  if (const int sign = plain_sign(cross(along, p) + cross(along, q), size)) return sign;
   return (area(from, to, m.p) + area(from, to, m.q)).sign();
 }
 
@@ -215,6 +227,7 @@ int Outline::winding(const OutlineNode& node, const MiddlePoint& m) const {
 }
 
 const Outline* outline_of(const Surface& surface) {
+  if (!surface.outline) return nullptr;
   LazyOutline& lazy = *surface.outline;
   std::call_once(lazy.once, [&] { lazy.made = make_outline(surface); });
   return lazy.made.get();

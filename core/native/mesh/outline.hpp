@@ -87,7 +87,7 @@ bool visit_meeting_edges(const Outline& a, const OutlineNode& m, const Outline& 
   return true;
 }
 
-// Null if the surface is not such a prism. Made once.
+// Null if the surface is not such a prism, or if it has no place for an outline. Made once.
 const Outline* outline_of(const Surface& surface);
 
 }  // namespace satcheck

@@ -68,7 +68,8 @@ class OutlineSide {
   // Of one edge, with the contacts first, ..., last - 1.
   std::optional<Vec2> middle_inside(std::size_t first, std::size_t last) const {
     const OutlineEdge& e = self_.edges[contacts_[first].own];
-    std::vector<Vec2> cuts{e.from, e.to};
+    std::vector<Vec2>& cuts = cuts_;
+    cuts.assign({e.from, e.to});
     for (std::size_t c = first; c < last; ++c) {
       const OutlineEdge& f = other_.edges[contacts_[c].other];
       for (Vec2 p : {f.from, f.to}) {
@@ -106,6 +107,7 @@ class OutlineSide {
 
   const Outline &self_, &other_;
   std::vector<EdgePair> contacts_;  // by own edge
+  mutable std::vector<Vec2> cuts_;  // of one edge, kept for its memory
 };
 
 struct Meeting {
