@@ -24,6 +24,10 @@ inline bool meet(const OutlineBox& a, const OutlineBox& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
+inline OutlineBox box_of(const OutlineEdge& e) {
+  return {{smaller(e.from.x, e.to.x), smaller(e.from.y, e.to.y)}, {larger(e.from.x, e.to.x), larger(e.from.y, e.to.y)}};
+}
+
 // The point in the middle between two points, without rounding.
 struct MiddlePoint {
   Vec2 p, q;
@@ -72,7 +76,7 @@ bool visit_meeting_edges(const Outline& a, const OutlineNode& m, const Outline& 
   if (m.is_leaf() && n.is_leaf()) {
     for (std::uint32_t i = m.first; i < m.last; ++i) {
       for (std::uint32_t k = n.first; k < n.last; ++k) {
-        if (!visit(i, k)) return false;
+        if (meet(box_of(a.edges[i]), box_of(b.edges[k])) && !visit(i, k)) return false;
       }
     }
     return true;
