@@ -25,12 +25,11 @@ NearestPoint nearest_to_origin(Vec2 p, Vec2 q) {
   return {normal * height, height * height * length, true};
 }
 
-PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, bool to_distance) {
+PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 towards, bool to_distance) {
   PolygonGjk found;
   DifferenceCorner(&simplex)[3] = found.simplex;
   const double size = size_of(a) + size_of(b);
-  const Vec2 between = (b.low + b.high) - (a.low + a.high);
-  simplex[0] = difference_support(a, b, between.x == 0 && between.y == 0 ? Vec2{1, 0} : between);
+  simplex[0] = difference_support(a, b, towards);
   found.count = 1;
   NearestPoint nearest{simplex[0].w, dot(simplex[0].w, simplex[0].w), false};
   for (int step = 0; step < kMostSteps; ++step) {

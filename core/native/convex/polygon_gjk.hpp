@@ -46,8 +46,9 @@ struct PolygonGjk {
   int count = 0;
 };
 
-// to_distance: goes on after the first proof that the polygons are apart.
-PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, bool to_distance);
+// towards: from A to B, not 0; the search starts with the corner that is farthest against it. to_distance: goes on after
+// the first proof that the polygons are apart.
+PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 towards, bool to_distance);
 
 inline double size_of(const ConvexPolygon& p) { return (p.high.x - p.low.x) + (p.high.y - p.low.y); }
 

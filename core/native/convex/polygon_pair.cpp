@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "convex/few_edges.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/polygon_difference.hpp"
 #include "convex/polygon_epa.hpp"
@@ -206,27 +207,18 @@ void write_distance(const ConvexPolygon& a, const ConvexPolygon& b, PairResult& 
   }
 }
 
-PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
-  PairResult result;
-  const bool overlap = query == Query::overlap, far = boxes_apart(a, b);
-  if (overlap && far) {
-    result.outcome = Outcome::separated;
-    result.method = Method::sat;
-    return result;
-  }
-  const PolygonGjk found = gjk(a, b, !overlap);
-  const bool apart = found.finding == PolygonFinding::apart, meet = found.finding == PolygonFinding::meet;
-  result.method = Method::gjk;
-  result.outcome = apart ? Outcome::separated : Outcome::penetrating;
-  if ((overlap && (apart || meet)) || (apart && write_proven(a, b, found, result))) return result;
-  if (meet) {
-    result.method = Method::epa;
-    if (write_depth(a, b, found, result)) return result;
-  }
+Vec2 between_centres(const ConvexPolygon& a, const ConvexPolygon& b) {
+  const Vec2 between = (b.low + b.high) - (a.low + a.high);
+  return between.x == 0 && between.y == 0 ? Vec2{1, 0} : between;
+}
+
+// The rest, by walks over all edges. known: the outcome is proven.
+void settle_by_walks(const ConvexPolygon& a, const ConvexPolygon& b, Query query, std::optional<Outcome> known,
+                     PairResult& result) {
+  const Proof proof = known ? Proof{*known, {}} : prove_outcome(a, b);
   result.method = Method::sat;
-  const Proof proof = apart || meet ? Proof{result.outcome, {}} : prove_outcome(a, b);
   result.outcome = proof.outcome;
-  if (overlap) return result;
+  if (query == Query::overlap) return;
   switch (proof.outcome) {
     case Outcome::separated:
       write_distance(a, b, result);
@@ -236,6 +228,67 @@ PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query 
       break;
     default:
       write(widest_gap(a, b), result);
+  }
+}
+
+// Two polygons that are apart. towards: from A to B.
+void settle_apart(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 towards, PairResult& result) {
+  result.outcome = Outcome::separated;
+  result.method = Method::gjk;
+  if (!write_proven(a, b, gjk(a, b, towards, true), result)) settle_by_walks(a, b, Query::distance, Outcome::separated, result);
+}
+
+void settle_few(const ConvexPolygon& a, const ConvexPolygon& b, Query query, PairResult& result) {
+  const WidestEdge w = widest_of_few(a, b);
+  const ConvexPolygon &owner = w.of_a ? a : b, &other = w.of_a ? b : a;
+  const auto edge = edge_between(owner, w.edge, owner.next(w.edge), other, w.corner, w.of_a);
+  result.method = Method::sat;
+  std::optional<Outcome> outcome;
+  if (w.gap > w.error) outcome = Outcome::separated;
+  if (w.gap < -w.error) outcome = Outcome::penetrating;
+  if (!outcome && edge) {
+    const int sign = sign_of(*edge, gap_of(*edge));
+    if (sign > 0) outcome = Outcome::separated;
+    if (sign == 0 && foot_on_edge(*edge)) outcome = Outcome::touching;
+  }
+  if (outcome) result.outcome = *outcome;
+  if (outcome && query == Query::overlap) return;
+  const bool is_close = 2 * w.error <= kAccurate * std::fabs(w.gap);
+  if (outcome == Outcome::separated) {
+    settle_apart(a, b, w.of_a ? owner.normals[w.edge] : -owner.normals[w.edge], result);
+  } else if (edge && outcome == Outcome::touching) {
+    write({*edge, {0, 0}}, result);
+  } else if (edge && outcome == Outcome::penetrating && is_close) {
+    write({*edge, {w.gap, w.error}}, result);
+  } else {
+    settle_by_walks(a, b, query, outcome, result);
+  }
+}
+
+void settle_many(const ConvexPolygon& a, const ConvexPolygon& b, Query query, PairResult& result) {
+  const bool overlap = query == Query::overlap;
+  const PolygonGjk found = gjk(a, b, between_centres(a, b), !overlap);
+  const bool apart = found.finding == PolygonFinding::apart, meet = found.finding == PolygonFinding::meet;
+  result.method = Method::gjk;
+  result.outcome = apart ? Outcome::separated : Outcome::penetrating;
+  if ((overlap && (apart || meet)) || (apart && write_proven(a, b, found, result))) return;
+  if (meet) {
+    result.method = Method::epa;
+    if (write_depth(a, b, found, result)) return;
+  }
+  settle_by_walks(a, b, query, apart || meet ? std::optional(result.outcome) : std::nullopt, result);
+}
+
+PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
+  PairResult result;
+  if (boxes_apart(a, b)) {
+    result.outcome = Outcome::separated;
+    result.method = Method::sat;
+    if (query != Query::overlap) settle_apart(a, b, between_centres(a, b), result);
+  } else if (have_few_corners(a, b)) {
+    settle_few(a, b, query, result);
+  } else {
+    settle_many(a, b, query, result);
   }
   return result;
 }
