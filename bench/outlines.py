@@ -2,7 +2,7 @@
 
     pip install shapely pyb2d3 pymunk
     (cd bench/peers/parry && cargo build --release)
-    python -m bench.outlines [--pairs 200] [--rounds 5]
+    python -m bench.outlines [--pairs 1000] [--rounds 5]
 
 Every library answers all pairs of a set in native code: satcheck as a batch on one thread, shapely
 by its arrays, Box2D and Chipmunk from a loop in C (which needs gcc), parry2d from a loop in Rust.
@@ -69,13 +69,13 @@ def row_of(pairs: PairSet, query: Query, rounds: int) -> list[str]:
 def main() -> None:
     assert __doc__ is not None
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--pairs", type=int, default=200)
+    parser.add_argument("--pairs", type=int, default=1000)
     parser.add_argument("--rounds", type=int, default=5)
     options = parser.parse_args()
     for name in missing():
         sys.stderr.write(f"{name}: not installed, left out\n")
     rng = np.random.default_rng(1)
-    sets = convex_sets(rng, options.pairs) + concave_sets(rng, max(options.pairs // 5, 5))
+    sets = convex_sets(rng, options.pairs) + concave_sets(rng, max(options.pairs // 25, 5))
     out = sys.stdout.write
     out(f"| ns / wrong | query, pairs | {' | '.join(NAMES)} |\n|{'---|' * (2 + len(NAMES))}\n")
     for pairs in sets:

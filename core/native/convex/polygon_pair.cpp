@@ -254,7 +254,9 @@ void settle_few(const ConvexPolygon& a, const ConvexPolygon& b, Query query, Pai
   if (outcome) result.outcome = *outcome;
   if (outcome && query == Query::overlap) return;
   const bool is_close = 2 * w.error <= kAccurate * std::fabs(w.gap);
-  if (outcome == Outcome::separated) {
+  if (outcome == Outcome::separated && edge && foot_on_edge(*edge)) {
+    write({*edge, accurate_gap(*edge)}, result);
+  } else if (outcome == Outcome::separated) {
     settle_apart(a, b, w.of_a ? owner.normals[w.edge] : -owner.normals[w.edge], result);
   } else if (edge && outcome == Outcome::touching) {
     write({*edge, {0, 0}}, result);
@@ -281,12 +283,14 @@ void settle_many(const ConvexPolygon& a, const ConvexPolygon& b, Query query, Pa
 
 PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query query) {
   PairResult result;
-  if (boxes_apart(a, b)) {
+  const bool apart = boxes_apart(a, b);
+  if (apart && query == Query::overlap) {
     result.outcome = Outcome::separated;
     result.method = Method::sat;
-    if (query != Query::overlap) settle_apart(a, b, between_centres(a, b), result);
   } else if (have_few_corners(a, b)) {
     settle_few(a, b, query, result);
+  } else if (apart) {
+    settle_apart(a, b, between_centres(a, b), result);
   } else {
     settle_many(a, b, query, result);
   }
