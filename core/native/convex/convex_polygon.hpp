@@ -25,23 +25,41 @@ struct ConvexPolygon {
   std::uint32_t next(std::uint32_t i) const { return i + 1 == count ? 0 : i + 1; }
   std::uint32_t previous(std::uint32_t i) const { return (i == 0 ? count : i) - 1; }
 
-  // The corner farthest along a direction, whose pseudo_angle() is given; kSupportRoundoffs says how far it may fall
-  // short.
-  std::uint32_t support(Vec2 direction, double angle) const {
-    const auto sector = static_cast<std::uint32_t>(angle * (sectors / 4)) & (sectors - 1);
-    return climb(sector_starts[sector], direction);
+  // The corner farthest along a direction that is not 0; kSupportRoundoffs says how far it may fall short.
+  std::uint32_t support(Vec2 direction) const {
+    return count <= kScanned ? scan(direction) : climb(sector_starts[sector_of(direction)], direction);
   }
   // From a corner that is at most half a turn short of it.
   std::uint32_t climb(std::uint32_t i, Vec2 direction) const {
     while (cross(normals[i], direction) > 0) i = next(i);
     return i;
   }
+
+ private:
+  // With fewer corners, a scan without branches is faster.
+  static constexpr std::uint32_t kScanned = 8;
+
+  std::uint32_t scan(Vec2 direction) const {
+    std::uint32_t best = 0;
+    double highest = 0;
+    for (std::uint32_t i = 1; i < count; ++i) {
+      const double height = dot(direction, corners[i] - corners[0]);
+      best = height > highest ? i : best;
+      highest = larger(height, highest);
+    }
+    return best;
+  }
+  std::uint32_t sector_of(Vec2 direction) const;
 };
 
 // Grows with the angle of the direction, from 0 at +x over 1 at +y to 4. The direction is not 0.
 inline double pseudo_angle(Vec2 d) {
   const double slope = d.y / (std::fabs(d.x) + std::fabs(d.y));
   return d.x < 0 ? 2 - slope : d.y < 0 ? 4 + slope : slope;
+}
+
+inline std::uint32_t ConvexPolygon::sector_of(Vec2 direction) const {
+  return static_cast<std::uint32_t>(pseudo_angle(direction) * (sectors / 4)) & (sectors - 1);
 }
 
 // The edges between a corner that support() returns and the farthest one leave the direction by at most this angle, in

@@ -18,8 +18,7 @@ inline bool same(const DifferenceCorner& p, const DifferenceCorner& q) { return 
 
 // The corner farthest against a direction.
 inline DifferenceCorner difference_support(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 direction) {
-  const double angle = pseudo_angle(direction);
-  const std::uint32_t i = a.support(direction, angle), j = b.support(-direction, angle + 2);
+  const std::uint32_t i = a.support(direction), j = b.support(-direction);
   return {b.corners[j] - a.corners[i], i, j};
 }
 
