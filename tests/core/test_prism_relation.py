@@ -3,6 +3,8 @@ space: both ways have to agree."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,25 @@ def test_both_ways_agree_on_grids(scale: float, axis: int) -> None:
         assert in_plane == in_space, (a, b)
         seen.add(in_plane)
     assert {"separated", "touching", "penetrating"} <= seen
+
+
+@pytest.mark.parametrize("axis", [2, 0, 1])
+def test_both_ways_measure_the_same_distance(axis: int) -> None:
+    rng = np.random.default_rng(4)
+    positive = 0
+    for _ in range(150):
+        a, b = [staircase(rng, 0.1)], [moved(staircase(rng, 0.1), 0.35, -0.2)]
+        pairs = [
+            (surface(a, HEIGHTS[0], lift, axis), surface(b, HEIGHTS[1], lift, axis))
+            for lift in (0.0, 0.125)
+        ]
+        in_plane, in_space = (core.mesh_distance(*pair) for pair in pairs)
+        assert in_plane.distance == pytest.approx(in_space.distance, rel=2.0**-40, abs=2.0**-60)
+        apart = np.subtract(in_plane.witness_b, in_plane.witness_a)
+        assert np.linalg.norm(apart) == pytest.approx(in_plane.distance, rel=2.0**-40, abs=2.0**-60)
+        assert core.mesh_distance(*pairs[0], in_plane.distance / 2).distance in (0.0, math.inf)
+        positive += in_plane.distance > 0
+    assert 20 < positive < 150
 
 
 SQUARE = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]

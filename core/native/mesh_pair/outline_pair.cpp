@@ -135,9 +135,6 @@ Meeting find_meeting(const Outline& a, const Outline& b) {
   return meeting;
 }
 
-// A point half way up: at 0 across the plane.
-Vec3 in_space(Vec2 p, int axis) { return axis == 2 ? Vec3{p.x, p.y, 0} : axis == 0 ? Vec3{0, p.x, p.y} : Vec3{p.y, 0, p.x}; }
-
 MeshRelation make_relation(Relation relation, std::uint32_t wall_a, std::uint32_t wall_b, std::optional<Vec3> point) {
   MeshRelation result;
   result.relation = relation;
