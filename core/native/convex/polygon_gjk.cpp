@@ -15,7 +15,7 @@ bool encloses(Vec2 p, Vec2 q, Vec2 r, double noise) {
 
 }  // namespace
 
-NearestPoint nearest_to_origin(Vec2 p, Vec2 q) {
+OriginNearest nearest_to_origin(Vec2 p, Vec2 q) {
   const Vec2 along = q - p;
   const double from_p = -dot(p, along), length = dot(along, along);
   if (!(from_p > 0)) return {p, dot(p, p), false};
@@ -31,7 +31,7 @@ PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 towards, boo
   const double size = size_of(a) + size_of(b);
   simplex[0] = difference_support(a, b, towards);
   found.count = 1;
-  NearestPoint nearest{simplex[0].w, dot(simplex[0].w, simplex[0].w), false};
+  OriginNearest nearest{simplex[0].w, dot(simplex[0].w, simplex[0].w), false};
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec2 v = nearest.v;
     const double reach = size + std::fabs(v.x) + std::fabs(v.y);  // no corner of the difference is farther away
@@ -54,7 +54,7 @@ PolygonGjk gjk(const ConvexPolygon& a, const ConvexPolygon& b, Vec2 towards, boo
         found.finding = PolygonFinding::meet;
         return found;
       }
-      const NearestPoint by_first = nearest_to_origin(simplex[0].w, next.w), by_second = nearest_to_origin(simplex[1].w, next.w);
+      const OriginNearest by_first = nearest_to_origin(simplex[0].w, next.w), by_second = nearest_to_origin(simplex[1].w, next.w);
       const bool first = by_first.squared < by_second.squared;
       nearest = first ? by_first : by_second;
       simplex[first] = next;

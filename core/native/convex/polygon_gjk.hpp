@@ -26,14 +26,14 @@ inline DifferenceCorner difference_support(const ConvexPolygon& a, const ConvexP
 // product. It also covers a product w x w'.
 inline constexpr double kDifferenceNoise = (2 * kSupportRoundoffs + 8) * kUnitRoundoff;
 
-struct NearestPoint {
+struct OriginNearest {
   Vec2 v;
   double squared;  // |v|^2
   bool inner;      // not an end
 };
 
 // The point of the segment from p to q that is nearest to the origin.
-NearestPoint nearest_to_origin(Vec2 p, Vec2 q);
+OriginNearest nearest_to_origin(Vec2 p, Vec2 q);
 
 enum class PolygonFinding { open, apart, meet };
 

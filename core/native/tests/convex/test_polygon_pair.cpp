@@ -2,19 +2,15 @@
 #include "convex/polygon_pair.hpp"
 
 #include "tests/check.hpp"
+#include "tests/convex/polygons.hpp"
 
 using namespace satcheck;
+using namespace satcheck::testing;
 
 namespace {
 
-using Corners = std::vector<Vec2>;
-
-Corners square(double x, double y, double size) { return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}}; }
-
 PairResult check(const Corners& a, const Corners& b, Query query = Query::depth) {
-  Corners both = a;
-  both.insert(both.end(), b.begin(), b.end());
-  const ConvexPolygons polygons(both, {0, static_cast<std::uint32_t>(a.size()), static_cast<std::uint32_t>(both.size())});
+  const ConvexPolygons polygons = pair_of(a, b);
   return check_polygons(polygons[0], polygons[1], query);
 }
 

@@ -2,28 +2,15 @@
 #include "mesh/outline.hpp"
 
 #include "tests/check.hpp"
+#include "tests/mesh/prisms.hpp"
 
 using namespace satcheck;
+using namespace satcheck::testing;
 
 namespace {
 
-// A square prism about the origin, welded.
-Mesh box(double size, double height, double lift) {
-  Mesh mesh;
-  for (const double z : {-height + lift, height + lift}) {
-    for (const Vec2 p : {Vec2{-size, -size}, Vec2{size, -size}, Vec2{size, size}, Vec2{-size, size}}) mesh.vertices.push_back({p.x, p.y, z});
-  }
-  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const std::uint32_t n = (k + 1) % 4;
-    mesh.triangles.push_back({k, n, n + 4});
-    mesh.triangles.push_back({k, n + 4, k + 4});
-  }
-  return mesh;
-}
-
 void test_a_prism_has_an_outline() {
-  const Surface surface = make_surface(box(1, 5, 0), true);
+  const Surface surface = square_prism(-1, -1, 2, 5);
   const Outline* outline = outline_of(surface);
   CHECK(outline && outline->axis == 2 && outline->height == 5);
   CHECK(outline && outline->edges.size() == 4 && outline->loops.size() == 1);
@@ -32,10 +19,8 @@ void test_a_prism_has_an_outline() {
 }
 
 void test_other_meshes_have_none() {
-  Mesh moved = box(1, 5, 0.5);
-  for (Vec3& p : moved.vertices) p = p + Vec3{0.5, 0.5, 0};
-  CHECK(!outline_of(make_surface(moved, true)));
-  Mesh pyramid = box(1, 5, 0);
+  CHECK(!outline_of(make_surface(square_mesh(0, 0, 2, 5, 0.5), true)));
+  Mesh pyramid = square_mesh(-1, -1, 2, 5);
   pyramid.vertices[4].x = -0.5;
   CHECK(!outline_of(make_surface(pyramid, true)));
 }
