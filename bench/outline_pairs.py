@@ -18,10 +18,11 @@ CLOSE = 1e-9
 
 
 class PairSet(Struct):
-    """signed: the gap, or minus the depth; of concave outlines only its sign."""
+    """signed: the gap, or minus the depth; -1.0 for concave outlines that overlap. Concave outlines
+    may be lists of loops: an outer one, and holes in it."""
 
     title: str
-    pairs: list[PolygonPair]
+    pairs: list[tuple[Any, Any]]
     signed: NDArray[np.float64]
     convex: bool
 
@@ -43,22 +44,53 @@ def convex_sets(rng: np.random.Generator, count: int) -> list[PairSet]:
 
 
 def concave_sets(rng: np.random.Generator, count: int) -> list[PairSet]:
-    sets = []
+    sets = {}
     for k in (16, 100, 1000):
         pairs = [pair for pair in stars(rng, k, count) if not touches(*pair)]
-        signed = np.array([-1.0 if star_truth(*pair) else 1.0 for pair in pairs])
-        sets.append(PairSet(f"concave {k}", pairs, signed, False))
-    combs = [(comb(rng, 12), 0) for _ in range(count)]
-    for title, shift, sign in (
-        ("combs flush", 0.0, 0.0),
-        ("combs gap 1 ulp", 1.0, 1.0),
-        ("combs deep 1 ulp", -1.0, -1.0),
-    ):
-        pairs = [(teeth, counterpart(teeth, shift)) for teeth, _ in combs]
-        sets.append(PairSet(title, pairs, np.full(len(pairs), sign), False))
-    small = [(star * 4, other * 0.25) for star, other in stars(rng, 100, count, apart=0.0)]
-    sets.append(PairSet("concave contained", small, np.full(len(small), -1.0), False))
-    return sets
+        sets[f"concave {k}"] = [(a, b, star_truth(a, b)) for a, b in pairs]
+    combs = [comb(rng, 12) for _ in range(count)]
+    for title, ulps in (("flush", 0.0), ("gap 1 ulp", 1.0), ("deep 1 ulp", -1.0)):
+        sets[f"combs {title}"] = [(teeth, counterpart(teeth, ulps), ulps < 0) for teeth in combs]
+    sets["concave contained"] = [
+        (a * 4, b * 0.25, True) for a, b in stars(rng, 100, count, apart=0.0)
+    ]
+    sets["peg in a hole"] = [peg_in_hole(rng) for _ in range(count)]
+    sets["flush, as concave"] = [(a, b, False) for a, b in squares(rng, count, 0)]
+    return [
+        PairSet(
+            title,
+            [(a, b) for a, b, _ in pairs],
+            np.array([-1.0 if meet else distance(a, b) for a, b, meet in pairs]),
+            False,
+        )
+        for title, pairs in sets.items()
+    ]
+
+
+def loops_of(outline: Any) -> list[Polygon]:
+    return outline if isinstance(outline, list) else [outline]
+
+
+def distance(a: Any, b: Any) -> float:
+    """Of outlines that do not overlap, correctly to a few ulp."""
+    squares = (_best(p, q, _squares, min, per_edge=False) for p in loops_of(a) for q in loops_of(b))
+    return float(min(squares)) ** 0.5
+
+
+def peg_in_hole(rng: np.random.Generator) -> tuple[list[Polygon], Polygon, bool]:
+    """A plate with a convex hole, a convex peg that about fits, and whether they overlap."""
+    plate = np.array([[-2.0, -2], [2, -2], [2, 2], [-2, 2]])
+    hole, peg = ring(rng, 32), ring(rng, 16) * 0.7 + rng.uniform(-0.25, 0.25, 2)
+    sides = (
+        _sign(p, q, c) for p, q in zip(hole, np.roll(hole, -1, axis=0), strict=True) for c in peg
+    )
+    return [plate, hole[::-1]], peg, min(sides) < 0
+
+
+def _sign(p: Polygon, q: Polygon, c: Polygon) -> Fraction:
+    p, q, c = _exact(p), _exact(q), _exact(c)
+    turned: Fraction = (q[0] - p[0]) * (c[1] - p[1]) - (q[1] - p[1]) * (c[0] - p[0])
+    return turned
 
 
 def ring(rng: np.random.Generator, corners: int) -> Polygon:

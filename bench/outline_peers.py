@@ -17,7 +17,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.outline_pairs import PolygonPair
+from bench.outline_pairs import PolygonPair, loops_of
 from satcheck import core
 from satcheck.scene.drawing.contour import Contour, DrawnShape
 from satcheck.scene.drawing.sheet import sheet_of
@@ -48,10 +48,10 @@ def convex_peers(pairs: list[PolygonPair]) -> Iterator[tuple[str, Ask, tuple[Que
         yield "parry2d", parry2d(pairs), everything
 
 
-def concave_peers(pairs: list[PolygonPair]) -> Iterator[tuple[str, Ask, tuple[Query, ...]]]:
-    yield "satcheck", prisms(pairs), ("overlap",)
+def concave_peers(pairs: list[tuple[Any, Any]]) -> Iterator[tuple[str, Ask, tuple[Query, ...]]]:
+    yield "satcheck", prisms(pairs), ("overlap", "distance")
     if importlib.util.find_spec("shapely"):
-        yield "shapely", shapely(pairs), ("overlap",)
+        yield "shapely", shapely(pairs), ("overlap", "distance")
 
 
 def missing() -> list[str]:
@@ -89,24 +89,33 @@ def satcheck(pairs: list[PolygonPair]) -> Ask:
     return ask
 
 
-def prisms(pairs: list[PolygonPair]) -> Ask:
-    def made(polygon: Floats, height: float) -> core.Surface:
-        corners = tuple((x, y) for x, y in polygon.tolist())
-        sheet = sheet_of(DrawnShape("outline", (Contour(corners),), "nonzero"))
+def prisms(pairs: list[tuple[Any, Any]]) -> Ask:
+    def made(outline: Any, height: float) -> core.Surface:
+        loops = tuple(
+            Contour(tuple((x, y) for x, y in loop.tolist())) for loop in loops_of(outline)
+        )
+        sheet = sheet_of(DrawnShape("outline", loops, "evenodd"))
         return core.Surface(prism(sheet.points, sheet.triangles, height), solid=True)
 
     # As flat_scene does: taller than wide, of different heights.
-    height = 8.0 * max(float(np.abs(polygon).max()) for pair in pairs for polygon in pair)
-    surfaces = [(made(a, height), made(b, 1.5 * height)) for a, b in pairs]
+    widest = max(float(np.abs(loop).max()) for pair in pairs for o in pair for loop in loops_of(o))
+    surfaces = [(made(a, 8 * widest), made(b, 12 * widest)) for a, b in pairs]
     apart = ("separated", "touching")
-    return lambda _: timed(
-        lambda: [core.mesh_relation(a, b).relation not in apart for a, b in surfaces]
-    )
+
+    def ask(query: Query) -> Answer:
+        if query == "distance":
+            return timed(lambda: [core.mesh_distance(a, b).distance for a, b in surfaces])
+        return timed(lambda: [core.mesh_relation(a, b).relation not in apart for a, b in surfaces])
+
+    return ask
 
 
-def shapely(pairs: list[PolygonPair]) -> Ask:
+def shapely(pairs: list[tuple[Any, Any]]) -> Ask:
     library: Any = importlib.import_module("shapely")
-    a, b = (np.array([library.Polygon(pair[k]) for pair in pairs]) for k in (0, 1))
+    a, b = (
+        np.array([library.Polygon(loops[0], loops[1:]) for loops in map(loops_of, outlines)])
+        for outlines in zip(*pairs, strict=True)
+    )
     return lambda query: timed(
         lambda: (
             library.distance(a, b)

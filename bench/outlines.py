@@ -24,7 +24,7 @@ import sys
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.outline_pairs import PairSet, concave_sets, convex_sets
+from bench.outline_pairs import PairSet, concave_sets, convex_sets, loops_of
 from bench.outline_peers import Floats, Query, concave_peers, convex_peers, missing
 
 # Box2D has coordinates of 24 bits.
@@ -54,6 +54,7 @@ def chosen_of(pairs: PairSet, chosen: NDArray[np.bool_]) -> PairSet:
 
 def row_of(pairs: PairSet, query: Query, rounds: int) -> list[str]:
     peers = (convex_peers if pairs.convex else concave_peers)(pairs.pairs)
+    size = max(np.abs(loop).max() for pair in pairs.pairs for o in pair for loop in loops_of(o))
     asked = {name: ask for name, ask, queries in peers if query in queries}
     truth = truth_of(pairs, query)
     best, wrong = dict.fromkeys(asked, np.inf), dict.fromkeys(asked, 0)
@@ -61,7 +62,7 @@ def row_of(pairs: PairSet, query: Query, rounds: int) -> list[str]:
         for name, ask in asked.items():
             spent, figures = ask(query)
             best[name] = min(best[name], spent / len(truth))
-            wrong[name] = int((~(np.abs(figures - truth) <= WRONG)).sum())
+            wrong[name] = int((~(np.abs(figures - truth) <= WRONG * size)).sum())
     cells = [f"{best[name]:.0f} / {wrong[name]}" if name in asked else "-" for name in NAMES]
     return [f"| {pairs.title} | {query}, {len(truth)} | " + " | ".join(cells) + " |"] * bool(asked)
 
