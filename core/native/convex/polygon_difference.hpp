@@ -19,6 +19,7 @@ inline int filtered_turn(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double bound = kRoundoffs * kUnitRoundoff * (std::fabs(left) + std::fabs(right)) + kUnderflow;
   if (left - right > bound) return 1;
   if (left - right < -bound) return -1;
+  if ((u.x == 0 || v.y == 0) && (u.y == 0 || v.x == 0)) return 0;  // as along the axes
   return turn_sign(a, b, c, d);
 }
 
@@ -47,7 +48,7 @@ inline Gap gap_of(const DifferenceEdge& e) {
 inline int sign_of(const DifferenceEdge& e, Gap gap) {
   if (gap.value > gap.error) return 1;
   if (gap.value < -gap.error) return -1;
-  return -orientation(e.from, e.to, e.corner);
+  return -filtered_turn(e.from, e.to, e.from, e.corner);
 }
 
 // Whether edge j of B comes before edge i of -A in a walk that is about to take one of them.

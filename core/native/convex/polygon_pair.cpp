@@ -267,7 +267,6 @@ void settle_few(const ConvexPolygon& a, const ConvexPolygon& b, Query query, Pai
   }
 }
 
-// For a distance, GJK also comes first if there are few corners.
 void settle_many(const ConvexPolygon& a, const ConvexPolygon& b, Query query, PairResult& result) {
   const bool overlap = query == Query::overlap;
   const PolygonGjk found = gjk(a, b, between_centres(a, b), !overlap);
@@ -275,7 +274,6 @@ void settle_many(const ConvexPolygon& a, const ConvexPolygon& b, Query query, Pa
   result.method = Method::gjk;
   result.outcome = apart ? Outcome::separated : Outcome::penetrating;
   if ((overlap && (apart || meet)) || (apart && write_proven(a, b, found, result))) return;
-  if (have_few_corners(a, b)) return settle_few(a, b, query, result);
   if (meet) {
     result.method = Method::epa;
     if (write_depth(a, b, found, result)) return;
@@ -289,10 +287,10 @@ PairResult check_in_order(const ConvexPolygon& a, const ConvexPolygon& b, Query 
   if (apart && query == Query::overlap) {
     result.outcome = Outcome::separated;
     result.method = Method::sat;
-  } else if (have_few_corners(a, b) && query != Query::distance) {
-    settle_few(a, b, query, result);
   } else if (apart) {
     settle_apart(a, b, between_centres(a, b), result);
+  } else if (have_few_corners(a, b)) {
+    settle_few(a, b, query, result);
   } else {
     settle_many(a, b, query, result);
   }
