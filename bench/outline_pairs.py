@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
@@ -44,7 +45,7 @@ def convex_sets(rng: np.random.Generator, count: int) -> list[PairSet]:
 
 
 def concave_sets(rng: np.random.Generator, count: int) -> list[PairSet]:
-    sets = {}
+    sets: dict[str, list[tuple[Any, Any, bool]]] = {}
     for k in (16, 100, 1000):
         pairs = [pair for pair in stars(rng, k, count) if not touches(*pair)]
         sets[f"concave {k}"] = [(a, b, star_truth(a, b)) for a, b in pairs]
@@ -74,7 +75,7 @@ def loops_of(outline: Any) -> list[Polygon]:
 def distance(a: Any, b: Any) -> float:
     """Of outlines that do not overlap, correctly to a few ulp."""
     squares = (_best(p, q, _squares, min, per_edge=False) for p in loops_of(a) for q in loops_of(b))
-    return float(min(squares)) ** 0.5
+    return math.sqrt(min(squares))
 
 
 def peg_in_hole(rng: np.random.Generator) -> tuple[list[Polygon], Polygon, bool]:
@@ -88,9 +89,8 @@ def peg_in_hole(rng: np.random.Generator) -> tuple[list[Polygon], Polygon, bool]
 
 
 def _sign(p: Polygon, q: Polygon, c: Polygon) -> Fraction:
-    p, q, c = _exact(p), _exact(q), _exact(c)
-    turned: Fraction = (q[0] - p[0]) * (c[1] - p[1]) - (q[1] - p[1]) * (c[0] - p[0])
-    return turned
+    (px, py), (qx, qy), (cx, cy) = ([Fraction(x) for x in point.tolist()] for point in (p, q, c))
+    return (qx - px) * (cy - py) - (qy - py) * (cx - px)
 
 
 def ring(rng: np.random.Generator, corners: int) -> Polygon:
@@ -169,8 +169,8 @@ def signed_distance(a: Polygon, b: Polygon) -> float:
     """Of convex polygons: the gap, or minus the depth, correctly to a few ulp."""
     heights = _best(a, b, _heights, max, per_edge=True)
     if heights <= 0:
-        return -(float(-heights) ** 0.5)
-    return float(_best(a, b, _squares, min, per_edge=False)) ** 0.5
+        return -math.sqrt(-heights)
+    return math.sqrt(_best(a, b, _squares, min, per_edge=False))
 
 
 def _best(

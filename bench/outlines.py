@@ -41,7 +41,9 @@ def truth_of(pairs: PairSet, query: Query) -> Floats:
 def rows_of(pairs: PairSet, rounds: int) -> list[str]:
     rows = []
     meet = pairs.signed < 0
-    for query, chosen in (("overlap", meet | True), ("depth", meet), ("distance", ~meet)):
+    asked: tuple[tuple[Query, NDArray[np.bool_]], ...]
+    asked = (("overlap", meet | True), ("depth", meet), ("distance", ~meet))
+    for query, chosen in asked:
         if chosen.any():
             rows += row_of(chosen_of(pairs, chosen), query, rounds)
     return rows

@@ -48,7 +48,9 @@ def outlines(draw: Callable[[], Corners], count: int) -> Iterator[Corners]:
 
 def on_grid(rng: np.random.Generator) -> Iterator[Corners]:
     """Small grids: shared lines, corners on edges, equal depths."""
-    return outlines(lambda: rng.integers(0, 5, (int(rng.integers(3, 9)), 2)) * 1.0, 400)
+    return outlines(
+        lambda: rng.integers(0, 5, (int(rng.integers(3, 9)), 2)).astype(np.float64), 400
+    )
 
 
 def round_ones(rng: np.random.Generator) -> Iterator[Corners]:

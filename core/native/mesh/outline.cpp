@@ -153,6 +153,8 @@ std::shared_ptr<const Outline> make_outline(const Surface& surface) {
   const Walls walls = walls_of(mesh, outline->axis);
   if (!walls.fine || !add_loops(mesh, walls, *outline)) return nullptr;
   build_tree(*outline);
+  const OutlineBox& box = outline->boxes[outline->root().index];
+  if (outline->height < larger(box.high.x - box.low.x, box.high.y - box.low.y)) return nullptr;
   const auto fits = [&](std::uint32_t loop) { return bounds_material(*outline, loop); };
   if (meets_itself(*outline) || !std::all_of(outline->loops.begin(), outline->loops.end(), fits)) return nullptr;
   return outline;

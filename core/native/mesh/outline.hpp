@@ -94,7 +94,8 @@ bool visit_meeting_edges(const Outline& a, const OutlineNode& m, const Outline& 
 // The point of a prism half way up: at 0 across the plane.
 inline Vec3 in_space(Vec2 p, int axis) { return axis == 2 ? Vec3{p.x, p.y, 0} : axis == 0 ? Vec3{0, p.x, p.y} : Vec3{p.y, 0, p.x}; }
 
-// Null if the surface is not such a prism, or if it has no place for an outline. Made once.
+// Null if the surface is not such a prism, or if it has no place for an outline. Also for a prism that is wider than
+// high: those of checks in a plane are high, and bodies in space are compared as meshes. Made once.
 const Outline* outline_of(const Surface& surface);
 
 }  // namespace satcheck

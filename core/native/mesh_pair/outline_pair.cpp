@@ -153,7 +153,7 @@ class PrismPair {
   MeshRelation relation() const {
     const Meeting meeting = find_meeting(in_a_, in_b_);
     MeshRelation result = relation_of(meeting);
-    result.triangle_tests = meeting.tests;
+    result.edge_tests = meeting.tests;
     return result;
   }
 

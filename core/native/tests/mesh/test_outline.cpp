@@ -20,6 +20,7 @@ void test_a_prism_has_an_outline() {
 
 void test_other_meshes_have_none() {
   CHECK(!outline_of(make_surface(square_mesh(0, 0, 2, 5, 0.5), true)));
+  CHECK(!outline_of(square_prism(-1, -1, 2, 1)));  // low
   Mesh pyramid = square_mesh(-1, -1, 2, 5);
   pyramid.vertices[4].x = -0.5;
   CHECK(!outline_of(make_surface(pyramid, true)));
