@@ -191,11 +191,12 @@ def _best(
             if len(corners):
                 figures.append((float(rough[k].min()), one[k], ends[k], corners))
     best = choose(figure[0] for figure in figures)
-    return choose(
+    chosen: Fraction = choose(
         min(measure(_exact(p), _exact(q), _exact(c)) for c in corners)
         for rough, p, q, corners in figures
         if abs(rough - best) <= CLOSE
     )
+    return chosen
 
 
 def _exact(point: Polygon) -> Any:
