@@ -30,7 +30,7 @@ from satcheck._native.core import (
     PairResult,
     PairResults,
     PlacedGeometry,
-    PolygonResult,
+    Polygons,
     Polytope,
     PosedBody,
     Shape,
@@ -73,7 +73,13 @@ from satcheck._native.core import (
     with_cracks_closed,
 )
 from satcheck.core.conventions import OUTCOMES
-from satcheck.core.pairs import check_pair, check_pairs, compare_signed_distance, sat_polygons
+from satcheck.core.pairs import (
+    check_pair,
+    check_pairs,
+    check_polygon_pair,
+    check_polygons,
+    compare_signed_distance,
+)
 from satcheck.core.signature import Signature
 
 __all__ = [
@@ -104,7 +110,7 @@ __all__ = [
     "PairResult",
     "PairResults",
     "PlacedGeometry",
-    "PolygonResult",
+    "Polygons",
     "Polytope",
     "PosedBody",
     "Shape",
@@ -117,6 +123,8 @@ __all__ = [
     "box_gap",
     "check_pair",
     "check_pairs",
+    "check_polygon_pair",
+    "check_polygons",
     "climb",
     "close_pairs",
     "compare_gap",
@@ -143,7 +151,6 @@ __all__ = [
     "placed_bounds",
     "reaches_deeper",
     "safe_time",
-    "sat_polygons",
     "search_depth",
     "search_thickness",
     "sift",

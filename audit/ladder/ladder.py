@@ -18,7 +18,6 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.core_climb import climb_pair
 from satcheck.audit.request.trace import Trace
-from satcheck.core.tolerances import rounding_pad
 
 
 def settle(pair: Pair, trace: Trace, climb: core.Climb | None = None) -> Verdict:
@@ -81,15 +80,15 @@ def _outlines_apart(pair: Pair, trace: Trace) -> bool:
         return False
     import numpy as np
 
-    result = core.sat_polygons(np.array(a), np.array(b))
-    # The widest gap along an edge normal, less its rounding error.
-    gap = -result.penetration - rounding_pad(pair.largest_coordinate)
-    trace.record("sat", result.outcome, _edge_of(result))
-    return result.outcome == "separated" and gap > pair.gap_limit
+    result = core.check_polygon_pair(np.array(a), np.array(b), query="distance")
+    trace.record("sat", result.outcome, _deciding_feature(result))
+    return result.lower is not None and result.lower > pair.gap_limit
 
 
-def _edge_of(result: core.PolygonResult) -> str:
-    body, edge = ("A", result.edge_a) if result.edge_a >= 0 else ("B", result.edge_b)
+def _deciding_feature(result: core.PairResult) -> str:
+    if result.feature == "vertices":
+        return "outlines, a corner of each"
+    body, edge = ("A", result.index_a) if result.feature == "face-a" else ("B", result.index_b)
     return f"outlines, edge {edge} of {body}"
 
 

@@ -36,7 +36,7 @@ def studied_outlines(pair: Pair, plane: Plane) -> Studied:
     )
     curved = pair.closer, pair.farther
     axes = projected(found, points, ExactPoints(points), sides, curved)
-    outcome = core.sat_polygons(corners_a, corners_b).outcome
+    outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
     known = not any(curved) or axes.winner() is not None
     directions = [
         direction_count(_along(points, some), tolerance)

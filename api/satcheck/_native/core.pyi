@@ -227,17 +227,9 @@ class PairResults:
     @property
     def axes_tested(self) -> NDArray[int32]: ...
 
-class PolygonResult:
-    @property
-    def outcome(self) -> Outcome: ...
-    @property
-    def penetration(self) -> float: ...
-    @property
-    def normal(self) -> tuple[float, float]: ...
-    @property
-    def edge_a(self) -> int: ...
-    @property
-    def edge_b(self) -> int: ...
+class Polygons:
+    def __init__(self, corners: NDArray[float64], starts: NDArray[uint32]) -> None: ...
+    def __len__(self) -> int: ...
 
 Box3 = tuple[Point, Point]
 
@@ -289,7 +281,14 @@ def check_pairs(
     method: str,
     threads: int,
 ) -> PairResults: ...
-def sat_polygons(a: NDArray[float64], b: NDArray[float64]) -> PolygonResult: ...
+def check_polygons(
+    polygons: Polygons,
+    index_a: NDArray[uint32],
+    index_b: NDArray[uint32],
+    *,
+    query: str,
+    threads: int,
+) -> PairResults: ...
 
 class OpenHole:
     @property

@@ -11,7 +11,6 @@
 
 #include "base/large_pages.hpp"
 #include "bindings/arguments.hpp"
-#include "convex/sat_polygon.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
 #include "ladder/words.hpp"
@@ -38,7 +37,6 @@ void bind_core(nb::module_& m);
 namespace {
 
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Points2 = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Triple = std::array<double, 3>;
 
 Vec3 to_vec(const Triple& t) { return {t[0], t[1], t[2]}; }
@@ -48,15 +46,6 @@ std::vector<Vec3> to_points(const Points& points) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double* p = points.data() + 3 * i;
     out[i] = {p[0], p[1], p[2]};
-  }
-  return out;
-}
-
-std::vector<Vec2> to_points(const Points2& points) {
-  std::vector<Vec2> out(points.shape(0));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {points.data()[2 * i], points.data()[2 * i + 1]};
-  for (Vec2 p : out) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) throw std::invalid_argument("a corner is not finite");
   }
   return out;
 }
@@ -146,20 +135,6 @@ beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)"
   });
 }
 
-void bind_polygons(nb::module_& m) {
-  nb::class_<PolygonResult>(m, "PolygonResult",
-                            R"(outcome: exact. penetration: > 0 the least overlap; < 0 minus the widest gap along an edge normal, a
-lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it belongs to, else -1.)")
-      .def_prop_ro("outcome", [](const PolygonResult& r) { return name_of(r.outcome); })
-      .def_ro("penetration", &PolygonResult::penetration)
-      .def_prop_ro("normal", [](const PolygonResult& r) { return nb::make_tuple(r.normal.x, r.normal.y); })
-      .def_ro("edge_a", &PolygonResult::edge_a)
-      .def_ro("edge_b", &PolygonResult::edge_b);
-  m.def("sat_polygons",
-        [](const Points2& a, const Points2& b) { return sat_polygons(to_points(a), to_points(b)); }, 
-        nb::arg("a").noconvert(), nb::arg("b").noconvert());
-}
-
 }  // namespace
 
 void satcheck::bind_core(nb::module_& m) {
@@ -174,7 +149,6 @@ void satcheck::bind_core(nb::module_& m) {
   bind_motion(m);
   bind_shapes(m);
   bind_pairs(m);
-  bind_polygons(m);
   bind_climb(m);
   bind_poses(m);
   m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one query and ends: freed memory is kept for later allocations, if the allocator can do

@@ -13,14 +13,6 @@ namespace satcheck {
 
 namespace {
 
-struct Vec2 {
-  double x, y;
-};
-
-Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-double cross2(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-double dot2(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-
 using Polygon = std::vector<Vec2>;  // counter-clockwise; two points: a segment; one: a point
 
 // A. M. Andrew's monotone chain (1979).
@@ -31,7 +23,7 @@ Polygon hull_2d(Polygon points) {
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (Vec2 p : points) {
-      while (hull.size() >= start + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
@@ -68,7 +60,7 @@ Polygon clip(Polygon subject, const Polygon& window) {
     const std::size_t count = subject.size();
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2 p = subject[k], q = subject[(k + 1) % count];
-      const double dp = cross2(along, p - from), dq = cross2(along, q - from);
+      const double dp = cross(along, p - from), dq = cross(along, q - from);
       if (dp >= 0) kept.push_back(p);
       if (count > 1 && ((dp > 0 && dq < 0) || (dp < 0 && dq > 0))) {
         const double t = dp / (dp - dq);
@@ -82,17 +74,17 @@ Polygon clip(Polygon subject, const Polygon& window) {
 
 Vec2 closest_on_segment(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 e = b - a;
-  const double length_squared = dot2(e, e);
-  const double t = length_squared > 0 ? std::clamp(dot2(p - a, e) / length_squared, 0.0, 1.0) : 0.0;
+  const double length_squared = dot(e, e);
+  const double t = length_squared > 0 ? std::clamp(dot(p - a, e) / length_squared, 0.0, 1.0) : 0.0;
   return {a.x + t * e.x, a.y + t * e.y};
 }
 
 // The point where two segments cross or are closest. For collinear segments, the middle of their overlap.
 Vec2 crossing(const Polygon& s, const Polygon& t) {
   const Vec2 d = s[1] - s[0], e = t[1] - t[0];
-  const double area = cross2(d, e);
-  if (area * area > kParallelSquared * dot2(d, d) * dot2(e, e)) {
-    const double along = std::clamp(cross2(t[0] - s[0], e) / area, 0.0, 1.0);
+  const double area = cross(d, e);
+  if (area * area > kParallelSquared * dot(d, d) * dot(e, e)) {
+    const double along = std::clamp(cross(t[0] - s[0], e) / area, 0.0, 1.0);
     return {s[0].x + along * d.x, s[0].y + along * d.y};
   }
   const Vec2 p = closest_on_segment(t[0], s[0], s[1]), q = closest_on_segment(t[1], s[0], s[1]);
@@ -120,8 +112,8 @@ Vec2 common_point(const Polygon& a, const Polygon& b) {
   for (Vec2 p : other) {
     for (std::size_t i = 0; i < window.size(); ++i) {
       const Vec2 foot = closest_on_segment(p, window[i], window[(i + 1) % window.size()]);
-      if (dot2(p - foot, p - foot) < nearest) {
-        nearest = dot2(p - foot, p - foot);
+      if (dot(p - foot, p - foot) < nearest) {
+        nearest = dot(p - foot, p - foot);
         best = foot;
       }
     }

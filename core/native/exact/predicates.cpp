@@ -262,6 +262,23 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
       .sign();
 }
 
+int orientation(Vec2 a, Vec2 b, Vec2 c) { return turn_sign(a, b, a, c); }
+
+int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 u = b - a, v = d - c;
+  const double left = u.x * v.y, right = u.y * v.x;
+  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
+  if (left - right > bound) return 1;
+  if (left - right < -bound) return -1;
+  if ((u.x == 0 || v.y == 0) && (u.y == 0 || v.x == 0)) return 0;
+  const auto lifted = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  if (may_underflow({lifted(a), lifted(b), lifted(c), lifted(d)})) {
+    const DyadicRow exact_u(lifted(a), lifted(b)), exact_v(lifted(c), lifted(d));
+    return minor(exact_u[0], exact_u[1], exact_v[0], exact_v[1]).sign();
+  }
+  return exact_minor(difference(b.x, a.x), difference(b.y, a.y), difference(d.x, c.x), difference(d.y, c.y)).sign();
+}
+
 bool collinear(Vec3 a, Vec3 b, Vec3 c) {
   // For most triangles, a rounded component of the normal is clearly not 0.
   const Vec3 u = b - a, v = c - a;

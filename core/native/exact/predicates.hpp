@@ -68,6 +68,12 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
 // triangle projected along the named axis.
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
 
+// The same in the plane: +1 if c lies to the left of the line from a to b.
+int orientation(Vec2 a, Vec2 b, Vec2 c);
+
+// Sign of (b - a) x (d - c): +1 if the second direction is to the left of the first.
+int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+
 // Whether the three points lie on one line (or coincide).
 bool collinear(Vec3 a, Vec3 b, Vec3 c);
 

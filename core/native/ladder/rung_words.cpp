@@ -46,6 +46,7 @@ RungWords words_of_hulls(const Climb& climb, std::int64_t cost) {
 RungWords words_of_triangles(const MeshRelation& r, std::int64_t cost) {
   std::string detail = std::to_string(r.box_tests) + " box tests, ";
   detail += std::to_string(r.triangle_tests) + " triangle tests";
+  if (r.edge_tests) detail = std::to_string(*r.edge_tests) + " tests of edges of the outlines";
   if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) {
     detail += ", triangles " + std::to_string(r.triangle_a) + " and " + std::to_string(r.triangle_b) + " meet";
   }

@@ -14,6 +14,7 @@
 namespace satcheck {
 
 struct Closing;
+class Outline;
 struct Surface;
 
 // Two interpretations of an open surface. filled: each hole has some unknown fill. sheets: parts with a rim are
@@ -25,6 +26,12 @@ struct LazyClosings {
   std::mutex mutex;
   std::shared_ptr<const Closing> made[2];
   std::shared_ptr<const Surface> walled[2];
+};
+
+// The outline of a prism (mesh/outline.hpp). The first thread that needs it makes it.
+struct LazyOutline {
+  std::once_flag once;
+  std::shared_ptr<const Outline> made;
 };
 
 struct Surface {
@@ -43,6 +50,7 @@ struct Surface {
   bool refitted = false;  // the tree has the form of another surface's
   OpenParts open_parts = OpenParts::filled;
   std::shared_ptr<LazyClosings> closings = std::make_shared<LazyClosings>();
+  std::shared_ptr<LazyOutline> outline = std::make_shared<LazyOutline>();
 };
 
 // The closing of the open surface (mesh/closing.hpp). Made once.

@@ -8,6 +8,7 @@
 #include "base/tolerances.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/surface_order.hpp"
+#include "mesh_pair/outline_distance.hpp"
 
 namespace satcheck {
 namespace {
@@ -119,14 +120,21 @@ class DistanceSearch {
   std::vector<NodePair> stack_;
 };
 
+MeshDistance distance_in_order(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
+  if (!counts) {
+    if (const auto in_plane = prism_distance(a, b, limit)) return *in_plane;
+  }
+  return DistanceSearch(a, b, limit, counts).run();
+}
+
 }  // namespace
 
 MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
   if (!(limit >= 0)) throw std::invalid_argument("the distance limit must not be negative");
-  if (comes_before(a, b)) return DistanceSearch(a, b, limit, counts).run();
+  if (comes_before(a, b)) return distance_in_order(a, b, limit, counts);
   TrianglePairTest mirrored;
   if (counts) mirrored = [&](std::uint32_t t, std::uint32_t u) { return counts(u, t); };
-  MeshDistance distance = DistanceSearch(b, a, limit, mirrored).run();
+  MeshDistance distance = distance_in_order(b, a, limit, mirrored);
   std::swap(distance.witness_a, distance.witness_b);
   std::swap(distance.triangle_a, distance.triangle_b);
   return distance;

@@ -7,6 +7,7 @@
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/contact.hpp"
 #include "mesh_pair/open_surfaces.hpp"
+#include "mesh_pair/outline_pair.hpp"
 #include "mesh_pair/traversal.hpp"
 
 namespace satcheck {
@@ -143,6 +144,7 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
+  if (const auto in_plane = prism_relation(a, b)) return *in_plane;
   const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
   const bool closed = a.solid && b.solid;
   const auto relation_of = closed ? relation_of_closed : relation_of_open;

@@ -35,6 +35,7 @@ struct MeshRelation {
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
   std::optional<Vec3> point;  // a common point, rounded
   std::size_t box_tests = 0, triangle_tests = 0;
+  std::optional<std::size_t> edge_tests;  // instead of both, if outlines of prisms decided
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 

@@ -18,6 +18,7 @@ class MovedSurface {
     moved_.solid = still.solid;
     moved_.open_parts = still.open_parts;
     moved_.sheets = still.sheets;
+    moved_.outline = nullptr;  // it would not follow the moves
     if (!still.solid) closed_ = std::make_unique<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
