@@ -8,7 +8,8 @@ body, however fast or thin.
 
 Where we deviate: a contact is no collision. While bodies touch, the scan goes on as long as it can
 prove that they overlap by no more than the touch band. For two convex bodies the signed distance
-proves it; for others, a translation of A, no longer than the band, after which they stay apart. If
+proves it; for others, the hull that a sliding body sweeps (swept_hull.py), or a translation of A,
+no longer than the band, after which they stay apart. If
 the proof fails, the scan looks for an overlap later in the motion. If it finds none, the answer is
 open.
 """
@@ -24,6 +25,7 @@ from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SHORTEST_WIDE_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps
+from satcheck.audit.motion.swept_hull import safe_slide
 from satcheck.report.report import OVERLAPS
 
 
@@ -132,7 +134,8 @@ class _Scan:
         on = self._pair.shallow(self.t, end)
         if on >= SHORTEST_STEP or not self._pair.pair.may("exact"):
             return on
-        return self._offsets.safe_time(self.t, end)
+        slide = safe_slide(self._pair, self.t, end)
+        return slide if slide >= SHORTEST_STEP else self._offsets.safe_time(self.t, end)
 
     def impact(self) -> Impact:
         if self.reason is None:

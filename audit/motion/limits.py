@@ -28,3 +28,6 @@ WORST_DEPTHS = 24
 WORST_REFINED = 2
 # The least touch band of a sweep, in units of the rounding of a pose.
 PADS_IN_BAND = 8
+# The hull that a sliding body sweeps is tried over the rest of a piece of the motion, and over so
+# many parts of it, each half as long as the one before.
+SLIDES = 8

@@ -7,6 +7,7 @@ import pytest
 from satcheck.audit.motion.impact import first_impact
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import moving
+from tests.audit.motion.slots import tee, tee_slot
 from tests.audit.shapes import box, bracket, moved, unit_box
 
 TABLE = box((-9, -9, -1), (9, 9, 0))
@@ -112,19 +113,9 @@ def test_a_body_that_is_smaller_than_the_band_is_not_lost_in_the_other(into):
 
 
 def test_where_nothing_is_proven_the_answer_is_open():
-    """A slider that fits its slot exactly has no offset that frees it. It never overlaps."""
-    slot = _slot()
-    impact = impact_of(box((1, 1, 0), (2, 3, 1)), Translation((0.0, 0.5, 0.0)), slot)
+    """A T in a slot of the same outline has no offset that frees it, and its hull overlaps the
+    slot. It never overlaps."""
+    impact = impact_of(tee(1.0, 2.0), Translation((0.0, 0.5, 0.0)), tee_slot())
     assert not impact.free
     assert impact.upper is None
     assert impact.reason.startswith("not proven apart at t = ")
-
-
-def _slot():
-    """A U along y: floor z < 0, walls x < 1 and x > 2."""
-    outline = [(0, -1), (3, -1), (3, 1), (2, 1), (2, 0), (1, 0), (1, 1), (0, 1)]
-    points = [(float(x), y, float(z)) for y in (0.0, 5.0) for x, z in outline]
-    walls = [(k, k + 8, (k + 1) % 8 + 8, (k + 1) % 8) for k in range(8)]
-    front = [(0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 7)]
-    back = [tuple(k + 8 for k in reversed(face)) for face in front]
-    return points, [*walls, *front, *back]
