@@ -17,7 +17,7 @@ ROOMS := api cli studies batch audit verify report scene decompose core
 LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/*)
 SOURCES := pyproject.toml CMakeLists.txt \
 	$(wildcard $(foreach kind,.py .pyi .json .html .css .js .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
-CXX_TESTS := $(wildcard core/native/tests/*/*.cpp tests/one_definition/*)
+CXX_TESTS := $(wildcard core/native/tests/*/*.cpp core/native/tests/*/*.hpp tests/one_definition/*)
 
 .PHONY: demo test golden install clean
 
