@@ -148,7 +148,7 @@ def main() -> None:
     parser.add_argument("--sizes", type=float, nargs="+", default=[1e3, 1e6, 1e8])
     options = parser.parse_args()
     heads = ["files", "triangles of each", "MB of each", "start", "reading", "relation", "depth"]
-    heads += ["report", "whole, ms", "limit", "of it import numpy", "whole / limit"]
+    heads += ["report", "whole, ms", "limit", "import numpy", "whole / limit"]
     heads += ["reading / limit without import"]
     sys.stdout.write("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|\n")
     for size in options.sizes:

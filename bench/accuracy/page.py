@@ -102,7 +102,7 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
         "\n".join(
             [
                 f"- **From boxes to hulls** takes {_longer(boxes)} the time: {_gain(boxes)}. "
-                f"Together they settle {counted(len(records) - len(concave), 'pair')}.",
+                f"Boxes and hulls together settle {counted(len(records) - len(concave), 'pair')}.",
                 f"- **From hulls to the proof on triangles** takes {_longer(proof)} the time on "
                 f"the other {len(concave)}: {_gain(proof)}.",
                 *_of_parts(concave),
@@ -140,8 +140,8 @@ def _of_parts(concave: Sequence[Record]) -> list[str]:
         for one in dict.fromkeys((made[0], made[-1]))
     ]
     return [
-        "- **Convex parts**, built from nothing, take a multiple of the time of the proof on the "
-        f"same pairs: {', '.join(said)}."
+        "- **Convex parts**, built without a cache, take a multiple of the time of the proof on "
+        f"the same pairs: {', '.join(said)}."
     ]
 
 
@@ -161,8 +161,8 @@ def _making(run: Run, records: Sequence[Record], found: dict[str, RungSummary]) 
         f"On {made['date']}, in {spent / 60:.0f} minutes, with {versions}. Machine: "
         f"{made['machine']}, shared with other work.",
         f"Corpus: {'; '.join(run.corpora)}. Each pair has a process of its own, in which the rungs "
-        f"take turns, up to {effort['repeat']} rounds; a pair counts its median. The slowest round "
-        f"over the fastest, as a median of the pairs: {steady or 'no rung was repeated'}.",
+        f"take turns, up to {effort['repeat']} rounds; for each pair the median counts. The "
+        f"slowest round over the fastest, as a median of the pairs: {steady or 'no rung was repeated'}.",
         f"Budget, wall time: {effort['rung_seconds']:g} s for all runs of a rung on a pair, "
         f"{effort['pair_seconds']:g} s for all rungs of a pair. Pairs of more than "
         f"{effort['part_triangles']:,} triangles together are not split into convex parts. Runs "

@@ -63,8 +63,8 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
             "to hulls include all pairs, the steps after them only the pairs that boxes and hulls "
             "do not decide.",
             words.table(head, rows),
-            "For overlapping bodies convex parts give a lower bound of the depth. Their figure is "
-            "that of the hulls, with the same error.",
+            "For overlapping bodies convex parts prove only a lower bound of the depth. The table "
+            "therefore counts the depth of the hulls for them, with the error of the hulls.",
         ]
     )
 
@@ -99,12 +99,12 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "## Cost and error of each rung, over all pairs",
             embedded(folder, "rungs", "Time and error of every pair, rung by rung"),
             "Wall time is cold: from meshes in memory to the answer, with the time to build "
-            "hulls, trees and parts, and to start the child process of the Boolean. Cached: parts "
-            "are read from disk, and the child process runs already. CPU: median of the cold "
-            "runs, with child processes. Memory: the median of the child process, or of the "
-            "growth of the calling process if that is larger. Volume error: the absolute error of "
-            "the shapes that replace a body; median of the bodies with a volume. Convex parts "
-            "count only if they were built.",
+            "hulls, trees and parts, and to start the child process in which manifold3d computes "
+            "the common volume of both bodies. Cached: parts are read from disk, and the child "
+            "process runs already. CPU: median of the cold runs, with child processes. Memory: "
+            "the median of the child process, or of the growth of the calling process if that is "
+            "larger. Volume error: the absolute error of the shapes that replace a body; median "
+            "of the bodies with a volume. Convex parts count only if they were built.",
             words.table(head, rows),
             "Errors, in sizes of the smaller body (right: how many are 0 within rounding); the "
             "Boolean gives no distance:",
@@ -220,9 +220,10 @@ def of_the_truth(records: Sequence[Record]) -> str:
     ]
     if widths is not None:
         lines.append(
-            "The error of the exact rung is 0 by definition: what it leaves open is the width of "
-            f"its interval. Of the {widths.count} depths that is a median of "
-            f"{words.percent(widths.median)} of the depth, three quarters are within "
-            f"{words.percent(widths.third)}, the widest is {words.percent(widths.high)}."
+            "The error of the exact rung is 0 by definition. It leaves open only how wide its "
+            f"interval is. Of the {widths.count} depths the median width is "
+            f"{words.percent(widths.median)} of the depth, three quarters are at most "
+            f"{words.percent(widths.third)} wide, and the widest is "
+            f"{words.percent(widths.high)} wide."
         )
     return "\n\n".join(lines)

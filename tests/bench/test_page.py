@@ -91,7 +91,7 @@ def test_the_opening_says_what_the_steps_cost(whole: Page) -> None:
     assert "same 4 pairs" in whole.text
     # Boxes and hulls over all four pairs, the proof over the two that they leave open.
     assert "the median error goes from 0 to 0, wrong verdicts from 1 to 1" in whole.text
-    assert "Together they settle 2 pairs." in whole.text
+    assert "Boxes and hulls together settle 2 pairs." in whole.text
     assert "the time on the other 2:" in whole.text
     # The median of errors 0.5 and 0 of a body of size 2.
     assert "goes from 25 % to 0, wrong verdicts from 1 to 0" in whole.text

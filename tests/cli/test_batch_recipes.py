@@ -18,8 +18,9 @@ from tests.test_docs import BLOCK, ROOT
 
 pytestmark = on_posix
 SHARDS = ("1", "2")
+# As `aws s3 ls` does, it finds every name that begins with the one it is given.
 _AWS = """#!/bin/sh
-test -e "${3#file://}"
+ls -d "${3#file://}"*
 """
 
 
@@ -69,6 +70,14 @@ def test_aws_batch(folder: Path) -> None:
         variables = {"AWS_BATCH_JOB_ARRAY_INDEX": index, "LIBRARY": folder.as_uri()}
         run(folder, "bash", "-c", recipe("bash", "AWS"), **variables)
     check_results(folder, "far.jsonl")
+
+
+def test_aws_batch_fails_a_shard_that_has_not_finished(folder: Path) -> None:
+    (folder / "results" / "1.jsonl.part").touch()
+    is_finished = recipe("bash", "AWS").splitlines()[-1]
+    env = {"PATH": os.pathsep.join((str(folder / "bin"), os.environ["PATH"]))}
+    env["out"] = (folder / "results" / "1.jsonl").as_uri()
+    assert subprocess.run(["bash", "-c", is_finished], env=env, check=False).returncode != 0
 
 
 def needs(tool: str) -> pytest.MarkDecorator:
