@@ -162,7 +162,8 @@ def _making(run: Run, records: Sequence[Record], found: dict[str, RungSummary]) 
         f"{made['machine']}, shared with other work.",
         f"Corpus: {'; '.join(run.corpora)}. Each pair has a process of its own, in which the rungs "
         f"take turns, up to {effort['repeat']} rounds; for each pair the median counts. The "
-        f"slowest round over the fastest, as a median of the pairs: {steady or 'no rung was repeated'}.",
+        "slowest round over the fastest, as a median of the pairs: "
+        f"{steady or 'no rung was repeated'}.",
         f"Budget, wall time: {effort['rung_seconds']:g} s for all runs of a rung on a pair, "
         f"{effort['pair_seconds']:g} s for all rungs of a pair. Pairs of more than "
         f"{effort['part_triangles']:,} triangles together are not split into convex parts. Runs "
