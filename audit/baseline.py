@@ -12,9 +12,9 @@ from typing import get_args
 
 from msgspec.structs import replace
 
+from satcheck.audit.rounding import is_within, keeps
 from satcheck.audit.severity import fails
 from satcheck.audit.summary import verdict_of
-from satcheck.audit.tolerances import is_within, keeps
 from satcheck.report.baseline import (
     Baseline,
     BaselineState,

@@ -22,8 +22,8 @@ from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.audit.severity import Judgement, disputed, judged
-from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector

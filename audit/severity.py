@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.request.planner import Request
-from satcheck.audit.tolerances import is_within, keeps
+from satcheck.audit.rounding import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 
 if TYPE_CHECKING:

@@ -11,15 +11,15 @@ import click
 from msgspec import Struct
 
 from satcheck.batch.load_options import LoadOptions
+from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.words import counted, issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,

@@ -42,7 +42,7 @@ def refuse_pictures(
 
 def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:
     """Raises SatcheckError where there is no picture, or it cannot be written."""
-    from satcheck.cli.report.picture import render
+    from satcheck.cli.formats.picture import render
 
     for form, path in pictures.items():
         write_file(path, render(form, report, scene))
@@ -60,7 +60,7 @@ def files_line(
 
 
 def _what(form: str, report: Report, scene: Scene) -> str:
-    from satcheck.cli.report.picture.data import drawn_finding
+    from satcheck.cli.formats.picture.data import drawn_finding
 
     if form == "glb":
         return "Model"

@@ -46,6 +46,6 @@ def refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None:
 
 
 def write_plot(figure: Figure, path: Path) -> None:
-    from satcheck.cli.report.plot_style import file_of
+    from satcheck.cli.formats.plot_style import file_of
 
     write_file(path, file_of(figure, path.suffix.lower()))

@@ -6,9 +6,9 @@ from typing import Any
 
 import click
 
-from satcheck.cli.forms import PICTURES
+from satcheck.cli.format_option import PICTURES
+from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.inputs import Inputs
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 
 
 def refuse_certificate(form: str, *, wanted: bool) -> None:

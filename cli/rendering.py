@@ -9,16 +9,16 @@ from msgspec import Struct
 
 from satcheck.audit import Report
 from satcheck.audit.sampled import Samples
-from satcheck.cli.forms import PICTURES
+from satcheck.cli.format_option import PICTURES
+from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
+from satcheck.cli.formats.ci import pieces as pieces_for_ci
+from satcheck.cli.formats.plain_names import in_one_line_each
+from satcheck.cli.formats.samples_summary import samples_counts, samples_verdict
+from satcheck.cli.formats.summary import counts_line
+from satcheck.cli.formats.titles import with_titles
+from satcheck.cli.formats.verdict import next_step, verdict_line
+from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import Page, talk
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import pieces as pieces_for_ci
-from satcheck.cli.report.plain_names import in_one_line_each
-from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
-from satcheck.cli.report.summary import counts_line
-from satcheck.cli.report.titles import with_titles
-from satcheck.cli.report.verdict import next_step, verdict_line
-from satcheck.cli.report.words import counted, issue_line
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
 from satcheck.scene import Scene
@@ -63,11 +63,11 @@ def rendered(
     if form in CI_FORMATS:
         return pieces_for_ci({"satcheck": result}, form)
     if form in PICTURES:
-        from satcheck.cli.report.picture import render as render_picture
+        from satcheck.cli.formats.picture import render as render_picture
 
         parts = result.settings.accuracy == "parts"
         return render_picture(form, result, scene, split=parts, cache=shown.cache)
-    from satcheck.cli.report.table import render as render_table
+    from satcheck.cli.formats.table import render as render_table
 
     return render_table(result, page, explain=shown.explain, timings=shown.timings, top=shown.top)
 
@@ -75,7 +75,7 @@ def rendered(
 def _samples(result: Samples, form: str, page: Page, shown: Shown) -> str | list[str]:
     if form == "json":
         return json_document(result.to_dict(shown.timings))
-    from satcheck.cli.report.samples import render as render_samples
+    from satcheck.cli.formats.samples import render as render_samples
 
     return render_samples(result, page, top=shown.top)
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from satcheck.cli.commands import COMMANDS
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.path_kind import exists, is_file, is_folder
 
 if TYPE_CHECKING:
@@ -234,7 +234,7 @@ def _listed(folder: Path) -> list[Path]:
 
 
 def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
-    from satcheck.cli.forms import REPORT_FORMATS
+    from satcheck.cli.format_option import REPORT_FORMATS
 
     if wrong in REPORT_FORMATS and "--format" in known:
         return ("--format", wrong)

@@ -13,15 +13,15 @@ from satcheck.audit.baseline_file import read_baseline
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.check_world import check_world
 from satcheck.cli import exit_codes
+from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
+from satcheck.cli.formats.ci import pieces as pieces_for_ci
+from satcheck.cli.formats.overview import Overview, overview
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.lengths import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import pieces as pieces_for_ci
-from satcheck.cli.report.overview import Overview, overview
-from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
 from satcheck.report.assets import Asset
 from satcheck.report.config import StatedConfig
@@ -122,7 +122,7 @@ def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
     for issue in seen.issues:
         talk(f"satcheck: {issue_line(issue)}")
     if assets:
-        from satcheck.cli.report.assets import summary_line
+        from satcheck.cli.formats.assets import summary_line
 
         talk(f"{summary_line(seen)} Report: {output}")
 
@@ -137,6 +137,6 @@ def _render(
         return pieces_for_ci({asset.file: asset.report for asset in assets}, form)
     if not assets:
         return "PASS: 0 assets.\n"
-    from satcheck.cli.report.assets import render
+    from satcheck.cli.formats.assets import render
 
     return render(seen, page)

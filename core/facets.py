@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.intp]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from bench.drawing import write_both
-from satcheck.cli.report.axes_plot import draw
+from satcheck.cli.formats.axes_plot import draw
 from satcheck.core import Mesh
 from satcheck.report.axes import AxesReport
 from satcheck.scene import load_scene

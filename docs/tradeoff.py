@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bench.drawing import write_both
-from satcheck.cli.report.tradeoff_plot import draw
+from satcheck.cli.formats.tradeoff_plot import draw
 from satcheck.scene import load_scene
 from satcheck.studies.tradeoff import tradeoff
 

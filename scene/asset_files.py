@@ -8,8 +8,8 @@ from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES, is_model
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.path_kind import exists, is_folder
 
 _ALWAYS = ROBOT_SUFFIXES.union(FORMATS)

@@ -17,7 +17,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.path_kind import followed
 
 # Files of these endings name no other file with geometry.

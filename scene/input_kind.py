@@ -7,8 +7,8 @@ from typing import Literal
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.loading.formats import DOCUMENTS, FORMATS
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import DOCUMENTS, FORMATS
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 

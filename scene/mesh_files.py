@@ -19,11 +19,12 @@ from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.loading import ReadLimits, load_mesh_file
-from satcheck.scene.loading.native import NATIVE_FORMATS
+from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.native_formats import NATIVE_FORMATS
 from satcheck.scene.loading.nodes import Node, Nodes, load_nodes, nodes_of
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
+from satcheck.scene.loading.source import LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.shape_file import remeshed, shape_file

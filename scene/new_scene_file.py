@@ -17,7 +17,7 @@ from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.common_units import scaled_mesh
 from satcheck.scene.format.entries import SCENE_1, BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.text import is_toml
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 from satcheck.scene.motion import Motion, PosePath, Rotation

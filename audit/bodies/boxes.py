@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 
 Box = tuple[Vector, Vector]
 

@@ -11,7 +11,6 @@ from satcheck.audit.bodies.boxes import diagonal, largest_coordinate
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.request.planner import Request
 from satcheck.audit.request.settings import ACCURACIES, Accuracy, Settings
-from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.conventions import axes_of
 
 if TYPE_CHECKING:
@@ -20,6 +19,10 @@ if TYPE_CHECKING:
     from satcheck.report.sweep import Sweep
     from satcheck.scene.motion import Path
 
+
+# The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
+# of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
+TOUCH_FRACTION = 1e-3
 
 _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 

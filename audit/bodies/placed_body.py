@@ -14,9 +14,9 @@ from satcheck import core
 from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
 from satcheck.audit.request.settings import Settings
 from satcheck.core.curved.placed import CurvedShape, curved_shape
+from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
-from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.scene.bodies import resolution_in_world
 
 if TYPE_CHECKING:

@@ -17,12 +17,12 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth, frees_boxes
-from satcheck.audit.figures.verify import Escape, verified_escape
+from satcheck.audit.figures.escape import Escape, verified_escape
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.audit.rounding import EXACT_WIDTH
+from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import Vector
 
 # An interval on both sides of a limit is narrowed again, each time by this factor.

@@ -25,15 +25,15 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth
+from satcheck.audit.figures.escape import Escape, relation_after
 from satcheck.audit.figures.gap import Gap
-from satcheck.audit.figures.verify import Escape, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.in_plane import wall_gap
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import keeps
+from satcheck.audit.rounding import keeps
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Vector
 
 if TYPE_CHECKING:

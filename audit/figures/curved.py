@@ -16,8 +16,8 @@ from satcheck.audit.ladder.ladder import settle
 from satcheck.audit.request.trace import Trace
 from satcheck.core import Mesh
 from satcheck.core.curved.freeing import move_off
+from satcheck.core.rounding import rounding_pad
 from satcheck.core.shape_mesh import mesh_around
-from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS, Vector
 from satcheck.scene.shape_file import remeshed
 

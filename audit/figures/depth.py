@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.verify import Escape, verified_escape
+from satcheck.audit.figures.escape import Escape, verified_escape
 from satcheck.audit.request.trace import Trace
 from satcheck.report.report import Vector, Witness
 

@@ -11,8 +11,8 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import keeps
-from satcheck.core.tolerances import rounding_pad
+from satcheck.audit.rounding import keeps
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.report.report import Ball
 
 if TYPE_CHECKING:

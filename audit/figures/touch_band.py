@@ -20,13 +20,13 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.figures.gap import compare_convex
-from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
-from satcheck.core.tolerances import UNIT_ROUNDOFF, rounding_pad
+from satcheck.core.rounding import UNIT_ROUNDOFF, rounding_pad
 from satcheck.report.report import Vector
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import VOLUME_ROUNDOFFS, is_within
+from satcheck.audit.rounding import VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 
 
 class CommonVolume(Struct, frozen=True):

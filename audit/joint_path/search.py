@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.verify import FREE
+from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS

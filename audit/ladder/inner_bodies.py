@@ -12,7 +12,7 @@ from satcheck.audit.bodies.boxes import box_escape, largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Part, inner_parts, split_together
 from satcheck.audit.request.trace import Trace
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 
 
 def depth_of_parts(pair: Pair, trace: Trace) -> float:

@@ -15,7 +15,7 @@ from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_t
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.inner_bodies import deepest_pair
 from satcheck.audit.request.trace import Trace
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Relation
 
 

@@ -12,7 +12,7 @@ from itertools import combinations
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import triangle_normal
-from satcheck.audit.figures.verify import FREE, relation_after
+from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import MovingPair, overlaps

@@ -21,7 +21,7 @@ from collections.abc import Sequence
 
 from msgspec import Struct
 
-from satcheck.audit.figures.verify import FREE
+from satcheck.audit.figures.escape import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SHORTEST_WIDE_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps

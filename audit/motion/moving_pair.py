@@ -10,16 +10,15 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies.boxes import diagonal
-from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
 from satcheck.audit.request.planner import ALWAYS, Request
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.curved.placed import rows_of
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.request.planner import LIMITS, Request
 from satcheck.audit.request.trace import Trace
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.audit.severity import Judgement, by_rule, clearance_judgement
-from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.report.sweep import Sweep
 

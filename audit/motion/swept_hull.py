@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.figures.verify import FREE
+from satcheck.audit.figures.escape import FREE
 from satcheck.audit.motion.limits import SLIDES
 from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import Vector

@@ -27,7 +27,7 @@ from satcheck.audit.motion.turn import (
 )
 from satcheck.audit.vectors import added
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.scene.motion import Path, Rotation, Translation
 
 Frame = tuple[Matrix, Vector]

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.request.settings import Settings
-from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.report.report import Effect
 from satcheck.report.settings import StatedSettings
 from satcheck.scene.rules import Rule, Severity

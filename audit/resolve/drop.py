@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.figures.verify import FREE
+from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 
 Array = npt.NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import fails
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import OVERLAPS, Finding
 
 

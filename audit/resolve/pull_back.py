@@ -19,7 +19,7 @@ from satcheck.audit.resolve.pair_state import may_overlap, separation
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 
 STEPS = 8
 HALVINGS = 2

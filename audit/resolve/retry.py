@@ -19,7 +19,7 @@ import numpy as np
 
 from satcheck import core
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.figures.verify import FREE
+from satcheck.audit.figures.escape import FREE
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pull_back import pull_back, swept
 from satcheck.audit.resolve.rounds import Rounds

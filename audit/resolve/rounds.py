@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 
 from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.verify import FREE, relation_after
+from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.resolve.free_places import FreePlaces
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import PairState, longer, out_of_hull
@@ -28,7 +28,7 @@ from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.conventions import Vector
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 
 # After LOCAL_WALLS rounds with an overlap, one wall between the hulls replaces all walls of a pair,
 # unless the way out of the hulls is MUCH_LONGER. After PATIENCE rounds one body is taken out.

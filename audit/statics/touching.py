@@ -25,7 +25,7 @@ from satcheck.audit.statics.near import TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
 from satcheck.audit.statics.thin import TOO_THIN, may_be_through
 from satcheck.core.risky_steps import not_for_lack_of_memory
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Finding
 from satcheck.report.statics import Touch
 

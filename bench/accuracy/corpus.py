@@ -78,7 +78,7 @@ def _of_samples(entries: list[dict[str, Any]], folder: Path) -> Iterator[Case]:
 
 
 def _of_folder(folder: Path) -> Iterator[Case]:
-    from satcheck.scene.loading.source import FORMATS  # not before it is needed: see case.py
+    from satcheck.scene.loading.formats import FORMATS  # not before it is needed: see case.py
 
     files = sorted(path for path in folder.iterdir() if path.suffix.lower() in FORMATS)
     yield from (_as_they_stand(two) for two in combinations(files, 2))

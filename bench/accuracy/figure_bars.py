@@ -12,8 +12,8 @@ from bench.accuracy.palette import ink_on, outcomes, stages
 from bench.accuracy.rungs import RungSummary
 from bench.accuracy.stages import GROUPS, OTHER, StageTimes
 from bench.accuracy.verdicts import OUTCOMES
-from satcheck.cli.report.numbers import duration
-from satcheck.cli.report.plot_style import POINTS_PER_INCH, Palette, style
+from satcheck.cli.formats.numbers import duration
+from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
 
 WIDTH = 780.0  # points
 _HEAD = 84.0

@@ -16,8 +16,8 @@ from matplotlib.ticker import NullLocator
 from bench.accuracy.palette import Colours, kind_of, series
 from bench.accuracy.rungs import PARTS, Cost
 from bench.drawing import name_decades, percent, plain
-from satcheck.cli.report.numbers import number
-from satcheck.cli.report.plot_style import POINTS_PER_INCH, Labels, Palette, Point, style
+from satcheck.cli.formats.numbers import number
+from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Labels, Palette, Point, style
 
 # Points, 72 to the inch.
 WIDTH = 780.0

@@ -22,8 +22,8 @@ from bench.accuracy.stages import (
 )
 from bench.accuracy.verdicts import OUTCOMES, agreement
 from bench.drawing import embedded
-from satcheck.cli.report.numbers import mebibytes
-from satcheck.cli.report.words import counted
+from satcheck.cli.formats.numbers import mebibytes
+from satcheck.cli.formats.words import counted
 
 Record = dict[str, Any]
 HULL = "hull"

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
@@ -107,7 +107,7 @@ def command(
     rows = TABLE_ROWS if form == "table" and top is None else top
     result = axes_of(scene, bodies, planar=planar, allow_open=allow_open)
     if plot:
-        from satcheck.cli.report.axes_plot import draw
+        from satcheck.cli.formats.axes_plot import draw
 
         write_plot(draw(result, dark=dark), plot)
     shown = replace(
@@ -128,6 +128,6 @@ def _posed(scene: Scene, inputs: Inputs) -> Scene:
 def _render(result: AxesReport, form: str, page: Page) -> str:
     if form == "json":
         return json_document(result)
-    from satcheck.cli.report.axes import render
+    from satcheck.cli.formats.axes import render
 
     return render(result, page)

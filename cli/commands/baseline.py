@@ -11,8 +11,8 @@ from msgspec.structs import replace
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.audit.baseline_file import asset_key, read_baseline
 from satcheck.cli.click_classes import HELP_NAMES, Group
+from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document, write_file
-from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import read_report
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.json import document as json_document

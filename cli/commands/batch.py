@@ -30,11 +30,11 @@ from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
+from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import options_of, paths_argument, seconds_option
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.words import counted
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from satcheck.cli.click_classes import HELP_NAMES, Group
+from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document
-from satcheck.cli.report.words import counted
 from satcheck.decompose import Cache
 
 

@@ -21,7 +21,7 @@ from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.config.source import stated_config
-from satcheck.cli.forms import PICTURES, REPORT_FORMATS, form_of, report_form_option
+from satcheck.cli.format_option import PICTURES, REPORT_FORMATS, form_of, report_form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.lengths import length, settings_of
 from satcheck.cli.options import (

@@ -12,8 +12,8 @@ from click.core import ParameterSource
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
 from satcheck.cli.config.source import COMMANDS, config_of, is_from_config
 from satcheck.cli.config.values import configurable, is_inverted
+from satcheck.cli.formats.config import toml
 from satcheck.cli.output import Document
-from satcheck.cli.report.config import toml
 
 # Words of a call are those of another command, not options of this one.
 _ANY = {**HELP_NAMES, "ignore_unknown_options": True}

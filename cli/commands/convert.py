@@ -10,12 +10,12 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.formats.numbers import at_most
+from satcheck.cli.formats.words import counted, issue_line, with_unit
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import color_option, debug_option, paths_argument
 from satcheck.cli.output import harmless, talk, write_file
 from satcheck.cli.posing import posed_once
-from satcheck.cli.report.numbers import at_most
-from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Scene

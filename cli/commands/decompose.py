@@ -15,7 +15,10 @@ from rich.table import Table
 from satcheck.audit.summary import tool
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.formats.canvas import Canvas
+from satcheck.cli.formats.numbers import at_most, duration
+from satcheck.cli.formats.words import counted, issue_line, with_unit
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
@@ -28,9 +31,6 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, Page, harmless, talk, write_file
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.numbers import at_most, duration
-from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.cli.scene_options import reading_options, split_option, units_option
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import is_curved

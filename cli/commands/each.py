@@ -12,7 +12,7 @@ from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
-from satcheck.cli.forms import REPORT_FORMATS, form_of, reports_form_option
+from satcheck.cli.format_option import REPORT_FORMATS, form_of, reports_form_option
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import options_of, paths_argument
 from satcheck.cli.output import talk

@@ -11,7 +11,7 @@ from satcheck.batch.manifest import read_manifest
 from satcheck.batch.stored import StoredResults
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import REPORT_FORMATS, form_of
+from satcheck.cli.format_option import REPORT_FORMATS, form_of
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
     color_option,

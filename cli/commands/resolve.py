@@ -13,7 +13,8 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve import Resolution, proof_of, resolve
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.lengths import in_units_of, length, settings_of
 from satcheck.cli.options import (
@@ -28,7 +29,6 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, Page, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.words import issue_line
 from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
@@ -257,6 +257,6 @@ def _render(result: Resolution, form: str, page: Page, moved: Path | None) -> st
     output = str(moved) if moved else None
     if form == "json":
         return json_document(result.document(output))
-    from satcheck.cli.report.resolution import render
+    from satcheck.cli.formats.resolution import render
 
     return render(result, page, output)

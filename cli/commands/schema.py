@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.formats.schema import text
 from satcheck.cli.output import Document
-from satcheck.cli.report.schema import text
 
 DOCUMENTS = (
     "report",

@@ -10,7 +10,7 @@ import click
 from satcheck.audit import Settings
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import color_option, debug_option, output_option, paths_argument
 from satcheck.cli.output import Document, Page
@@ -91,6 +91,6 @@ def command(
 def _render(result: Stability, form: str, page: Page, *, explain: bool) -> str:
     if form == "json":
         return json_document(result.document())
-    from satcheck.cli.report.stability import render
+    from satcheck.cli.formats.stability import render
 
     return render(result, page, explain=explain)

@@ -12,6 +12,8 @@ from msgspec.structs import replace
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.formats.suggest import chosen, remark, srdf, toml
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.lengths import settings_of
 from satcheck.cli.options import (
@@ -24,8 +26,6 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.suggest import chosen, remark, srdf, toml
-from satcheck.cli.report.words import issue_line
 from satcheck.cli.scene_options import (
     geometry_options,
     merge_option,
@@ -151,8 +151,8 @@ def command(
 
 
 def _surface_tolerances(inputs: Inputs, form: str | None, output: Path | None) -> int:
-    from satcheck.audit.surface_tolerances import surface_tolerances
-    from satcheck.cli.report import surface_tolerances as words
+    from satcheck.audit.suggest_surface_tolerances import surface_tolerances
+    from satcheck.cli.formats import surface_tolerances as words
 
     refuse_early(inputs, output)
     document = Document()
@@ -168,7 +168,7 @@ def _surface_tolerances(inputs: Inputs, form: str | None, output: Path | None) -
 
 def _support(inputs: Inputs, output: Path | None) -> int:
     from satcheck.audit.suggest_support import suggest_support
-    from satcheck.cli.report import suggested_support as words
+    from satcheck.cli.formats import suggested_support as words
 
     refuse_early(inputs, output)
     document = Document()

@@ -10,7 +10,7 @@ import click
 from satcheck.audit.request.settings import Method
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     color_option,
@@ -95,7 +95,7 @@ def command(
             scene, repeat=repeat, budget=budget, pairs=pairs, method=method, progress=bar
         )
     if plot:
-        from satcheck.cli.report.tradeoff_plot import draw
+        from satcheck.cli.formats.tradeoff_plot import draw
 
         write_plot(draw(result.pairs, dark=dark), plot)
     document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")
@@ -105,6 +105,6 @@ def command(
 def _render(result: Tradeoff, form: str, page: Page) -> str:
     if form == "json":
         return json_document(result.to_dict())
-    from satcheck.cli.report.tradeoff import render
+    from satcheck.cli.formats.tradeoff import render
 
     return render(result, page)

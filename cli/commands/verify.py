@@ -12,12 +12,12 @@ from msgspec import UNSET
 from satcheck._version import __version__
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import form_of, form_option
+from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import color_option, debug_option, output_option, root_option
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.words import counted
 from satcheck.cli.report_file import MOST_BYTES
 from satcheck.cli.scene_options import outside_option
 from satcheck.core.errors import SatcheckError

@@ -15,7 +15,9 @@ from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.forms import PICTURES, form_of
+from satcheck.cli.format_option import PICTURES, form_of
+from satcheck.cli.formats.picture import render
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
     cache_option,
@@ -27,8 +29,6 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
-from satcheck.cli.report.picture import render
-from satcheck.cli.report.words import issue_line
 from satcheck.cli.report_file import read_report
 from satcheck.cli.scene_options import outside_option
 from satcheck.cli.stated_scene import stated_scene

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from satcheck.batch.difference import difference
 from satcheck.batch.stored import StoredResults
+from satcheck.cli.formats import difference as rendering
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import Document, Page, talk
-from satcheck.cli.report import difference as rendering
-from satcheck.cli.report.words import issue_line
 from satcheck.cli.results.report import TOP
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.difference import Difference

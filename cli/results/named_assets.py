@@ -10,7 +10,7 @@ from satcheck.report.report import Report
 
 
 class Assets:
-    """The reports of assets by name (`cli.report.ci.Reports`)."""
+    """The reports of assets by name (`cli.formats.ci.Reports`)."""
 
     def __init__(self, assets: Collection[Asset]) -> None:
         self._assets = assets

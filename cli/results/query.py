@@ -8,9 +8,9 @@ from pathlib import Path
 
 from satcheck.batch.query import Tables
 from satcheck.batch.stored import StoredResults
+from satcheck.cli.formats.answer import render
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import Document, Page, talk
-from satcheck.cli.report.answer import render
-from satcheck.cli.report.words import issue_line
 from satcheck.report.assets import AssetVerdict
 
 FORMATS = ("table", "json", "jsonl", "csv", "parquet")

@@ -10,11 +10,11 @@ import click
 from msgspec import Struct
 
 from satcheck.batch.stored import StoredResults
+from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
+from satcheck.cli.formats.ci import pieces as pieces_for_ci
+from satcheck.cli.formats.overview import Overview, overview
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import Document, Page, talk
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.ci import pieces as pieces_for_ci
-from satcheck.cli.report.overview import Overview, overview
-from satcheck.cli.report.words import issue_line
 from satcheck.cli.results.named_assets import Assets, StoredAssets
 from satcheck.cli.results.worst_findings import Illustrated, with_pictures, worst_findings
 from satcheck.report.assets import AssetVerdict
@@ -75,7 +75,7 @@ def _render(
     if form in CI_FORMATS:
         return pieces_for_ci(assets, form)
     if form == "html":
-        from satcheck.cli.report.worst_page import render as render_page
+        from satcheck.cli.formats.worst_page import render as render_page
 
         return render_page(seen, illustrated)
     if form == "parquet":
@@ -83,7 +83,7 @@ def _render(
 
         with Tables(stored) as tables:
             return tables.parquet(ALL_FINDINGS)
-    from satcheck.cli.report.assets import render
+    from satcheck.cli.formats.assets import render
 
     return render(seen, page)
 
@@ -94,6 +94,6 @@ def _tell(seen: Overview, form: str, output: Path | None) -> None:
         for issue in seen.issues:
             talk(f"satcheck: {issue_line(issue)}")
     if output is not None:
-        from satcheck.cli.report.assets import summary_line
+        from satcheck.cli.formats.assets import summary_line
 
         talk(f"{summary_line(seen)} Report: {output}")

@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from satcheck.batch.key import digest
 from satcheck.batch.stored import Stored
+from satcheck.cli.formats.order import is_listed, rank, worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar
-from satcheck.cli.report.order import is_listed, rank, worst_of
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset
@@ -115,7 +115,7 @@ def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> st
 
 
 def _drawn(worst: Worst, root: Path, *, allow_outside: bool) -> Picture:
-    from satcheck.cli.report.picture.png import render
+    from satcheck.cli.formats.picture.png import render
 
     report = _of_finding(worst)
     scene, issues = stated_scene(report, root, allow_outside=allow_outside)

@@ -24,7 +24,7 @@ AxisKind = Literal["face-a", "face-b", "edge-edge", "edge-a", "edge-b"]
 # Arcs that come this close on the Gauss map may cross. The rounding of their normals is smaller.
 ARC_UNCERTAIN = 1e-7
 # Edges closer to parallel than this (radians) have a cross product without a direction:
-# 64 roundoffs, as in core/native/base/tolerances.hpp.
+# 64 roundoffs, as in core/native/base/rounding.hpp.
 FLAT = 2.0**-47
 # Pairs of edges in memory at a time.
 BLOCK = 1 << 20

@@ -13,7 +13,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

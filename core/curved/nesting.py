@@ -17,6 +17,7 @@ from satcheck.core.curved.exact.pair import on_lattice
 from satcheck.core.curved.exact.polytope_body import PolytopeBody
 from satcheck.core.curved.exact.proof import ExactBody
 from satcheck.core.curved.placed import Body, CurvedShape, Quaternion, rows_of
+from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.shapes import (
     Box,
@@ -28,7 +29,6 @@ from satcheck.core.shapes import (
     Sphere,
     support,
 )
-from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 
 Floats = npt.NDArray[np.float64]
 

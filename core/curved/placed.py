@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from satcheck._native import core as native
 from satcheck.core.conventions import Bounds, Vector
+from satcheck.core.rounding import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
 from satcheck.core.shapes import (
     UNTURNED,
     Capsule,
@@ -25,7 +26,6 @@ from satcheck.core.shapes import (
     image_of,
     support,
 )
-from satcheck.core.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
 
 Pose = tuple[float, ...]  # (tx, ty, tz, qx, qy, qz, qw)
 Quaternion = tuple[float, float, float, float]

@@ -9,7 +9,7 @@ from satcheck.scene.files_read import note
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.values import shown, text
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.path_kind import followed, is_file
 
 

@@ -18,7 +18,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
+from satcheck.scene.loading.native_formats import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source

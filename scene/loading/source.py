@@ -12,42 +12,15 @@ from msgspec import Struct
 from satcheck._native import readers
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.loading.regular_file import size_of
 
-FORMATS = {
-    ".obj": "obj",
-    ".stl": "stl",
-    ".stla": "stl",
-    ".stlb": "stl",
-    ".ply": "ply",
-    ".off": "off",
-    ".glb": "glb",
-    ".gltf": "gltf",
-    ".3mf": "3mf",
-    ".dae": "dae",
-    ".zae": "zae",
-    ".3dxml": "3dxml",
-    ".xaml": "xaml",
-    ".step": "step",
-    ".stp": "step",
-    ".p21": "step",
-    ".ifc": "ifc",
-    ".ifczip": "ifc",
-    ".ifcxml": "ifc",
-    ".usd": "usd",
-    ".usda": "usd",
-    ".usdc": "usd",
-    ".usdz": "usd",
-}
-# Relatives of these formats, and what to do with them.
+# Relatives of the formats that are read, and what to do with them.
 _CONVERTIBLE = {
     ".stpz": "it is a packed STEP file: unpack it and name the .stp file",
     ".stpx": "it is STEP in XML: export a .stp file",
     ".stpxz": "it is packed STEP in XML: export a .stp file",
 }
-# Formats of scenes: each node is a body, with rules, whatever files are beside it.
-DOCUMENTS = frozenset(("usd", "ifc"))
-
 # The longer marks first: the mark of UTF-32 begins like that of UTF-16.
 _WIDE_MARKS = (
     (codecs.BOM_UTF32_LE, "utf-32-le"),

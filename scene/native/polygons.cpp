@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/vec.hpp"
 #include "base/work.hpp"
 #include "builder.hpp"

@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.stability import Family as Family
 from satcheck.scene import Body, MeshFile
 

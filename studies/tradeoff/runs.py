@@ -15,7 +15,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
-from satcheck.core.tolerances import rounding_pad
+from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Finding
 from satcheck.studies.pair import Bodies, pair_of
 from satcheck.studies.tradeoff.reading import climb_end

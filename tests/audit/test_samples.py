@@ -15,9 +15,9 @@ from satcheck.audit import Settings, check
 from satcheck.audit.sampled import Samples
 from satcheck.audit.samples import check_poses
 from satcheck.audit.suggest import suggest
+from satcheck.cli.formats.samples import render
+from satcheck.cli.formats.schema import text as schema_text
 from satcheck.cli.output import PLAIN_PAGE
-from satcheck.cli.report.samples import render
-from satcheck.cli.report.schema import text as schema_text
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import MeshFile, Scene, load_scene
 from satcheck.scene.robot import Pose, joint_samples, posed, read_poses

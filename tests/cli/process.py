@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.schema import text
 
 SAMPLES = Path(__file__).resolve().parent.parent.parent / "sample_meshes"
 SECONDS = 120

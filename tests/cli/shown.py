@@ -6,8 +6,8 @@ import re
 
 from msgspec.structs import replace
 
+from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
-from satcheck.cli.report.table import render
 from satcheck.report.sweep import Place, Sweep
 from tests.cli.reports import (
     HIT,

@@ -14,8 +14,8 @@ from junitparser import Failure, JUnitXml
 from msgspec.structs import replace
 from sarif_pydantic import Sarif
 
-from satcheck.cli.report.ci import FORMATS, render
-from satcheck.cli.report.ci.problems import problems, uri
+from satcheck.cli.formats.ci import FORMATS, render
+from satcheck.cli.formats.ci.problems import problems, uri
 from satcheck.report.report import BodyReport, Finding, Report
 from tests.cli.process import SAMPLES, satcheck
 from tests.cli.reports import (
@@ -87,7 +87,7 @@ def test_sarif_without_problems_has_a_run_without_results() -> None:
 
 
 def test_sarif_keeps_the_worst_results_within_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("satcheck.cli.report.ci.sarif.MOST_RESULTS", 4)
+    monkeypatch.setattr("satcheck.cli.formats.ci.sarif.MOST_RESULTS", 4)
     run = json.loads(render({"all": MIXED}, "sarif"))["runs"][0]
     assert [result["level"] for result in run["results"]] == ["error"] * 3 + ["warning"]
     notes = run["invocations"][0]["toolExecutionNotifications"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
+from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
-from satcheck.cli.report.table import render
 from satcheck.report.report import (
     INTERNAL_ERROR,
     NOTHING_TO_CHECK,

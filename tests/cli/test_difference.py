@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.schema import text
 from tests.cli.process import SAMPLES, Ran, satcheck
 
 # x of a box beside a pushed one, in the older and in the newer batch.

@@ -14,8 +14,8 @@ import pytest
 from jsonschema import Draft202012Validator
 from junitparser import JUnitXml
 
-from satcheck.cli.report.ci import FORMATS as CI_FORMATS
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
+from satcheck.cli.formats.schema import text
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 
 

@@ -10,11 +10,11 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.formats.canvas import Canvas
+from satcheck.cli.formats.columns import Column, Layout, fit
+from satcheck.cli.formats.grid import Grid
+from satcheck.cli.formats.lines import BOLD_RED, joined
 from satcheck.cli.output import Page
-from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.columns import Column, Layout, fit
-from satcheck.cli.report.grid import Grid
-from satcheck.cli.report.lines import BOLD_RED, joined
 
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 NAMES = ("box", "歯車_a_longer", "a\x1b[2A", "tab\there", "two\nlines", "\u202eb", "é" * 20, "")

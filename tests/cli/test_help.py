@@ -12,8 +12,8 @@ import click
 import pytest
 
 from satcheck.cli.commands import COMMANDS
+from satcheck.cli.formats.schema import text
 from satcheck.cli.help_sections import MANY, OTHER, SECTIONS, sections
-from satcheck.cli.report.schema import text
 from tests.cli.process import (
     SAMPLES,
     private_cache,

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.cli.report.numbers import ROUNDOFF, bounds, duration, mebibytes, number, vector
+from satcheck.cli.formats.numbers import ROUNDOFF, bounds, duration, mebibytes, number, vector
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 

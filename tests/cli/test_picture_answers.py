@@ -10,9 +10,9 @@ import matplotlib.image
 import numpy as np
 
 from satcheck.audit import Settings, check
-from satcheck.cli.report.picture.body_answers import arrows_of, states_of, without_regions
-from satcheck.cli.report.picture.data import picture_data
-from satcheck.cli.report.picture.png import ARROW, FAILS, FORCE, KINDS, render
+from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
+from satcheck.cli.formats.picture.data import picture_data
+from satcheck.cli.formats.picture.png import ARROW, FAILS, FORCE, KINDS, render
 from satcheck.report.report import Report
 from satcheck.scene import Scene
 from tests.audit.statics.scenes import box, floor, loaded, tower

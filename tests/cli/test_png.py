@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.cli.report.picture.png import KINDS, OVERLAP, SIZE, WHITE, image_file, render
-from satcheck.cli.report.picture.raster import Kind, Triangles, drawn
+from satcheck.cli.formats.picture.png import KINDS, OVERLAP, SIZE, WHITE, image_file, render
+from satcheck.cli.formats.picture.raster import Kind, Triangles, drawn
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from satcheck.scene.meshes import scene_of_meshes

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.report.ci import FORMATS
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.ci import FORMATS
+from satcheck.cli.formats.schema import text
 from satcheck.report.report import without_timings
 from tests.cli.process import SAMPLES, Ran, satcheck
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.schema import text
 from tests.audit.shapes import unit_box, write
 from tests.cli.process import APART, PUSHED, satcheck
 

@@ -12,8 +12,8 @@ from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions
-from satcheck.cli.report.schema import text
-from satcheck.cli.report.suggest import srdf, toml
+from satcheck.cli.formats.schema import text
+from satcheck.cli.formats.suggest import srdf, toml
 from satcheck.report.report import Tool
 from satcheck.report.suggestions import Suggestion, Unchecked
 from satcheck.scene import Selector

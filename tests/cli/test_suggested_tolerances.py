@@ -9,7 +9,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from trimesh import creation
 
-from satcheck.cli.report.schema import text
+from satcheck.cli.formats.schema import text
 from tests.cli.process import satcheck
 
 

@@ -9,10 +9,10 @@ from msgspec.structs import replace
 
 from satcheck.audit import Component, Components, Contacts
 from satcheck.audit.request.settings import LISTED_PAIRS
+from satcheck.cli.formats.columns import broken
+from satcheck.cli.formats.order import groups_of
+from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
-from satcheck.cli.report.columns import broken
-from satcheck.cli.report.order import groups_of
-from satcheck.cli.report.table import render
 from satcheck.report.report import (
     Finding,
     RuleReport,

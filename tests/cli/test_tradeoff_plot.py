@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from msgspec.structs import replace
 
-from satcheck.cli.report.plot_style import DARK, FORMS, LIGHT, file_of
-from satcheck.cli.report.tradeoff_plot import draw
+from satcheck.cli.formats.plot_style import DARK, FORMS, LIGHT, file_of
+from satcheck.cli.formats.tradeoff_plot import draw
 from satcheck.studies.tradeoff import (
     RUNGS,
     ClimbEnd,

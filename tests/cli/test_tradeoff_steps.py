@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.cli.report.tradeoff_steps import steps
+from satcheck.cli.formats.tradeoff_steps import steps
 from satcheck.studies.tradeoff import RUNGS, PairTradeoff, Row, Times, Truth
 
 BY_NAME = {rung.name: rung for rung in RUNGS}

@@ -12,8 +12,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.batch.stored import Stored
-from satcheck.cli.report.overview import overview
-from satcheck.cli.report.worst_page import render
+from satcheck.cli.formats.overview import overview
+from satcheck.cli.formats.worst_page import render
 from satcheck.cli.results.worst_findings import Worst, file_name
 from satcheck.report.assets import Asset, asset
 from tests.cli.process import SAMPLES, Ran, satcheck

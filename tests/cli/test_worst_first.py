@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
+from satcheck.cli.formats.ci import render as render_for_ci
+from satcheck.cli.formats.picture.data import listed
+from satcheck.cli.formats.table import render as render_table
+from satcheck.cli.formats.verdict import verdict_line
 from satcheck.cli.output import PLAIN_PAGE
-from satcheck.cli.report.ci import render as render_for_ci
-from satcheck.cli.report.picture.data import listed
-from satcheck.cli.report.table import render as render_table
-from satcheck.cli.report.verdict import verdict_line
 from satcheck.report.report import Finding, Report
 from tests.cli.reports import BLOCK, PENETRATING, report
 

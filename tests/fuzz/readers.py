@@ -12,7 +12,7 @@ from satcheck.audit import check
 from satcheck.audit.baseline_file import read_baseline
 from satcheck.cli.config.file import read_config
 from satcheck.cli.config.search import nearest_config
-from satcheck.cli.report.picture.html import render as page
+from satcheck.cli.formats.picture.html import render as page
 from satcheck.cli.report_file import read_report
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError

@@ -22,7 +22,7 @@ Method = Literal["auto", "sat", "gjk"]
 Query = Literal["overlap", "depth", "distance"]
 QUERIES: tuple[Query, ...] = ("overlap", "depth", "distance")
 
-# `kWidestInterval` of core/native/base/tolerances.hpp, a fraction of the scale: the sum of the
+# `kWidestInterval` of core/native/base/rounding.hpp, a fraction of the scale: the sum of the
 # largest coordinates of A and B, each in its own frame, and of the offset of these. A frame lies in
 # the middle of its shape, or up to 2 sizes from its far end: the sum is at most 6 sizes of the
 # pair.

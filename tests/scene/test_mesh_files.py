@@ -10,7 +10,7 @@ import pytest
 from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files
 from satcheck.scene.loading import ReadLimits, limits, open_source
 from satcheck.scene.loading import source as loading_source
-from satcheck.scene.loading.native import read_native
+from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.nodes import Node
 from tests.scene import files, graphs
 

@@ -19,7 +19,7 @@ from satcheck.core.curved.exact.lattice import (
     shortened,
     sub,
 )
-from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 
 Floats = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.uint32]

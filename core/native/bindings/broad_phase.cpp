@@ -9,6 +9,7 @@
 
 #include "mesh/bvh.hpp"
 #include "ladder/broad_phase.hpp"
+#include "ladder/world_box.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

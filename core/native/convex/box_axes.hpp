@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "base/lanes.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/sat.hpp"
 
 namespace satcheck {

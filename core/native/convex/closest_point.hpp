@@ -9,7 +9,7 @@
 #pragma once
 
 #include "base/lanes.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/vec.hpp"
 
 namespace satcheck {

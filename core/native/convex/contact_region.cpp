@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 

@@ -8,7 +8,7 @@
 
 #include "convex/curved_axis.hpp"
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 

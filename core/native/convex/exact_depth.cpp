@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 namespace {

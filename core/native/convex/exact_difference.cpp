@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/exact_point.hpp"
 
 namespace satcheck {

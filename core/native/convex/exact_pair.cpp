@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/separating_face.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {

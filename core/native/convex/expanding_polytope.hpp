@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/simplex.hpp"
 
 namespace satcheck {

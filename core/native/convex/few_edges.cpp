@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {

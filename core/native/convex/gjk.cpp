@@ -12,7 +12,7 @@
 
 #include "convex/gjk.hpp"
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 

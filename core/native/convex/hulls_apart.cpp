@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 namespace {

@@ -5,7 +5,7 @@
 // at the end, by the narrow phase.
 #pragma once
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/shape.hpp"
 
 namespace satcheck {

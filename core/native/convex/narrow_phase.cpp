@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/box_pair.hpp"
 #include "convex/contact_region.hpp"
 #include "convex/curved_axis.hpp"

@@ -5,7 +5,7 @@
 // A float64 filter and exact signs decide every comparison, so the walk is the exact boundary.
 #pragma once
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/convex_polygon.hpp"
 #include "exact/predicates.hpp"
 

@@ -3,7 +3,7 @@
 // visits few corners, and leaves close decisions to the walk over all edges (polygon_difference.hpp).
 #pragma once
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/convex_polygon.hpp"
 
 namespace satcheck {

@@ -1,7 +1,7 @@
 // The rounding error that a proof in float64 has to exceed.
 #pragma once
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/shape.hpp"
 
 namespace satcheck {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/sat.hpp"
 
 namespace satcheck {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/work.hpp"
 #include "depth/corner_plane.hpp"
 #include "depth/exact_centre.hpp"

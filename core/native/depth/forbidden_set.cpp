@@ -1,7 +1,7 @@
 #include "depth/forbidden_set.hpp"
 
 #include "base/numeric_range.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/work.hpp"
 #include "convex/convex_hull.hpp"
 #include "exact/predicates.hpp"

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/numeric_range.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 

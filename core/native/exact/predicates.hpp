@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/vec.hpp"
 #include "exact/double_double.hpp"
 

@@ -1,6 +1,6 @@
 #include "exact/translation.hpp"
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/double_double.hpp"
 #include "exact/dyadic.hpp"
 

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
+#include "ladder/world_box.hpp"
 #include "mesh/bvh.hpp"
 
 namespace satcheck {
@@ -131,17 +132,6 @@ class SelfTraversal {
 };
 
 }  // namespace
-
-double box_gap(const Aabb& a, const Aabb& b) {
-  const auto along = [&](int axis) {
-    return std::fmax(std::fmax(b.min[axis] - a.max[axis], a.min[axis] - b.max[axis]), 0.0);
-  };
-  const Vec3 gap{along(0), along(1), along(2)};
-  // The largest is rounded once, and so is its product with the factor below 1. The root has roundings of each
-  // difference, its quotient by the largest, the squares, two sums, the root and the product: less than 8.
-  const double diagonal = std::hypot(gap.x, gap.y, gap.z);
-  return std::fmax(max_abs(gap) * (1 - kUnitRoundoff), diagonal * (1 - 8 * kUnitRoundoff));
-}
 
 std::vector<IndexPair> close_pairs(CloseQuery query) { return SelfTraversal(std::move(query)).run(); }
 

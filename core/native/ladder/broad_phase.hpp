@@ -11,12 +11,9 @@ namespace satcheck {
 
 using IndexPair = std::array<std::uint32_t, 2>;
 
-// A proven lower bound of the distance of two closed boxes: 0 exactly when they meet.
-double box_gap(const Aabb& a, const Aabb& b);
-
-// A query for close pairs. reach: two boxes are close if box_gap is at most the sum of their reaches. kind: pairs of
-// boxes whose kinds are in `exempt_kinds` are left out, and so are the pairs in `exempt`. In both lists the lower
-// number comes first, and a kind may be paired with itself.
+// A query for close pairs. reach: two boxes are close if their gap (world_box.hpp) is at most the sum of their reaches.
+// kind: pairs of boxes whose kinds are in `exempt_kinds` are left out, and so are the pairs in `exempt`. In both lists
+// the lower number comes first, and a kind may be paired with itself.
 struct CloseQuery {
   std::vector<Aabb> boxes;
   std::vector<double> reach;

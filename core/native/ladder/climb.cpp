@@ -6,12 +6,12 @@
 #include <thread>
 
 #include "base/parallel.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/hulls_apart.hpp"
 #include "mesh_pair/open_surfaces.hpp"
-#include "ladder/broad_phase.hpp"
 #include "ladder/thick_point.hpp"
 #include "ladder/touch_proof.hpp"
+#include "ladder/world_box.hpp"
 
 namespace satcheck {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/numeric_range.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh_pair/common_point.hpp"
 
 namespace satcheck {

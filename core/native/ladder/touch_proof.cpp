@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/narrow_phase.hpp"
 #include "convex/signed_comparison.hpp"
 #include "exact/triangle_pair.hpp"

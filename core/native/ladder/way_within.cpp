@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/numeric_range.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/narrow_phase.hpp"
 #include "convex/signed_comparison.hpp"
 #include "exact/translation.hpp"

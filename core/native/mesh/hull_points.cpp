@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/support_scan.hpp"
 #include "mesh/transform.hpp"
 

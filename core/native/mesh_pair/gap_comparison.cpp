@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/exact_reach.hpp"
 #include "exact/double_double.hpp"
 #include "exact/triangle_pair.hpp"

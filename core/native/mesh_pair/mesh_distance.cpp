@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/outline_distance.hpp"

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 namespace {

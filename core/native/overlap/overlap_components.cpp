@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/slivers.hpp"
 #include "mesh/surface_order.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/numeric_range.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh/closing.hpp"
 #include "mesh/nearest_point.hpp"
 

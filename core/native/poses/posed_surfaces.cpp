@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "exact/triangle_pair.hpp"
 
 namespace satcheck {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/closest_point.hpp"
 #include "poses/posed_surfaces.hpp"
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 
 namespace satcheck {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
 #include "mesh/nearest_point.hpp"
 #include "thickness/matrix_game.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
 #include "thickness/component_balls.hpp"
 

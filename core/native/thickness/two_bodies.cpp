@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/nearest_point.hpp"

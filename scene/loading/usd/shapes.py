@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, UsdGeom
 
+from satcheck.core.rounding import ORTHOGONALITY
 from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
-from satcheck.core.tolerances import ORTHOGONALITY
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh

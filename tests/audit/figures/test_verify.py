@@ -8,7 +8,7 @@ import pytest
 
 from satcheck import core
 from satcheck.audit import Settings, check
-from satcheck.audit.figures.verify import rounds_once
+from satcheck.audit.figures.escape import rounds_once
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
 
 

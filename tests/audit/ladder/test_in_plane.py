@@ -12,7 +12,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
-from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.core import Mesh, Surface, check_polygon_pair
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of

@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.motion import worst
+from satcheck.cli.formats import table
+from satcheck.cli.formats.schema import text as schema_text
 from satcheck.cli.output import Page
-from satcheck.cli.report import table
-from satcheck.cli.report.schema import text as schema_text
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Rule, Selector
 from satcheck.verify import verify

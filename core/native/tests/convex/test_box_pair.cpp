@@ -1,7 +1,7 @@
 // Two boxes in one pass, against GJK + EPA on the hulls of their corners, which share nothing with it.
 #include "convex/box_pair.hpp"
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/pair_order.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"

@@ -3,7 +3,7 @@
 // (or deep), n an integer normal no longer than 100.
 #include <random>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
 #include "convex/exact_pair.hpp"
 #include "convex/gjk.hpp"

@@ -1,7 +1,7 @@
 // Analytic pairs, and SAT, GJK and EPA against each other: they share the support functions only.
 #include <initializer_list>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/narrow_phase.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"

@@ -1,6 +1,6 @@
 // Weights of the origin in tetrahedra as thin as support points of curved shapes make them; the closest point where
 // the last vertex is needed against the plain one.
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/simplex.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "convex/narrow_phase.hpp"
 #include "tests/check.hpp"
 

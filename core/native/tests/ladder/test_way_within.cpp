@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"

@@ -1,0 +1,48 @@
+"""Markdown for people: a step summary of GitHub Actions, a comment on a merge request."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from satcheck.cli.formats.ci.problems import worst_problems
+from satcheck.cli.formats.config import config_lines
+from satcheck.cli.formats.verdict import summary_line
+from satcheck.cli.formats.words import counted
+from satcheck.cli.output import harmless
+from satcheck.report.assets import asset
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from satcheck.cli.formats.ci import Reports
+
+# GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
+MOST_ROWS = 200
+# `www.` begins a link by itself.
+_MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:]|(?<=www)\.)", re.IGNORECASE)
+
+
+def render(reports: Reports) -> Iterator[str]:
+    return (f"{line}\n" for line in _lines(reports))
+
+
+def _lines(reports: Reports) -> Iterator[str]:
+    yield from ("## satcheck", "")
+    for name, report in reports.items():
+        verdict = asset(name, report).verdict
+        yield f"- **{verdict}** {as_text(name)}: {as_text(summary_line(report))}"
+    for line in config_lines(reports.values()):
+        yield from ("", as_text(line))
+    listed, left_out = worst_problems(reports, MOST_ROWS)
+    if listed:
+        yield from ("", "| severity | kind | what |", "|---|---|---|")
+    for problem in listed:
+        yield f"| {problem.level} | {as_text(problem.kind)} | {as_text(problem.message)} |"
+    if left_out:
+        yield from ("", f"{counted(left_out, 'more row')}: see the JSON report.")
+
+
+def as_text(text: str) -> str:
+    """Names from files are text, never markup."""
+    return _MARKUP.sub(r"\\\1", harmless(" ".join(text.split())))

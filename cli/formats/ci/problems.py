@@ -1,0 +1,186 @@
+"""What a CI system shows of a report: findings that are errors, warnings or notes, and the issues
+of the inputs, the worst first."""
+
+from __future__ import annotations
+
+import os
+from heapq import nsmallest
+from itertools import count
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+from urllib.parse import quote
+
+from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.order import rank, severity
+from satcheck.cli.formats.words import in_motion, interval, is_hit, with_unit
+from satcheck.report.bodies import Place
+from satcheck.report.report import OF_ANSWERS, OVERLAPS
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from satcheck.cli.formats.ci import Reports
+    from satcheck.report.baseline import BaselineState
+    from satcheck.report.report import Finding, Issue, Report
+
+Level = Literal["error", "warning", "note"]
+LEVELS: tuple[Level, ...] = get_args(Level)
+# Kinds of findings, and what each means. The kind of an issue is its code.
+KINDS = {
+    "overlap": "Two bodies share a part of their interior.",
+    "motion": "Two bodies hit while they move.",
+    "clearance": "Two bodies are closer than their clearance.",
+    "touch": "Two bodies touch.",
+    "undecided": "A question about two bodies could not be decided.",
+}
+
+
+class Problem(NamedTuple):
+    """kind: a key of KINDS, or the code of an issue. places: where each body is stated, in their
+    order, or where the issue is; at least one. id: that of the finding; of an issue its code and
+    its body. rank: that of the finding; an issue comes last. state: beside a baseline.
+    """
+
+    level: Level
+    kind: str
+    message: str
+    places: tuple[Place, ...]
+    bodies: tuple[str, ...]
+    id: str
+    rank: tuple[float, ...] = (inf,)
+    state: BaselineState | None = None
+
+
+def problems(reports: Reports) -> list[Problem]:
+    """Of all reports, the worst first: by level, then findings as a table has them, then issues.
+    With several reports each message and each id names its asset."""
+    return sorted(_of_all(reports), key=_order)
+
+
+def worst_problems(reports: Reports, most: int) -> tuple[list[Problem], int]:
+    """The first of them, and the number of the others, which need no memory."""
+    numbers = count()
+    numbered = zip(_of_all(reports), numbers, strict=False)
+    worst = nsmallest(most, (problem for problem, _ in numbered), key=_order)
+    return worst, next(numbers) - len(worst)
+
+
+def _of_all(reports: Reports) -> Iterator[Problem]:
+    is_one = len(reports) == 1
+    for asset, report in reports.items():
+        for problem in _of_report(report):
+            yield problem if is_one else _naming(asset, problem)
+
+
+def _order(problem: Problem) -> tuple[int, tuple[float, ...]]:
+    return (LEVELS.index(problem.level), problem.rank)
+
+
+def _naming(asset: str, problem: Problem) -> Problem:
+    message = problem.message
+    named = message if message.startswith(asset) else f"{asset}: {message}"
+    return problem._replace(message=named, id=f"{uri(asset)}/{problem.id}")
+
+
+def _of_report(report: Report) -> list[Problem]:
+    places = {body.id: body.stated_at or Place(body.file, 1) for body in report.bodies}
+    findings = [
+        _of_finding(finding, level, places, unit_of(report.units))
+        for finding in report.findings
+        if (level := _level(finding)) is not None
+    ]
+    unmet = {answer.body for answer in report.answers if answer.severity == "error"}
+    return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
+
+
+def sentence(finding: Finding, unit: str | None) -> str:
+    """`box and lid: penetrating, thickness 0.5 mm, depth 1 mm; moving box by (-1, 0, 0) ends the
+    overlap.`"""
+    text = f"{finding.a} and {finding.b}: {measured(finding, unit)}"
+    if finding.mtv is not None and finding.mtv_verified:
+        text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"
+    if finding.baseline_state is not None:
+        text += f" [baseline: {finding.baseline_state}]"
+    if finding.reason is not None:
+        text += f" ({finding.reason})"
+    return f"{text}."
+
+
+def measured(finding: Finding, unit: str | None) -> str:
+    """`penetrating, thickness 0.5 mm, depth 1 mm`"""
+    parts: list[str] = [finding.relation]
+    figures = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    parts += [f"{name} {with_unit(interval(f), unit)}" for name, f in figures.items() if f]
+    if finding.distance is not None:
+        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
+    if moving := in_motion(finding, unit):
+        parts.append(f"while moving: {moving}")
+    return ", ".join(parts)
+
+
+def kind_of(finding: Finding) -> str:
+    if finding.undecided is not None:
+        return "undecided"
+    if is_hit(finding) and finding.at_rest not in OVERLAPS:
+        return "motion"
+    if finding.relation in OVERLAPS:
+        return "overlap"
+    return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
+
+
+def uri(file: str) -> str:
+    """Relative to the current folder if the file lies in it, otherwise a file URI. Links are not
+    followed: the name is stable."""
+    path = Path(near(file))
+    return path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))
+
+
+def near(file: str) -> str:
+    """The path relative to the current folder if the file lies in it, otherwise absolute."""
+    path = Path(os.path.normpath(Path.cwd() / file))
+    inside = path.is_relative_to(Path.cwd())
+    return (path.relative_to(Path.cwd()) if inside else path).as_posix()
+
+
+def _level(finding: Finding) -> Level | None:
+    """None: no problem."""
+    level = severity(finding)
+    return level if level in ("error", "warning", "note") else None
+
+
+def _of_finding(
+    finding: Finding, level: Level, places: dict[str, Place], unit: str | None
+) -> Problem:
+    bodies = (finding.a, finding.b)
+    return Problem(
+        level,
+        kind_of(finding),
+        sentence(finding, unit),
+        tuple(places[body] for body in bodies),
+        bodies,
+        finding.id,
+        rank(finding),
+        finding.baseline_state,
+    )
+
+
+def _of_issue(issue: Issue, places: dict[str, Place], unmet: Collection[str]) -> Problem:
+    """An issue of the whole check gets the first file. unmet: bodies about which the answer is an
+    error; their issue is one, too."""
+    body = (issue.body,) if issue.body else ()
+    where = issue.body or issue.file
+    first = next(iter(places.values()), Place(".", 1))
+    place = places.get(issue.body or "", first)
+    if issue.file:
+        place = Place(issue.file, issue.line or 1)
+    named = f"{where}: " if where and not issue.message.startswith(where) else ""
+    return Problem(
+        "error" if issue.code in OF_ANSWERS and issue.body in unmet else issue.severity,
+        issue.code,
+        f"{named}{issue.message}",
+        (place,),
+        body,
+        f"{issue.code}/{where or ''}",
+    )

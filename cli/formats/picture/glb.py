@@ -1,0 +1,76 @@
+"""A report as a GLB file, for any viewer: the bodies, translucent, what they share in red, the ways
+out as arrows, the balls of the thickness. `remarks` in the `extras` of the scene name overlaps that
+are not drawn, and why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from satcheck.cli.formats.picture.data import listed, require_drawable
+from satcheck.cli.formats.picture.marks import arrow_of, ball_of, sphere_around
+from satcheck.cli.progress import Bar
+from satcheck.core.errors import SatcheckError
+from satcheck.core.overlap_volume import VolumeMeter
+from satcheck.report.report import OVERLAPS
+from satcheck.scene.glb_file import Material, Node, glb
+
+if TYPE_CHECKING:
+    from satcheck.core import Mesh
+    from satcheck.report.report import Finding, Report
+    from satcheck.scene import Body, Scene
+
+MET = Material("body with findings", (0.16, 0.44, 0.84, 0.35))
+OTHER = Material("body", (0.5, 0.54, 0.6, 0.2))
+OVERLAP = Material("overlap", (0.86, 0.1, 0.12, 1.0))
+WAY_OUT = Material("way out", (0.05, 0.05, 0.05, 1.0))
+THICKNESS = Material("thickness", (1.0, 0.85, 0.1, 1.0))
+
+
+def render(report: Report, scene: Scene) -> bytes:
+    """In world coordinates, in metres where the unit is known. Bodies of one mesh share it."""
+    require_drawable(scene)
+    findings = listed(report)
+    met = {id_ for finding in findings for id_ in (finding.a, finding.b)}
+    nodes = [
+        Node(body.id, body.file.mesh, body.transform, MET if body.id in met else OTHER)
+        for body in scene.bodies
+    ]
+    bodies = {body.id: body for body in scene.bodies}
+    drawn = [f for f in findings if f.a in bodies and f.b in bodies]
+    settings = report.settings
+    meter = VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
+    remarks: list[str] = []
+    with meter, Bar(verb="drawing") as bar:
+        for number, finding in enumerate(drawn, 1):
+            nodes += _marks(finding, [bodies[finding.a], bodies[finding.b]], meter, remarks)
+            if bar is not None:
+                bar(number, len(drawn))
+    return glb(nodes, report.units, remarks)
+
+
+def _marks(
+    finding: Finding, pair: list[Body], meter: VolumeMeter, remarks: list[str]
+) -> Iterator[Node]:
+    marks = {
+        WAY_OUT: arrow_of(finding, *sphere_around(pair)),
+        THICKNESS: ball_of(finding),
+    }
+    if finding.at_rest in OVERLAPS:
+        try:
+            marks[OVERLAP] = _overlap(pair, meter)
+        except SatcheckError as error:
+            remarks.append(f"no overlap of {finding.a} and {finding.b} is drawn: {error}")
+    for material, mesh in marks.items():
+        if mesh is not None:
+            yield Node(f"{material.name}: {finding.a} and {finding.b}", mesh, None, material)
+
+
+def _overlap(pair: list[Body], meter: VolumeMeter) -> Mesh | None:
+    """None: too small for manifold3d."""
+    for body in pair:
+        if not body.file.health.solid:
+            raise SatcheckError("volume-refused", f"{body.id} is not closed")
+    a, b = (body.world_mesh() for body in pair)
+    return meter.common(a, b)

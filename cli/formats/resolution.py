@@ -1,0 +1,130 @@
+"""The result of `satcheck resolve` as text: a row for each moved body, the remaining overlaps, a
+summary."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+
+from satcheck.cli.formats.canvas import Canvas
+from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.summary import counts_line
+from satcheck.cli.formats.verdict import verdict_line
+from satcheck.cli.formats.words import counted, with_unit
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from satcheck.audit.resolve import Resolution
+    from satcheck.cli.output import Page
+    from satcheck.report.resolution import Drop, Left, Move
+
+# More rows than this, and the longest moves are shown.
+ROWS = 60
+
+
+def render(resolution: Resolution, page: Page, output: str | None) -> str:
+    """The whole text, final newline included. output: the file that the scene was written to."""
+    console = Canvas(page)
+    shown = _shown(resolution.moves)
+    if shown:
+        console.print(_moves(shown, unicode=page.unicode))
+    if rest := len(resolution.moves) - len(shown):
+        console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
+    for left in resolution.left:
+        console.print(_left_line(left))
+    for drop in resolution.drops:
+        console.print(_drop_line(drop, resolution.report.units))
+    console.print(_motion_line(resolution))
+    if resolution.flush:
+        console.print(
+            f"{counted(resolution.flush, 'pair')} within the tolerance: they count as touching."
+        )
+    subject = "The moved scene" if output is None else output
+    console.print(f"{subject}, checked again: {counts_line(resolution.report)}")
+    if resolution.floating and resolution.report.summary.verdict != "fail":
+        floating = counted(len(resolution.floating), "body still floats", "bodies still float")
+        console.print(f"FAIL: {floating}.")
+    else:
+        console.print(verdict_line(resolution.report))
+    return console.text()
+
+
+def _shown(moves: Sequence[Move]) -> list[Move]:
+    """All in the order of the scene, or the longest first."""
+    if len(moves) <= ROWS:
+        return list(moves)
+    return sorted(moves, key=lambda move: -move.length)[:ROWS]
+
+
+def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
+    table.add_column("body", overflow="fold")
+    table.add_column("move by", overflow="fold")
+    table.add_column("length", justify="right")
+    for move in moves:
+        table.add_row(move.body, vector(move.translation), number(move.length))
+    return table
+
+
+def _drop_line(drop: Drop, units: str | None) -> str:
+    if drop.onto is None:
+        return f"{drop.body} still floats: {drop.reason}"
+    return (
+        f"{drop.body} falls by {with_unit(number(drop.length), unit_of(units))}, onto {drop.onto}"
+    )
+
+
+def _left_line(left: Left) -> str:
+    return f"not resolved: {_RELATIONS[left.relation].format(a=left.a, b=left.b)}: {left.reason}"
+
+
+_RELATIONS = {
+    "separated": "{a} and {b} are separated",
+    "near": "{a} and {b} are closer than their clearance",
+    "touching": "{a} and {b} touch",
+    "penetrating": "{a} and {b} penetrate",
+    "contains": "{a} contains {b}",
+    "inside": "{a} lies inside {b}",
+    "coincident": "{a} and {b} coincide",
+    "indeterminate": "{a} and {b} are indeterminate",
+}
+
+
+def _conflicts(resolution: Resolution) -> str:
+    """`2 overlaps, 3 gaps below their clearance, 1 pair left open by a hole`."""
+    kinds = {
+        counted(resolution.overlaps, "overlap"): resolution.overlaps,
+        counted(
+            resolution.gaps, "gap below its clearance", "gaps below their clearance"
+        ): resolution.gaps,
+        counted(resolution.open, "pair") + " left open by a hole": resolution.open,
+    }
+    return ", ".join(text for text, count in kinds.items() if count)
+
+
+def _motion_line(resolution: Resolution) -> str:
+    """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
+    unit = unit_of(resolution.report.units)
+    unit = f" {unit}" if unit else ""
+    stays = ""
+    if count := len(resolution.pinned):
+        stays = f" {counted(count, 'body', 'bodies')} had to stay."
+    if not resolution.conflicts:
+        motions = resolution.report.motions
+        where = "as the bodies are placed" if motions else "beyond what is allowed"
+        moved = counted(len(resolution.moves), "body falls", "bodies fall")
+        did = moved if resolution.moves else "nothing was moved"
+        return f"Nothing overlaps {where}: {did}.{stays}"
+    conflicts = _conflicts(resolution)
+    total, largest = number(resolution.total_motion), number(resolution.largest_motion)
+    if not resolution.moves:
+        return f"{conflicts}: nothing was moved.{stays}"
+    return (
+        f"{conflicts}: {counted(len(resolution.moves), 'body', 'bodies')} moved, "
+        f"by {total}{unit} in total and {largest}{unit} at most, "
+        f"in {counted(resolution.rounds, 'round')}.{stays}"
+    )

@@ -1,0 +1,135 @@
+"""What a report counts: bodies, pairs, relations, and the warnings that make it doubtful."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from satcheck.audit.summary import exempt_by
+from satcheck.cli.formats.beside_baseline import beside_baseline
+from satcheck.cli.formats.numbers import number
+from satcheck.cli.formats.words import counted, is_hit
+from satcheck.report.report import (
+    CROSS_CHECK,
+    NOTHING_TO_CHECK,
+    OVERLAPS,
+    RELATIONS,
+    SIZES_DIFFER,
+    TOLERANCE_LARGE,
+)
+from satcheck.scene.bodies import UNITS_UNKNOWN
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.sweep import Sweep
+
+_DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
+_WORDS = {"contains": "containing"}
+
+
+def counts_line(report: Report) -> str:
+    """`3 bodies, 3 pairs: 2 separated, 1 penetrating; 1 pair exempt (static).`"""
+    pairs = report.summary.pairs
+    line = f"{counted(len(report.bodies), 'body', 'bodies')}, {counted(pairs.total, 'pair')}"
+    if pairs.asked:
+        counts = _counts(report)
+        if pairs.allowed:
+            counts.append(f"{pairs.allowed:,} allowed by the scene")
+        line += f": {', '.join(counts)}{_exempt(report)}"
+    more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
+    return " ".join([f"{line}.", *more, *doubts(report.issues)])
+
+
+def nothing_checked(issues: Iterable[Issue]) -> list[str]:
+    """`No pair was checked: 1 within one link.`, where that is so."""
+    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
+    return [f"{text[0].upper()}{text[1:]}." for text in said]
+
+
+def _exempt(report: Report) -> str:
+    """`; 1 pair exempt (static)`: of pairs that no other count includes."""
+    count = report.summary.pairs.exempt
+    if not count:
+        return ""
+    still = sum(body.static for body in report.bodies) if report.exempt.static_pairs else 0
+    static, in_group = exempt_by(report.summary.pairs, still)
+    if static and in_group:
+        why = f"{static:,} static, {in_group:,} within ignored groups"
+    else:
+        why = "static" if static else "within ignored groups"
+    return f"; {counted(count, 'pair')} exempt ({why})"
+
+
+def _counts(report: Report) -> list[str]:
+    """`2 separated`, `1 possibly penetrating (not proven at --accuracy aabb)`."""
+    accuracy = report.settings.accuracy
+    why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
+    guesses = [f for f in report.findings if f.quality == "estimate"]
+    overlaps = Counter(f.relation for f in guesses if _surely_overlaps(f, report))
+    estimates = Counter(f.relation for f in guesses) - overlaps
+    counts = []
+    for name in RELATIONS:
+        word, unproven = _WORDS.get(name, name), estimates[name]
+        proven = report.summary.by_relation.get(name, 0) - unproven - overlaps[name]
+        if proven:
+            counts.append(f"{proven:,} {word}")
+        if unproven:
+            counts.append(f"{unproven:,} possibly {word}{why}")
+    if count := overlaps.total():
+        counts.append(f"{count:,} overlapping in a way that is not proven")
+    return counts
+
+
+def _surely_overlaps(estimate: Finding, report: Report) -> bool:
+    """Whether only open is how: one body may hold the other."""
+    settings = report.settings
+    is_strict = settings.accuracy == "exact" and not settings.allow_open
+    return is_strict and estimate.at_rest in OVERLAPS and estimate.undecided != "relation"
+
+
+def _hits(report: Report) -> list[str]:
+    """Of pairs that do not overlap as they are placed."""
+    hits = [f.motion for f in report.findings if is_hit(f) and f.at_rest not in OVERLAPS]
+    proven = Counter(hit is not None and hit.proven for hit in hits)
+    said = []
+    for count, possibly in ((proven[True], ""), (proven[False], "possibly ")):
+        if count:
+            said.append(f"{counted(count, 'pair')} {possibly}{'hits' if count == 1 else 'hit'}")
+    if not said:
+        return []
+    first = min((hit for hit in hits if hit is not None), key=_first_time)
+    since = f", the first at t = {number(_first_time(first))}" if len(hits) > 1 else ""
+    return [f"{' and '.join(said)} while moving{since}."]
+
+
+def _first_time(hit: Sweep) -> float:
+    return hit.time_of_impact[1] if hit.time_of_impact else 0.0
+
+
+def _cross_check(report: Report) -> list[str]:
+    """`Cross-check: 5 answers agree, 1 disagrees, 1 pair not asked.`, an answer being that of one
+    library on a pair. A missing answer is counted apart, not as agreement."""
+    if not report.settings.cross_check:
+        return []
+    standings: Counter[str] = Counter()
+    asked = 0
+    for finding in report.findings:
+        results = [stage.result for stage in finding.plan if stage.stage == CROSS_CHECK]
+        standings.update(results)
+        asked += bool(results)
+    agree, disagree = standings.pop("agrees", 0), standings.pop("disagrees", 0)
+    parts = [f"{counted(agree, 'answer')} {'agrees' if agree == 1 else 'agree'}"]
+    if disagree:
+        parts.append(f"{disagree:,} {'disagrees' if disagree == 1 else 'disagree'}")
+    if missing := standings.total():
+        parts.append(f"{missing:,} could not be had")
+    if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
+        parts.append(f"{counted(unasked, 'pair')} not asked about")
+    return [f"Cross-check: {', '.join(parts)}."]
+
+
+def doubts(issues: Iterable[Issue]) -> list[str]:
+    """Warnings under which the counts say little, once more."""
+    said = [issue.message for issue in issues if issue.code in _DOUBTS]
+    return [f"Warning: {text}{'' if text.endswith('?') else '.'}" for text in said]

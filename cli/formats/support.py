@@ -1,0 +1,127 @@
+"""What a table says about the support of bodies: those that fail first, and what holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from satcheck.cli.formats.lines import BOLD, BOLD_RED, YELLOW, fitted
+from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.words import counted, with_unit
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.cli.output import Page
+    from satcheck.report.report import Report
+    from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding
+
+MOST_BODIES = 40  # JSON has them all
+MOST_LINKS = 5  # of a chain
+_RANK = {"no": 0, "open": 1, "yes": 2}
+_WORDS = {"yes": "{}", "no": "not {}", "open": "{} is open"}
+_STYLES = {"no": BOLD_RED, "open": YELLOW, "yes": ""}
+
+
+def support_lines(report: Report, page: Page) -> list[str]:
+    """The lines between the table and the remarks."""
+    statics = report.support
+    if statics is None:
+        return []
+    lines = fitted(f"Support: {', '.join(_assumptions(statics, report.units))}", page, BOLD)
+    bodies = {body.id: body for body in statics.bodies}
+    answers = _by_body(statics)
+    for body, findings in answers[:MOST_BODIES]:
+        stated = bodies.get(body)
+        number = None if stated is None else stated.island
+        island = None if number is None else statics.islands[number]
+        style = _style(findings)
+        lines += fitted(f"  {_answers(body, findings, stated, island)}", page, style)
+    if rest := len(answers) - MOST_BODIES:
+        lines += (
+            fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page) if rest > 0 else []
+        )
+    return lines
+
+
+def held(statics: Statics) -> str:
+    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
+    many have none, which a severity makes no failure."""
+    free = {body.id for body in statics.bodies if body.fixed is None}
+    yes = {f.body for f in statics.findings if f.answer == "yes"} & free
+    no = {f.body for f in statics.findings if f.answer == "no"}
+    said = f"contact forces exist that hold {counted(len(yes - no), 'body', 'bodies')}"
+    if not no:
+        return said
+    missing = f"not supported: {counted(len(no), 'body', 'bodies')}"
+    return f"{said}, {missing}" if yes - no else missing
+
+
+def warned(statics: Statics) -> int:
+    """The number of answers that are yes, with a warning."""
+    return sum(f.answer == "yes" and f.severity == "warning" for f in statics.findings)
+
+
+def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:
+    """The findings of each body, the worst first."""
+    groups = [(body, list(of)) for body, of in groupby(statics.findings, key=lambda f: f.body)]
+    for _, findings in groups:
+        findings.sort(key=lambda f: _RANK[f.answer])
+    return sorted(groups, key=lambda group: _RANK[group[1][0].answer])
+
+
+def _answers(
+    body: str,
+    findings: list[SupportFinding],
+    stated: SupportedBody | None,
+    island: BodyIsland | None,
+) -> str:
+    """`top: not stable: no forces hold it; held by base; chain: top, base, floor`."""
+    said = ", ".join(_WORDS[f.answer].format(f.question) for f in findings)
+    reasons = dict.fromkeys(f.reason for f in findings if f.reason)
+    parts = [f"{body}: {said}", *reasons]
+    if stated is not None:
+        parts += _held(stated)
+    if island is not None:
+        parts += _margins(island)
+    return "; ".join(map(str, parts))
+
+
+def _style(findings: list[SupportFinding]) -> str:
+    if any(finding.severity == "warning" for finding in findings):
+        return YELLOW
+    return _STYLES[findings[0].answer]
+
+
+def _margins(island: BodyIsland) -> Iterator[str]:
+    """Of the island as a whole."""
+    if island.margin is not None:
+        yield f"tilt {_degrees(*island.margin)}"
+    if island.least_friction:
+        yield f"friction from {island.least_friction:.2g}"
+
+
+def _degrees(low: float, high: float) -> str:
+    """`1.5 deg`, or `24 to 26 deg`."""
+    near, far = f"{low:.3g}", f"{high:.3g}"
+    return f"{near} deg" if near == far else f"{near} to {far} deg"
+
+
+def _held(body: SupportedBody) -> Iterator[str]:
+    if body.fixed is not None:
+        yield body.fixed
+    elif len(body.chain) > 1:
+        links = body.chain[1:]
+        shown = " > ".join(links[:MOST_LINKS])
+        yield f"chain: {shown}" + (" > ..." if len(links) > MOST_LINKS else "")
+
+
+def _assumptions(statics: Statics, units: str | None) -> Iterator[str]:
+    unit = unit_of(units)
+    values = {
+        "gravity": vector(statics.gravity),
+        "friction": number(statics.friction),
+        "tolerance": with_unit(number(statics.tolerance), unit),
+    }
+    for name, value in values.items():
+        yield f"{name} {value}" + ("" if name in statics.stated else " (assumed)")

@@ -1,0 +1,262 @@
+"""The last line of a report: PASS, FAIL, INCOMPLETE or ERROR, why, and what to do next.
+
+The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from satcheck.audit.severity import is_failure
+from satcheck.audit.summary import unlisted_indeterminate
+from satcheck.cli.formats.limits import limits
+from satcheck.cli.formats.numbers import bounds, number
+from satcheck.cli.formats.order import severity, worst_first
+from satcheck.cli.formats.summary import counts_line, nothing_checked
+from satcheck.cli.formats.words import (
+    counted,
+    in_motion,
+    interval,
+    is_hit,
+    is_unusable,
+    joint_values,
+    past_holes,
+    with_unit,
+)
+from satcheck.report.report import INTERNAL_ERROR, OVERLAPS
+from satcheck.scene.bodies import UNITS_UNKNOWN
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from satcheck.report.report import Finding, Report
+
+# Failing pairs that are named, the worst first.
+NAMED = 3
+# More overlaps than this are rarely mended one by one.
+MANY = 10
+_OVERLAP = {
+    "penetrating": "{} and {} overlap",
+    "contains": "{} contains {}",
+    "inside": "{} is inside {}",
+    "coincident": "{} and {} coincide",
+}
+
+
+def summary_line(report: Report) -> str:
+    """`FAIL: box and lid overlap (depth 1 mm). 2 bodies, 1 pair: 1 penetrating.`"""
+    return f"{verdict_line(report)} {counts_line(report)}"
+
+
+def verdict_line(report: Report) -> str:
+    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, depth 1 mm).`"""
+    errors, left_open = _errors(report), _left_open(report)
+    unchecked = nothing_checked(report.issues)
+    if report.summary.verdict == "fail":
+        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
+    if report.summary.verdict == "pass" and not errors:
+        return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
+    word = "ERROR" if errors else "INCOMPLETE"
+    if unchecked:
+        return " ".join([f"{word}:", *unchecked, *map(_sentence, errors)])
+    if left_open:
+        left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
+    return f"{word}: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+
+
+def next_step(report: Report, *, written: bool = False) -> list[str]:
+    """`Next: -o report.html shows the overlaps.`; nothing after a pass. written: the report goes
+    to a file."""
+    step = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
+    return [f"Next: {step}."] if step else []
+
+
+def _passed(report: Report) -> str:
+    if not report.summary.pairs.asked and not report.regions:
+        return "no pair to check"
+    warnings = sum(severity(finding) == "warning" for finding in report.findings)
+    said = _no_collision(report)
+    if report.support is not None:
+        from satcheck.cli.formats.support import held, warned
+
+        said += f", {held(report.support)}"
+        warnings += warned(report.support)
+    if report.regions:
+        lying = sum(answer.answer == "yes" for answer in report.regions.findings)
+        said += f", {counted(lying, 'body', 'bodies')} inside the region"
+    return said + (f", {counted(warnings, 'warning')}" if warnings else "")
+
+
+def _no_collision(report: Report) -> str:
+    if report.summary.accepted:
+        return "no new or worse finding"
+    ruled = any(map(_is_ruled, report.findings))
+    none = "no collision beyond what rules allow" if ruled else "no collision"
+    return none if report.summary.verdict == "pass" else f"{none} was found"
+
+
+def _is_ruled(finding: Finding) -> bool:
+    """Of a check that does not fail: whether a rule allows the pair what it has, or may."""
+    if finding.relation in OVERLAPS:
+        return finding.undecided != "relation"
+    return finding.rule is not None and finding.undecided != "limit"
+
+
+def _failing(report: Report) -> list[Finding]:
+    fail_on = report.settings.fail_on
+    return worst_first(f for f in report.findings if is_failure(f, fail_on))
+
+
+def _failed(report: Report) -> str:
+    failing = _failing(report)
+    said = [_failure(finding, report) for finding in failing[:NAMED]]
+    if more := len(failing) - len(said):
+        said.append(f"and {counted(more, 'more pair')}")
+    if report.answers:
+        said += _unmet(report)
+    if failing and all(finding.severity != "error" for finding in failing):
+        said.append(f"failed by --fail-on {report.settings.fail_on}")
+    return "; ".join(said)
+
+
+def _unmet(report: Report) -> list[str]:
+    from satcheck.cli.formats.body_answers import unmet
+
+    failed = unmet(report)
+    more = len(failed) - NAMED
+    rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
+    return failed[:NAMED] + rest
+
+
+def _failure(finding: Finding, report: Report) -> str:
+    """`fence and palm are 40 mm apart (clearance 45 mm)`."""
+    unit = unit_of(report.units)
+    if is_hit(finding) and finding.at_rest not in OVERLAPS:
+        joints = finding.motion and finding.motion.joints
+        where = f" ({joint_values(joints)})" if joints else ""
+        return f"{finding.a} and {finding.b}, while they move: {in_motion(finding, unit)}{where}"
+    figures = limits(finding, report)
+    if finding.at_rest in OVERLAPS:
+        figures = [*_figures(finding, unit), *figures]
+        said = _overlap(finding, report)
+    else:
+        said = f"{finding.a} and {finding.b} {_apart(finding, unit)}"
+    return f"{said} ({', '.join(figures)})" if figures else said
+
+
+def _overlap(finding: Finding, report: Report) -> str:
+    if finding.quality != "estimate":
+        return _OVERLAP[finding.at_rest].format(finding.a, finding.b)
+    settings = report.settings
+    is_sure = settings.accuracy == "exact" and not settings.allow_open
+    return f"{finding.a} and {finding.b} {'' if is_sure else 'possibly '}overlap"
+
+
+def _figures(finding: Finding, unit: str | None) -> list[str]:
+    known = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    said = [
+        f"{name} {with_unit(interval(proven, bounded='at most '), unit)}"
+        for name, proven in known.items()
+        if proven is not None
+    ]
+    if finding.volume is not None:
+        said.append(f"volume {with_unit(number(finding.volume), unit and f'{unit}^3')}")
+    return said
+
+
+def _apart(finding: Finding, unit: str | None) -> str:
+    """The gap, at the worst of the way."""
+    if finding.relation == "indeterminate":
+        return "are undecided"
+    if finding.relation == "touching":
+        return "touch"
+    worst = None if finding.motion is None else finding.motion.worst
+    if worst is not None and worst.distance is not None:
+        return f"come as close as {with_unit(bounds(*worst.distance), unit)}"
+    if finding.distance is None:
+        return "are too close"
+    between = finding.distance_bounds
+    gap = number(finding.distance) if between is None else bounds(*between)
+    return f"are {with_unit(gap, unit)} apart"
+
+
+def _left_open(report: Report) -> list[str]:
+    """`1 pair is indeterminate`: what was asked and could not be decided."""
+    summary, said = report.summary, []
+    undecided = sum(f.undecided == "relation" for f in report.findings)
+    undecided += unlisted_indeterminate(summary.pairs, report.findings)
+    if undecided:
+        said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))
+    if swept := sum(past_holes(finding) for finding in report.findings):
+        holes = "past holes that may be filled"
+        said.append(_of_pairs(swept, f"moves {holes}", f"move {holes}"))
+    unsure = Counter(f.relation in OVERLAPS for f in report.findings if f.undecided == "limit")
+    for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
+        if count := unsure[overlap]:
+            may = f"may {what.format('its' if count == 1 else 'their')}"
+            said.append(_of_pairs(count, may, may))
+    if moving := summary.sweeps_undecided:
+        said.append(_of_pairs(moving, "may hit while moving", "may hit while moving"))
+    if disputed := summary.disputed:
+        said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
+    if report.answers:
+        from satcheck.cli.formats.body_answers import undecided as undecided_bodies
+
+        said += undecided_bodies(report)
+    return said
+
+
+def _of_pairs(count: int, singular: str, plural: str) -> str:
+    return f"{counted(count, 'pair')} {singular if count == 1 else plural}"
+
+
+def _errors(report: Report) -> list[str]:
+    errors = [issue.code for issue in report.issues if issue.severity == "error"]
+    faults = errors.count(INTERNAL_ERROR)
+    said = []
+    if inputs := len(errors) - faults:
+        said.append(f"{counted(inputs, 'input')} could not be used")
+    if faults:
+        said.append(f"{counted(faults, 'pair')} failed by an internal error")
+    return said
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _after_failure(report: Report, written: bool) -> str:
+    failing = _failing(report)
+    overlaps = [f for f in failing if f.at_rest in OVERLAPS]
+    if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in failing):
+        return "--accuracy exact decides what is only possible"
+    if any(f.depth is None and f.thickness is None for f in overlaps):
+        return "--depth measures the overlaps"
+    if len(overlaps) > MANY and report.baseline is None:
+        return "satcheck suggest proposes rules for overlaps that are intended"
+    return "" if written else f"-o report.html shows {'it' if len(failing) == 1 else 'them'} in 3-D"
+
+
+def _open(report: Report) -> str:
+    """What may decide the questions that are open, but for those of bodies that cannot be used."""
+    unusable = {body.id for body in report.bodies if is_unusable(body)}
+    asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
+    if not asked:
+        return ""
+    if any(issue.code == UNITS_UNKNOWN for issue in report.issues):
+        return "--units states the unit of files that have none"
+    if report.settings.accuracy != "exact":
+        return "--accuracy exact decides it"
+    if _depends_on_holes(report, asked):
+        return "close the holes, or give --allow-open if they are meant to be open"
+    if any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
+        return "a larger --depth-budget may decide it"
+    return "--explain shows the steps"
+
+
+def _depends_on_holes(report: Report, asked: Sequence[Finding]) -> bool:
+    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
+    undecided = [f for f in asked if f.undecided in ("relation", "inside")]
+    return not report.settings.allow_open and any(holed & {f.a, f.b} for f in undecided)
