@@ -18,18 +18,18 @@ _Pair = frozenset[str]
 
 def finding_changes(before: Report, now: Report) -> Iterator[FindingChange | None]:
     """One for each finding that fails in either; None: it is unchanged."""
-    known, found = _by_pair(before), _by_pair(now)
-    states, absent = _states(now, known)
-    back, _ = _states(before, found)
+    previous, current = _by_pair(before), _by_pair(now)
+    states, absent = _states(now, previous)
+    back, _ = _states(before, current)
     for finding in now.findings:
         pair = frozenset((finding.a, finding.b))
-        if finding.undecided is not None and pair in known:
+        if finding.undecided is not None and pair in previous:
             states.setdefault(pair, "undecided")
         if pair in states:
             state = _state(states[pair], back.get(pair))
-            old, new = known.get(pair), found.get(pair)
+            old, new = previous.get(pair), current.get(pair)
             yield FindingChange(finding.a, finding.b, state, old, new) if state else None
-    for pair, old in known.items():
+    for pair, old in previous.items():
         if pair not in states:
             yield FindingChange(old.a, old.b, "gone" if pair in absent else "unchecked", old, None)
 
@@ -39,10 +39,10 @@ def _by_pair(report: Report) -> dict[_Pair, KnownFinding]:
 
 
 def _states(
-    report: Report, known: dict[_Pair, KnownFinding]
+    report: Report, previous: dict[_Pair, KnownFinding]
 ) -> tuple[dict[_Pair, BaselineState], set[_Pair]]:
     """The states of the failing findings, and the known pairs that were checked and pass."""
-    judged = beside_baseline(report, Baseline(findings=tuple(known.values())), "")
+    judged = beside_baseline(report, Baseline(findings=tuple(previous.values())), "")
     states = {
         frozenset((each.a, each.b)): each.baseline_state
         for each in judged.findings

@@ -88,11 +88,12 @@ class _Question:
             body=self.bodies.ids[k], region=name, rule=rule.name, severity="none", answer="open"
         )
         try:
-            found = self._decided(proposal, k, self.index.get(name))
+            finding = self._decided(proposal, k, self.index.get(name))
         except Exception as error:  # noqa: BLE001  the other bodies are still decided
             not_for_lack_of_memory(error)
-            found = _open(proposal, f"internal error: {type(error).__name__}: {error}")
-        return replace(found, severity=severity_of_answer(found.answer, terms.value("severity")))
+            finding = _open(proposal, f"internal error: {type(error).__name__}: {error}")
+        severity = severity_of_answer(finding.answer, terms.value("severity"))
+        return replace(finding, severity=severity)
 
     def _decided(self, asked: InsideFinding, k: int, region: int | None) -> InsideFinding:
         if region is None:
@@ -104,15 +105,15 @@ class _Question:
         if space.curved is not None or not space.checked().world or not space.solid:
             return _open(asked, f"{asked.region} is not a closed mesh or a box")
         decide = self._in_convex if space.checked().convex else self._in_concave
-        found = decide(asked, body, space)
-        return found if found.answer == "open" else self._proven(found, body, space)
+        finding = decide(asked, body, space)
+        return finding if finding.answer == "open" else self._proven(finding, body, space)
 
-    def _proven(self, found: InsideFinding, body: PlacedBody, space: PlacedBody) -> InsideFinding:
+    def _proven(self, finding: InsideFinding, body: PlacedBody, space: PlacedBody) -> InsideFinding:
         try:
-            check_answer(found, body.checked(), space.checked(), self.tolerance)
+            check_answer(finding, body.checked(), space.checked(), self.tolerance)
         except (Rejected, NotCertified) as why:
-            return _open(found, f"not decided: {why}")
-        return found
+            return _open(finding, f"not decided: {why}")
+        return finding
 
     def _in_convex(
         self, asked: InsideFinding, body: PlacedBody, space: PlacedBody

@@ -201,21 +201,21 @@ def _is_plain(finding: Finding) -> bool:
 
 class _Row(Struct):
     """One pose with pairs that are not plainly apart, by their numbers. climbs: those that climb
-    the ladder; deep: those that overlap deeply, and whose findings nobody reads; found: the
+    the ladder; deep: those that overlap deeply, and whose findings nobody reads; by_pair: the
     findings of those that have climbed. alone: the pose needs a check of its own."""
 
     row: int
     climbs: list[int]
     deep: list[int]
-    found: dict[int, Finding] = {}
+    by_pair: dict[int, Finding] = {}
     alone: bool = False
 
     @property
     def is_noted(self) -> bool:
-        return bool(self.deep or self.alone) or not all(map(_is_plain, self.found.values()))
+        return bool(self.deep or self.alone) or not all(map(_is_plain, self.by_pair.values()))
 
     def findings(self) -> tuple[Finding, ...]:
-        return tuple(f for _, f in sorted(self.found.items()) if not _is_plain(f))
+        return tuple(f for _, f in sorted(self.by_pair.items()) if not _is_plain(f))
 
 
 class _SortedBatch:
@@ -281,7 +281,7 @@ class _SortedBatch:
         queue = PairQueue(self._checks.settings.jobs)
         checked = examine_pairs([pair for *_, pair in climbing], queue)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
-            row.found[number] = pair.finding
+            row.by_pair[number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)
 
     def _sample(self, row: _Row) -> Sample:

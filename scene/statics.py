@@ -131,12 +131,12 @@ class BodyTerms(Struct, frozen=True):
 
 def terms_of(bodies: Sequence[Selectable], rules: Sequence[BodyRule]) -> list[BodyTerms]:
     """What the rules say about each body."""
-    found: dict[str, dict[str, BodyRule]] = {body.id: {} for body in bodies}
+    rules_of: dict[str, dict[str, BodyRule]] = {body.id: {} for body in bodies}
     for rule in rules:
         set_keys = [key for key in KEYS if getattr(rule, key) is not None]
         for body in rule.bodies.select(bodies):
-            found[body.id] |= dict.fromkeys(set_keys, rule)
-    return [BodyTerms(found[body.id]) for body in bodies]
+            rules_of[body.id] |= dict.fromkeys(set_keys, rule)
+    return [BodyTerms(rules_of[body.id]) for body in bodies]
 
 
 def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:

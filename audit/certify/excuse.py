@@ -29,10 +29,10 @@ def excuse(pair: Pair) -> Excuse | NoCertificate:
         return NoCertificate("no evidence was found that the overlap is within the touch band")
     if pair.closer:
         return NoCertificate("a touch of curves by their thickness is not certified")
-    found = [ball_in(pair, body, off) for off, body in surfaces(pair)]
-    balls = [InnerBall(one.centre, one.radius) for one in found if one.centre is not None]
+    inner = [ball_in(pair, body, off) for off, body in surfaces(pair)]
+    balls = [InnerBall(one.centre, one.radius) for one in inner if one.centre is not None]
     interval = deeper(pair, prove=True)
-    if len(balls) < len(found) or interval.proof is None or interval.upper > limit_of(pair):
+    if len(balls) < len(inner) or interval.proof is None or interval.upper > limit_of(pair):
         return NoCertificate(
             "the budget ends the search for what shows that surfaces may explain it"
         )

@@ -160,8 +160,8 @@ class _Falling:
                 obstacle = self._subjects[other].body
                 apart = box_gap(body.bounds, obstacle.bounds) > 0
                 if not apart and self._is_checked(k, other):
-                    found = examine(Pair(body, obstacle, exactly, request), Trace()).finding
-                    if found.exact_relation not in FREE:
+                    finding = examine(Pair(body, obstacle, exactly, request), Trace()).finding
+                    if finding.exact_relation not in FREE:
                         return False
         return True
 

@@ -93,11 +93,11 @@ def find_forces(island: Island) -> Answer:
 
 def solve(island: Island) -> Answer:
     """Forces that hold the island, or the motion that starts."""
-    found = find_forces(island)
-    if found.holds:
-        return found
+    inner = find_forces(island)
+    if inner.holds:
+        return inner
     outer = Programme(island, 1.0 + CONE_ROUNDING).answer()
-    return outer if outer.holds is False else found
+    return outer if outer.holds is False else inner
 
 
 def tangents(normals: Floats) -> tuple[Floats, Floats]:
@@ -162,12 +162,12 @@ class Programme:
         )
         if str(solution.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
             return None, None, 0.0
-        found = np.array(solution.x[:-1]).reshape(-1, 3)
-        found[self.friction == 0, 1:] = 0.0
-        rest = self._rest(found)
+        forces = np.array(solution.x[:-1]).reshape(-1, 3)
+        forces[self.friction == 0, 1:] = 0.0
+        rest = self._rest(forces)
         missing = float(np.linalg.norm(rest))
         dual = -np.array(solution.z[1 : rows + 1]).reshape(-1, 6)
-        return found, dual, missing
+        return forces, dual, missing
 
     def _rest(self, x: Floats) -> Floats:
         """(n, 6) what is missing."""

@@ -29,15 +29,15 @@ def without_flush_edges(
     """The same contacts; those of patches that are such a line, and carry a weight, are not
     strict. Bodies that lean against each other, as two cards, are pressed together."""
     down = np.array(terms.gravity)
-    found = []
+    judged = []
     for contact in contacts:
         one, other = subjects[contact.a], subjects[contact.b]
         if isinstance(one.form, Features) and isinstance(other.form, Features):
             rounding = rounding_of(one, other, terms.tolerance)
             points = _judged(contact.points, one.form, other.form, down, rounding)
             contact = replace(contact, points=points)
-        found.append(contact)
-    return found
+        judged.append(contact)
+    return judged
 
 
 def _judged(points: Points, a: Features, b: Features, down: Floats, rounding: float) -> Points:

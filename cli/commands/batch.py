@@ -222,10 +222,10 @@ def _worlds(inputs: Inputs, manifest: str | None, shard: Shard, *, planar: bool)
 def _meant_by(url: str) -> list[str]:
     if not _PATTERN.intersection(url):
         return [url]
-    found = matches(url)
-    if not found:
+    matching = matches(url)
+    if not matching:
         raise SatcheckError("no-assets", "no file matches the pattern", file=url)
-    return found
+    return matching
 
 
 def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Generator[list[Answer]]]:

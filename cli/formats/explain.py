@@ -65,9 +65,9 @@ def _support(statics: Statics, *, timings: bool) -> Table:
     who = ", ".join(statics.asked_by[:MOST_NAMES])
     if len(statics.asked_by) > MOST_NAMES:
         who += f" and {len(statics.asked_by) - MOST_NAMES} more"
-    found = f"{counted(points, 'contact point')}, {islands}"
+    contacts = f"{counted(points, 'contact point')}, {islands}"
     name = Text("support", style="bold")
-    table.add_row("", name, counted(statics.pairs, "pair"), *cost, f"{who}; {found}")
+    table.add_row("", name, counted(statics.pairs, "pair"), *cost, f"{who}; {contacts}")
     return table
 
 

@@ -26,7 +26,7 @@ def studied_outlines(pair: Pair, plane: Plane) -> Studied:
     edges = _edges(sides[0]), _edges(sides[1])
     steps = pair.a.resolution, pair.b.resolution
     off = [_off(points, some, step) for some, step in zip(edges, steps, strict=True)]
-    found = Candidates(
+    candidates = Candidates(
         corners=np.concatenate([_turned(some, len(points)) for some in edges]),
         tolerance=np.concatenate(off),
         kind=_kinds("edge-a", len(edges[0])) + _kinds("edge-b", len(edges[1])),
@@ -35,7 +35,7 @@ def studied_outlines(pair: Pair, plane: Plane) -> Studied:
         counted=np.full(len(points) - 2, True),
     )
     curved = pair.closer, pair.farther
-    axes = projected(found, points, ExactPoints(points), sides, curved)
+    axes = projected(candidates, points, ExactPoints(points), sides, curved)
     outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
     known = not any(curved) or axes.winner() is not None
     directions = [
@@ -46,7 +46,7 @@ def studied_outlines(pair: Pair, plane: Plane) -> Studied:
         a=_stated(pair.a, len(corners_a)),
         b=_stated(pair.b, len(corners_b)),
         counts=AxisCounts(
-            candidates=len(found.corners),
+            candidates=len(candidates.corners),
             edge_pairs=0,
             facet_pairs=0,
             directions=(directions[0], directions[1], 0),

@@ -54,8 +54,8 @@ class ProjectedAxes(Struct, frozen=True):
         return tuple(self._axis(int(k)) for k in order)
 
     def _axis(self, k: int) -> CandidateAxis:
-        row, first, found = self.rows[k], self.first[k], self.shadows
-        x, y, z = (found.direction[row] + 0.0).tolist()
+        row, first, shadows = self.rows[k], self.first[k], self.shadows
+        x, y, z = (shadows.direction[row] + 0.0).tolist()
         return CandidateAxis(
             number=k + 1,
             kind=self.candidates.kind[first],
@@ -63,9 +63,9 @@ class ProjectedAxes(Struct, frozen=True):
             index_b=_number(self.candidates.index_b[first]),
             candidates=int(self.count[k]),
             direction=(x, y, z),
-            shadow_a=_interval(found.a[row]),
-            shadow_b=_interval(found.b[row]),
-            gap=float(found.gap[row]) + 0.0,
+            shadow_a=_interval(shadows.a[row]),
+            shadow_b=_interval(shadows.b[row]),
+            gap=float(shadows.gap[row]) + 0.0,
             gap_bounds=_interval(self.gap_bounds[k]),
             state=self.states[k],
         )

@@ -86,8 +86,8 @@ class Contacts:
             return places_of_ball(np.array(centre), radius, of_b, tolerance, rounding)
         if of_a is not None:
             centre, radius = ball(other)
-            found = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
-            return [Place(p.at, -p.normal, p.height, p.exact) for p in found]
+            places = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
+            return [Place(p.at, -p.normal, p.height, p.exact) for p in places]
         (p, r), (q, s) = ball(one), ball(other)
         return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
 

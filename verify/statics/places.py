@@ -89,7 +89,7 @@ class Surface:
 def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list[Place]:
     """All contacts of A and B."""
     near = tolerance * (1 + SLACK)
-    found: list[Place] = []
+    places: list[Place] = []
     vertices: set[tuple[int, int, bool]] = set()
     edges: set[tuple[tuple[int, int], tuple[int, int]]] = set()
     for s, t in near_pairs(a.exact, b.exact, near, MOST_NEAR):
@@ -100,10 +100,10 @@ def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list
                 (p, q) for p in _sides(of_a) if a.is_sharp(p) for q in _sides(of_b) if b.is_sharp(q)
             }
     for v, face, first in sorted(vertices):
-        found += _on_face(*((a, b) if first else (b, a)), v, face, near, rounding, first)
+        places += _on_face(*((a, b) if first else (b, a)), v, face, near, rounding, first)
     for p, q in sorted(edges):
-        found += _across(a, b, p, q, near, rounding)
-    return found
+        places += _across(a, b, p, q, near, rounding)
+    return places
 
 
 def _sides(corners: list[int]) -> list[tuple[int, int]]:
@@ -213,7 +213,7 @@ def places_of_ball(
     low, high = corners.min(axis=1), corners.max(axis=1)
     close = np.flatnonzero(((low <= centre + reach) & (high >= centre - reach)).all(axis=1))
     feet = [foot_on(centre, corners[t]) for t in close]
-    found = []
+    places = []
     for t, foot in zip(close.tolist(), feet, strict=True):
         step = centre - foot
         distance = float(np.linalg.norm(step))
@@ -226,8 +226,8 @@ def places_of_ball(
             if np.linalg.norm(x - foot) <= rounding
         ]
         if all(float(((c - foot) @ n).max()) <= 4 * rounding for c in beside):
-            found.append(Place(foot, n, distance - radius, True))
-    return found
+            places.append(Place(foot, n, distance - radius, True))
+    return places
 
 
 def place_of_balls(

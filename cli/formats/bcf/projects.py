@@ -16,7 +16,7 @@ _PROJECT = re.compile(rb"=\s*IFCPROJECT\s*\(\s*'([0-9A-Za-z_$]{22})'", re.IGNORE
 def project_of(file: str) -> str | None:
     """None: the file is not there any more, or names no project."""
     try:
-        found = _PROJECT.search(unpacked(memoryview(Path(file).read_bytes())))
+        match = _PROJECT.search(unpacked(memoryview(Path(file).read_bytes())))
     except (OSError, MeshFileError):
         return None
-    return found[1].decode("ascii", "replace") if found else None
+    return match[1].decode("ascii", "replace") if match else None

@@ -70,10 +70,10 @@ def _radii(profile: Any) -> Iterator[float]:
 
 def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:
     """The classes of the instances of the file that are of one of these."""
-    found: set[str] = set()
+    types: set[str] = set()
     for name in names:
         try:
-            found.update(instance.is_a() for instance in model.by_type(name))
+            types.update(instance.is_a() for instance in model.by_type(name))
         except RuntimeError:  # the schema lacks the class
             continue
-    return frozenset(found)
+    return frozenset(types)

@@ -22,12 +22,12 @@ def _classes(model: Any, name: str) -> tuple[str, ...]:
     """The class and those above it, below IfcElement."""
     from ifcopenshell import schema_by_name
 
-    found = []
+    types = []
     declaration = schema_by_name(model.schema_identifier).declaration_by_name(name).as_entity()
     while declaration is not None and declaration.name() != _ROOT:
-        found.append(declaration.name())
+        types.append(declaration.name())
         declaration = declaration.supertype()
-    return tuple(found) if declaration is not None else (name,)
+    return tuple(types) if declaration is not None else (name,)
 
 
 def _memberships(body: Any) -> tuple[str, ...]:

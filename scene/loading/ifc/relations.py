@@ -161,16 +161,16 @@ def _all(model: Any, name: str) -> list[Any]:
 
 def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
     """The numbers of the element and its parts, of those that are bodies."""
-    found, seen, waiting = [], set(), [element]
+    ids, seen, waiting = [], set(), [element]
     while waiting:
         each = waiting.pop()
         if each is not None and each.id() not in seen:
             seen.add(each.id())
             if each.id() in paths:
-                found.append(each.id())
+                ids.append(each.id())
             if each.is_a("IfcElement"):
                 waiting += parts_of(each)
-    return sorted(found)
+    return sorted(ids)
 
 
 def _by_id(instance: Any) -> int:

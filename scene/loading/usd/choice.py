@@ -6,7 +6,7 @@ from typing import Any
 
 from pxr import Usd, UsdGeom, UsdPhysics
 
-from satcheck.scene.loading.usd.walk import Found
+from satcheck.scene.loading.usd.walk import PlacedPrim
 from satcheck.scene.read_options import ReadOptions
 
 
@@ -22,15 +22,15 @@ class Choice:
         self.colliders = options.geometry == "collision"
         self._hidden: dict[tuple[Any, Any], bool] = {}
 
-    def why_not(self, found: Found, *, lost: bool) -> str | None:
+    def why_not(self, placed: PlacedPrim, *, lost: bool) -> str | None:
         """Why this prim is no body, for `Remarks`; None: it is one. lost: something in it or below
         is not known."""
         if self.colliders:
-            known = not lost and not self.collides(found.prim)
+            known = not lost and not self.collides(placed.prim)
             return "no enabled collider" if known else None
-        if self._is_hidden(found):
+        if self._is_hidden(placed):
             return "invisible"
-        purpose = _purpose(found)
+        purpose = _purpose(placed)
         return None if purpose in self.purposes else f"of purpose {purpose} (--purpose)"
 
     def collides(self, prim: Any) -> bool:
@@ -39,8 +39,8 @@ class Choice:
             return False
         return bool(UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get(self.time))
 
-    def _is_hidden(self, found: Found) -> bool:
-        frame, prim = found.frame, found.prim
+    def _is_hidden(self, placed: PlacedPrim) -> bool:
+        frame, prim = placed.frame, placed.prim
         while not self._hidden_below(prim, frame.root):
             if frame.instancer is None:
                 return False
@@ -62,9 +62,9 @@ class Choice:
         return self._hidden[key]
 
 
-def _purpose(found: Found) -> str:
+def _purpose(placed: PlacedPrim) -> str:
     """The purpose of the prim; else that of the nearest point instancer around it that has one."""
-    frame, prim = found.frame, found.prim
+    frame, prim = placed.frame, placed.prim
     while True:
         purpose = str(UsdGeom.Imageable(prim).ComputePurpose())
         if purpose != UsdGeom.Tokens.default_ or frame.instancer is None:

@@ -12,7 +12,7 @@ from pxr import Usd, UsdPhysics
 
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
 from satcheck.scene.loading.usd.remarks import Remarks
-from satcheck.scene.loading.usd.walk import WORLD, Found, Frame, of_prototype
+from satcheck.scene.loading.usd.walk import WORLD, Frame, PlacedPrim, of_prototype
 
 
 class Physics(Struct, frozen=True):
@@ -25,18 +25,18 @@ class Physics(Struct, frozen=True):
 
 
 def with_physics(
-    stage: Any, nodes: Sequence[RawNode], found: Sequence[Found], said: Remarks
+    stage: Any, nodes: Sequence[RawNode], prims: Sequence[PlacedPrim], said: Remarks
 ) -> Physics:
     """What physics says of the nodes.
 
-    found: where each node comes from. Simulators do not collide colliders of one rigid body,
+    prims: where each node comes from. Simulators do not collide colliders of one rigid body,
     FilteredPairs, members of CollisionGroups that filter each other, and bodies that a joint
     connects without collisionEnabled. Visual geometry below these prims is treated alike.
     """
-    sources = _Sources(stage, found)
+    sources = _Sources(stage, prims)
     if not sources:
         return Physics(tuple(nodes))
-    members = _Members(stage, found)
+    members = _Members(stage, prims)
     made = _Rules(sources, members, len(nodes), said)
     rules = tuple(made.rules())
     links = {number: body for body, numbers in members.of_body.items() for number in numbers}
@@ -50,11 +50,11 @@ def with_physics(
 class _Sources:
     """The prims of a stage that make rules."""
 
-    def __init__(self, stage: Any, found: Sequence[Found]) -> None:
+    def __init__(self, stage: Any, prims: Sequence[PlacedPrim]) -> None:
         self.filters: list[Any] = []
         self.joints: list[Any] = []
         self.has_bodies = False
-        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(found)):
+        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(prims)):
             if prim.HasAPI(UsdPhysics.RigidBodyAPI):
                 self.has_bodies = True
             if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
@@ -68,23 +68,23 @@ class _Sources:
         return bool(self.has_bodies or self.filters or self.joints or self.table.GetGroups())
 
 
-def _undefined(found: Sequence[Found]) -> Iterator[Any]:
+def _undefined(prims: Sequence[PlacedPrim]) -> Iterator[Any]:
     """Ranges of the prims of prototypes below an `over`, which a walk of the stage leaves out."""
-    roots = {root.GetPath(): root for each in found if (root := each.frame.root) is not None}
+    roots = {root.GetPath(): root for each in prims if (root := each.frame.root) is not None}
     yield from (of_prototype(root) for root in roots.values() if not root.IsDefined())
 
 
 class _Members:
     """Which nodes are below a prim, or in a rigid body. Both have a name in each instance."""
 
-    def __init__(self, stage: Any, found: Sequence[Found]) -> None:
+    def __init__(self, stage: Any, prims: Sequence[PlacedPrim]) -> None:
         self._stage = stage
-        self._found = found
+        self._prims = prims
         self._below: dict[str, list[int]] = {}
         self._names: dict[str, dict[str, str]] = {}  # path of a prim -> frame -> name there
         self._around: dict[str, str] = {}  # frame -> the one around it
         self.of_body: dict[str, list[int]] = {}
-        for number, each in enumerate(found):
+        for number, each in enumerate(prims):
             if each.prim is None:  # of an unresolved reference
                 self._below.setdefault(each.name, []).append(number)
                 self._names.setdefault(each.name, {})[WORLD.name] = each.name
@@ -134,7 +134,7 @@ class _Members:
         query = api.ComputeMembershipQuery()
         return [
             number
-            for number, each in enumerate(self._found)
+            for number, each in enumerate(self._prims)
             if each.prim is not None and query.IsPathIncluded(_outer_path(each))
         ]
 
@@ -212,9 +212,9 @@ def _rule(a: str, b: str, reason: str) -> RawRule:
     return RawRule(a, b, f"USD: {reason}", of_groups=True)
 
 
-def _outer_path(found: Found) -> Any:
+def _outer_path(placed: PlacedPrim) -> Any:
     """Of the prim, or of the point instancer around all."""
-    prim, frame = found.prim, found.frame
+    prim, frame = placed.prim, placed.frame
     while frame.instancer is not None:
         prim, frame = frame.instancer
     return prim.GetPath()

@@ -26,7 +26,7 @@ from satcheck.scene.loading.usd.shapes import (
 )
 from satcheck.scene.loading.usd.stage import Stage, said, unknown_variants
 from satcheck.scene.loading.usd.unread import hidden_geometry, not_read, without_extent
-from satcheck.scene.loading.usd.walk import WORLD, Found, Walk, type_of
+from satcheck.scene.loading.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.read_options import ReadOptions
 
 _NOT_TURNED = Gf.Matrix4d(1.0)
@@ -46,23 +46,23 @@ class _Reading:
         self._lost = dict(stage.lost)
         self._parts: list[RawPart] = []
         self._nodes: list[RawNode] = []
-        self._found: list[Found] = []
+        self._placed: list[PlacedPrim] = []
         self._read: dict[Any, tuple[int, Any]] = {}
         self._places: dict[object, int] = {}
 
     def scene(self) -> RawScene:
         self._refuse_lost_in_instances()
         self._lost |= unknown_variants(self._stage.stage)
-        for found in Walk(self._stage.stage, self._choice.time).prims():
-            self._take(found)
+        for placed in Walk(self._stage.stage, self._choice.time).prims():
+            self._take(placed)
         for name, reason in self._lost.items():
-            self._add(Found(name, None, WORLD), reason, None)
+            self._add(PlacedPrim(name, None, WORLD), reason, None)
         warnings = (*self._stage.warnings, *self._of_time(), *self._said.warnings())
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
             raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
         said = Remarks()
-        physics = with_physics(self._stage.stage, self._nodes, self._found, said)
+        physics = with_physics(self._stage.stage, self._nodes, self._placed, said)
         joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
         return RawScene(
             tuple(self._parts),
@@ -91,29 +91,29 @@ class _Reading:
         message = f"bodies stand as at the first of the time codes {first:g} to {last:g} (--time)"
         return [("time-sampled", message)]
 
-    def _take(self, found: Found) -> None:
+    def _take(self, placed: PlacedPrim) -> None:
         """Adds the body of a prim, if it is one."""
-        prim, name = found.prim, found.name
-        refusal = found.refusal or self._lost.pop(name, None)
+        prim, name = placed.prim, placed.name
+        refusal = placed.refusal or self._lost.pop(name, None)
         if not prim.IsA(UsdGeom.Gprim) and refusal is None:
-            self._look_at_other(found)
-        elif (reason := self._choice.why_not(found, lost=refusal is not None)) is not None:
+            self._look_at_other(placed)
+        elif (reason := self._choice.why_not(placed, lost=refusal is not None)) is not None:
             self._said.add("not-a-body", reason, name)
         elif refusal is not None:
-            self._add(found, refusal, None)
+            self._add(placed, refusal, None)
         elif (words := without_extent(prim, self._choice)) is not None:
             self._said.add("ignored-geometry", words, name)
         elif (unread := not_read(prim, self._choice)) is not None:
-            self._add(found, unread, None)
+            self._add(placed, unread, None)
         else:
-            self._place(found)
+            self._place(placed)
 
-    def _look_at_other(self, found: Found) -> None:
+    def _look_at_other(self, placed: PlacedPrim) -> None:
         """At a prim that is no known geometry."""
-        prim, name = found.prim, found.name
+        prim, name = placed.prim, placed.name
         if (reason := hidden_geometry(prim, self._choice)) is not None:
-            if self._choice.why_not(found, lost=True) is None:
-                self._add(found, reason, None)
+            if self._choice.why_not(placed, lost=True) is None:
+                self._add(placed, reason, None)
         elif prim.GetTypeName() and not type_of(prim):
             words = f"of type {prim.GetTypeName()}, which is not known"
             self._said.add("unknown-element", words, name)
@@ -121,26 +121,26 @@ class _Reading:
             words = f"a collider of type {prim.GetTypeName()}, without geometry"
             self._said.add("ignored-geometry", words, name)
 
-    def _place(self, found: Found) -> None:
-        prim = found.prim
+    def _place(self, placed: PlacedPrim) -> None:
+        prim = placed.prim
         key = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
         if key not in self._read:
             content, turn = self._content(prim)
-            self._read[key] = self._part(found.name, content), turn
+            self._read[key] = self._part(placed.name, content), turn
         number, turn = self._read[key]
         content = self._parts[number].mesh
         if isinstance(content, Refusal):
-            self._node(found, number, None)
+            self._node(placed, number, None)
             return
-        matrix = self._stage.matrix(turn * found.matrix)
+        matrix = self._stage.matrix(turn * placed.matrix)
         if not isinstance(content, RawMesh):
             try:
                 matrix = placed_shape(content, matrix)
             except NoSuchShape as error:
                 words = f"{error}, so it is checked as facets around it"
-                self._said.add("faceted", words, found.name)
-                number = self._part(found.name, facets_around(content, self._stage.unit))
-        self._node(found, number, None if matrix == IDENTITY else matrix)
+                self._said.add("faceted", words, placed.name)
+                number = self._part(placed.name, facets_around(content, self._stage.unit))
+        self._node(placed, number, None if matrix == IDENTITY else matrix)
 
     def _content(self, prim: Any) -> tuple[Content, Any]:
         """(mesh or shape of a prim in its own coordinates, a turn before its placement)."""
@@ -201,13 +201,13 @@ class _Reading:
             self._parts.append(RawPart(name, content))
         return self._places[key]
 
-    def _add(self, found: Found, content: Content, matrix: Transform | None) -> None:
-        self._parts.append(RawPart(found.name, content))
-        self._node(found, len(self._parts) - 1, matrix)
+    def _add(self, placed: PlacedPrim, content: Content, matrix: Transform | None) -> None:
+        self._parts.append(RawPart(placed.name, content))
+        self._node(placed, len(self._parts) - 1, matrix)
 
-    def _node(self, found: Found, part: int, matrix: Transform | None) -> None:
-        self._nodes.append(RawNode(found.name, part, matrix))
-        self._found.append(found)
+    def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None) -> None:
+        self._nodes.append(RawNode(placed.name, part, matrix))
+        self._placed.append(placed)
 
 
 def _is_instancer(prim: Any) -> bool:

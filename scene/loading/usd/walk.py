@@ -50,7 +50,7 @@ class Frame(Struct, frozen=True):
 WORLD = Frame()
 
 
-class Found(Struct, frozen=True):
+class PlacedPrim(Struct, frozen=True):
     """A geometric prim, or why what stands for one is lost. matrix: of row vectors, to the
     world."""
 
@@ -70,12 +70,12 @@ class Walk:
         self._cache = UsdGeom.XformCache(time)
         self._count = 0
 
-    def prims(self) -> Iterator[Found]:
+    def prims(self) -> Iterator[PlacedPrim]:
         """Every active, defined prim but the prototypes of point instancers; and each instance of
         these. Raises MeshFileError for more than the limit."""
         yield from self._below(Usd.PrimRange.Stage(self._stage, _WITH_INSTANCES), WORLD)
 
-    def _below(self, prims: Any, frame: Frame) -> Iterator[Found]:
+    def _below(self, prims: Any, frame: Frame) -> Iterator[PlacedPrim]:
         each = iter(prims)
         for prim in each:
             if prim.IsA(UsdGeom.PointInstancer):
@@ -83,7 +83,7 @@ class Walk:
                 yield from self._instances(prim, frame)
             else:
                 self._refuse_too_many()
-                yield self._found(prim, frame)
+                yield self._with_matrix(prim, frame)
 
     def _refuse_too_many(self) -> None:
         self._count += 1
@@ -91,21 +91,21 @@ class Walk:
             message = f"more than {limits.MAX_PLACEMENTS} prims with all instances: split the file"
             raise MeshFileError("too-large", message)
 
-    def _found(self, prim: Any, frame: Frame) -> Found:
+    def _with_matrix(self, prim: Any, frame: Frame) -> PlacedPrim:
         name = frame.name_of(prim)
         if frame.root is None:
-            return Found(name, prim, frame, self._cache.GetLocalToWorldTransform(prim))
+            return PlacedPrim(name, prim, frame, self._cache.GetLocalToWorldTransform(prim))
         if prim == frame.root:
-            return Found(name, prim, frame, frame.matrix)
+            return PlacedPrim(name, prim, frame, frame.matrix)
         inner, reset = self._cache.ComputeRelativeTransform(prim, frame.root)
         if reset:
             message = f"{name}: a prototype that resets its transforms has no place"
-            return Found(name, prim, frame, None, Refusal("unsupported-feature", message))
-        return Found(name, prim, frame, inner * frame.matrix)
+            return PlacedPrim(name, prim, frame, None, Refusal("unsupported-feature", message))
+        return PlacedPrim(name, prim, frame, inner * frame.matrix)
 
-    def _instances(self, prim: Any, frame: Frame) -> Iterator[Found]:
+    def _instances(self, prim: Any, frame: Frame) -> Iterator[PlacedPrim]:
         """The point instancer, then the prims below each prototype, once for each instance."""
-        own = self._found(prim, frame)
+        own = self._with_matrix(prim, frame)
         yield own
         if own.refusal is not None:
             return
@@ -113,7 +113,7 @@ class Walk:
             placed = self._placed(prim, frame)
         except MeshFileError as error:
             reason = Refusal(error.code, f"{own.name}: point instancer: {error.message}")
-            yield Found(own.name, prim, frame, None, reason)
+            yield PlacedPrim(own.name, prim, frame, None, reason)
             return
         for index, root, matrix in placed:
             name = f"{own.name}[{index}]:{root.GetName()}"

@@ -185,19 +185,19 @@ def _place_of(
     own = Path(mesh.compiler.meshdir, Path(mesh.file).name if stripped else mesh.file)
     folders = dict.fromkeys(os.path.relpath(Path(model).parent, start) for model in models)
     uris = [os.path.normpath(folder / own) for folder in folders]
-    found: dict[str, Path] = {}
+    located: dict[str, Path] = {}
     failures: list[MeshFileError] = []
     for uri in uris:
         try:
-            found[uri] = places.of(path).locate(uri)
+            located[uri] = places.of(path).locate(uri)
         except MeshFileError as error:
             failures.append(error)
-    if len(found) > 1:
+    if len(located) > 1:
         message = f"mesh file {str(own)!r} lies beside several attached models"
         return uris[0], Refusal("bad-robot", message)
-    if not found:
+    if not located:
         return uris[0], Refusal(failures[0].code, f"{own}: {failures[0].message}")
-    return next(iter(found.items()))
+    return next(iter(located.items()))
 
 
 def _line(info: str) -> int:

@@ -13,7 +13,7 @@ from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.exemptions import Contacts
 from satcheck.scene.robot.sdf.frames import WORLD, Frame, Frames, Name, Scope
 from satcheck.scene.robot.sdf.includes import Includes, name_in, version_of
-from satcheck.scene.robot.sdf.joints import Found
+from satcheck.scene.robot.sdf.joints import JointEntry
 from satcheck.scene.robot.sdf.parts import frame_named
 from satcheck.scene.robot.sdf.values import boolean, flag, pose_of, text_of
 from satcheck.scene.robot.sdf.words import IN_INCLUDE, IN_LINK, IN_MODEL, IN_ROOT, IN_WORLD
@@ -52,7 +52,7 @@ class Given(NamedTuple):
 _OWN = Given()  # the model stands in the file itself
 
 
-class FoundLink(NamedTuple):
+class LinkEntry(NamedTuple):
     """refusal: why there is no such link; the body stands for what is not read."""
 
     element: Element
@@ -69,8 +69,8 @@ class Contents:
         self._slips = slips
         self._geometry = geometry
         self.frames = Frames()
-        self.links: dict[str, FoundLink] = {}
-        self.joints: list[Found] = []
+        self.links: dict[str, LinkEntry] = {}
+        self.joints: list[JointEntry] = []
         self.models: dict[str, Name | None] = {}
         self._first: dict[str, str] = {}  # model -> its first link
         self._readers: dict[str, Callable[[Element, Around], None]] = {
@@ -198,7 +198,7 @@ class Contents:
         contacts = Contacts(around.model or path, around.static, self_collide=True)
         reason = RefusedShape(code, f"<{element.tag}>: {what!r} is not read: {why}")
         body = Collision(None, IDENTITY, reason, element.line, element.file)
-        self.links[path] = FoundLink(element, around.scope, contacts, body)
+        self.links[path] = LinkEntry(element, around.scope, contacts, body)
 
     def _link(self, element: Element, around: Around) -> None:
         if around.scope.model == WORLD:
@@ -208,7 +208,7 @@ class Contents:
         self._declare(path, element, element.only("pose"), around.scope)
         alone = boolean(element, "self_collide", around.self_collide)
         contacts = Contacts(around.model, around.static, alone)
-        self.links[path] = FoundLink(element, around.scope, contacts)
+        self.links[path] = LinkEntry(element, around.scope, contacts)
         self._first.setdefault(around.scope.model, path)
 
     def _frame(self, element: Element, around: Around) -> None:
@@ -227,8 +227,8 @@ class Contents:
         pose = element.only("pose")
         self._declare(path, element, pose, around.scope, default=child, attached=child)
         moves = not around.static
-        found = Found(element, path, around.scope, around.version, parent, child, moves)
-        self.joints.append(found)
+        joint = JointEntry(element, path, around.scope, around.version, parent, child, moves)
+        self.joints.append(joint)
 
     def _free_path(self, element: Element, scope: Scope) -> str:
         """The path of a frame or a joint, which ends in the tag if something else has the name, as

@@ -56,14 +56,14 @@ def _groups(link: Contacts, mask: Mask, told_apart: set[Mask]) -> tuple[str, ...
 
 def _by_model(contacts: Iterable[Contacts]) -> list[Exemption]:
     links = list(contacts)
-    found = (
+    exemptions = (
         [Exemption(_STATIC, _STATIC, "SDF: both static")] if any(c.static for c in links) else []
     )
     for model in dict.fromkeys(link.model for link in links if not link.self_collide):
         group = _model_group(model)
         reason = f"SDF: links of model {model} without self_collide"
-        found.append(Exemption(group, group, reason))
-    return found
+        exemptions.append(Exemption(group, group, reason))
+    return exemptions
 
 
 def _by_masks(apart: Iterable[tuple[Mask, Mask]]) -> list[Exemption]:

@@ -29,7 +29,7 @@ _Z: Vector = (0.0, 0.0, 1.0)  # the default axis
 _JOINT_FRAME_SINCE = (1, 5)  # before, the axis was in the frame of the model
 
 
-class Found(NamedTuple):
+class JointEntry(NamedTuple):
     """A joint of the file. parent, child: frames. moves: its model is not static."""
 
     element: Element
@@ -41,7 +41,7 @@ class Found(NamedTuple):
     moves: bool
 
 
-def moves_of(joint: Found, frames: Frames, slips: Slips) -> Moves:
+def moves_of(joint: JointEntry, frames: Frames, slips: Slips) -> Moves:
     element = joint.element
     slips.note_unknown(element, IN_JOINT)
     given = element.attribute("type")
@@ -65,7 +65,7 @@ def moves_of(joint: Found, frames: Frames, slips: Slips) -> Moves:
     )
 
 
-def _axis(element: Element, joint: Found, frames: Frames) -> Vector:
+def _axis(element: Element, joint: JointEntry, frames: Frames) -> Vector:
     """In the frame of the joint, scaled to length 1."""
     axis = vector(element, "xyz", _Z)
     length = math.hypot(*axis)
@@ -79,7 +79,7 @@ def _axis(element: Element, joint: Found, frames: Frames) -> Vector:
     return x, y, z
 
 
-def _frame_of_axis(element: Element, joint: Found, frames: Frames) -> str | None:
+def _frame_of_axis(element: Element, joint: JointEntry, frames: Frames) -> str | None:
     """The frame that states the axis; None: that of the joint."""
     xyz = element.only("xyz")
     text = xyz.attributes.get("expressed_in") if xyz else None
@@ -115,7 +115,7 @@ def _bound(limit: Element, tag: str, default: float) -> float:
     return child.text_numbers(1)[0]
 
 
-def _mimic(axis: Element, joint: Found, frames: Frames) -> Mimic | None:
+def _mimic(axis: Element, joint: JointEntry, frames: Frames) -> Mimic | None:
     """value = multiplier * (value of the leader - reference) + offset"""
     element = axis.only("mimic")
     if element is None:

@@ -17,11 +17,11 @@ from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_forest import Edge, trees_of
 from satcheck.scene.robot.joint_tree import check_mimics
 from satcheck.scene.robot.model import Exemption, Link, Robot
-from satcheck.scene.robot.sdf.contents import Contents, FoundLink
+from satcheck.scene.robot.sdf.contents import Contents, LinkEntry
 from satcheck.scene.robot.sdf.exemptions import exempt
 from satcheck.scene.robot.sdf.frames import WORLD
 from satcheck.scene.robot.sdf.includes import Includes
-from satcheck.scene.robot.sdf.joints import Found, moves_of
+from satcheck.scene.robot.sdf.joints import JointEntry, moves_of
 from satcheck.scene.robot.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
@@ -43,17 +43,17 @@ def read_sdf(
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
     edges = [edge for joint in contents.joints if (edge := _edge(joint, contents, slips))]
     parts = {path: _parts(path, contents, slips, geometry) for path in contents.links}
-    contacts = {path: found.contacts for path, found in contents.links.items()}
+    contacts = {path: link.contacts for path, link in contents.links.items()}
     collisions, exempted = exempt(contacts, parts, _joined(edges, contents))
     links = {
         path: Link(
             name=path,
             collisions=collisions[path],
-            unused=bool(found.element.all(others)),
-            static=found.contacts.static,
+            unused=bool(link.element.all(others)),
+            static=link.contacts.static,
             rest=poses[path],
         )
-        for path, found in contents.links.items()
+        for path, link in contents.links.items()
     }
     still = frozenset((WORLD, *(path for path, link in links.items() if link.static)))
     elements = {joint.path: joint.element for joint in contents.joints}
@@ -69,13 +69,13 @@ def read_sdf(
 
 
 def _parts(path: str, contents: Contents, slips: Slips, geometry: GeometryKind) -> list[Part]:
-    found: FoundLink = contents.links[path]
-    if found.refusal is not None:
-        return [Part(found.refusal, ANY)]
-    return parts_in(found.element, path, found.scope, contents.frames, slips, geometry)
+    link: LinkEntry = contents.links[path]
+    if link.refusal is not None:
+        return [Part(link.refusal, ANY)]
+    return parts_in(link.element, path, link.scope, contents.frames, slips, geometry)
 
 
-def _edge(joint: Found, contents: Contents, slips: Slips) -> Edge | None:
+def _edge(joint: JointEntry, contents: Contents, slips: Slips) -> Edge | None:
     """None: the joint moves nothing, and a warning says so."""
     frames = contents.frames
     if frames.opaque and not all(map(frames.knows, (joint.parent, joint.child))):
@@ -104,7 +104,7 @@ def _joined(edges: list[Edge], contents: Contents) -> Iterator[Exemption]:
 def _starts(contents: Contents) -> Iterator[str]:
     """The world, the canonical link of each outermost model, then all links."""
     yield WORLD
-    for model in dict.fromkeys(found.contacts.model for found in contents.links.values()):
+    for model in dict.fromkeys(link.contacts.model for link in contents.links.values()):
         yield contents.body(model)
     yield from contents.links
 
