@@ -112,6 +112,23 @@ def test_a_block_in_the_notch_of_an_angle() -> None:
     assert seen == {OPEN, APART, DEEP}
 
 
+def test_closed_bodies_that_cross_are_deep_by_a_point_beside_the_crossing() -> None:
+    """Thin combs: no ball inside is large, and their hulls mostly meet outside of both."""
+    thin = tuple(0.02 * c if k == 10 else c for k, c in enumerate(STILL))
+    comb = COMB.transformed(thin)
+    body, draw = body_of(comb), random.Random(6)
+    tolerance, seen = 1e-6, []
+    for _ in range(300):
+        at, other = turned(draw, 1.0, 0.0), turned(draw, 1.0, 0.0)
+        matrices = np.array([[at[:12], other[:12]]])
+        pairs = [(0, 1, tolerance, 0.5 * tolerance, math.inf)]
+        code = int(core.sift([body, body], pairs, matrices, 1)[0, 0])
+        relation = core.mesh_relation(in_world(comb, at), in_world(comb, other)).relation
+        assert code == (DEEP if relation in OVERLAPS else APART)
+        seen.append(code)
+    assert seen.count(DEEP) > 40
+
+
 def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
     tenth = tuple(0.1 * c if k % 5 == 0 and k < 12 else c for k, c in enumerate(STILL))
     in_wall, in_cavity = moved_by(tenth, 2.0, 2.0, 0.45), moved_by(tenth, 2.0, 2.0, 2.0)

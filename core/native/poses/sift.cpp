@@ -23,6 +23,8 @@ constexpr double kPosedRounding = 64 * kUnitRoundoff;
 // of a pair starts anew with each block, so that threads do not change the result.
 constexpr std::size_t kBlock = 64;
 constexpr int kMostSteps = 32;
+// So many points are tried on the way inward from a crossing of two triangles, each four times nearer.
+constexpr int kMostSharesInward = 5;
 
 // A body in the pose at hand.
 struct Place {
@@ -147,11 +149,16 @@ class PoseSifter {
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     if (!a.has_mesh() || !b.has_mesh()) return Sifted::open;
-    const Meeting meeting = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
+    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
     if (meeting == Meeting::apart) return Sifted::apart;
     if (meeting == Meeting::crossing) return Sifted::deep;
-    const bool deep = search.common && is_deep(place_a, place_b, a, b, *search.common, depth);
-    return deep ? Sifted::deep : Sifted::open;
+    const auto deep_at = [&](Vec3 point) { return is_deep(place_a, place_b, a, b, point, depth); };
+    if (search.common && deep_at(*search.common)) return Sifted::deep;
+    double share = 1;
+    for (int step = 0; segment && step < kMostSharesInward; ++step, share *= 0.25) {
+      if (deep_at(segment->middle + segment->inward * share)) return Sifted::deep;
+    }
+    return Sifted::open;
   }
 
   const std::vector<Ball>& inner(PosedBody& body, Place& place) {
