@@ -44,6 +44,10 @@ struct Relative {
   Vec3 operator*(Vec3 p) const { return linear * p + offset; }
 };
 
+CommonSegment in_world(const PosedPlace& at, const CommonSegment& segment) {
+  return {at.linear * segment.middle + at.offset, at.linear * segment.inward};
+}
+
 Relative relative_place(const PosedPlace& at_a, Vec3 largest_a, const PosedPlace& at_b, Vec3 largest_b) {
   const Mat3 inverse = inverse_of(at_a.linear);
   Relative place{product(inverse, at_b.linear), inverse * (at_b.offset - at_a.offset)};
@@ -252,16 +256,40 @@ class Walk {
   std::optional<CommonSegment> common_;
 };
 
-// Whether a part of the inner body lies in the material of the outer one, or may lie in the fill of a hole. place: of
-// the inner one.
-bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
-  const Surface& walls = inner.walls();
-  return std::any_of(walls.parts.begin(), walls.parts.end(), [&](std::uint32_t t) {
-    return outer.may_hold(place * walls.mesh.vertices[walls.mesh.triangles[t][0]]);
+// Whether holds(vertex) of a vertex of any part of the surface, which the placement takes into the frame of another body.
+template <class Holds>
+bool any_part(const Surface& surface, const Relative& place, Holds holds) {
+  return std::any_of(surface.parts.begin(), surface.parts.end(), [&](std::uint32_t t) {
+    return holds(place * surface.mesh.vertices[surface.mesh.triangles[t][0]]);
   });
 }
 
+// Whether a part of the inner body lies in the material of the outer one, or may lie in the fill of a hole. place: of
+// the inner one.
+bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
+  return any_part(inner.walls(), place, [&](Vec3 p) { return outer.may_hold(p); });
+}
+
+// The same without the fills of holes.
+bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
+  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p); });
+}
+
+Vec3 largest_of(const Surface& surface) {
+  const Aabb& box = surface.bvh.nodes[0].box;
+  const Vec3 low = absolute(box.min), high = absolute(box.max);
+  return {larger(low.x, high.x), larger(low.y, high.y), larger(low.z, high.z)};
+}
+
 }  // namespace
+
+std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b) {
+  if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {};
+  const Relative b_in_a = relative_place(at_a, largest_of(a), at_b, largest_of(b));
+  Walk walk(a, b, b_in_a, 0, INFINITY, kMostUnclear);
+  walk.run();
+  return walk.common() ? std::optional(in_world(at_a, *walk.common())) : std::nullopt;
+}
 
 SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap,
                           double depth) {
@@ -274,13 +302,14 @@ SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, co
   const double least_gap = gap * to_frame + rounding, least_depth = depth * to_frame + rounding;
   Walk walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth, kMostUnclear);
   const Meeting meeting = walk.run();
-  if (const auto& common = walk.common(); meeting == Meeting::unclear && common) {
-    return {meeting, CommonSegment{at_a.linear * common->middle + at_a.offset, at_a.linear * common->inward}};
-  }
+  if (meeting == Meeting::unclear && walk.common()) return {meeting, in_world(at_a, *walk.common())};
   if (meeting != Meeting::apart) return {meeting, {}};
   const bool closed = a.surface().solid && b.surface().solid;
-  if (!closed && Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() != Meeting::apart) return {};
-  return {may_reach_into(a, b, b_in_a) || may_reach_into(b, a, a_in_b) ? Meeting::unclear : Meeting::apart, {}};
+  const bool walls_apart =
+      closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() == Meeting::apart;
+  if (walls_apart && !may_reach_into(a, b, b_in_a) && !may_reach_into(b, a, a_in_b)) return {Meeting::apart, {}};
+  const bool by_fill = !closed && !reaches_into(a, b, b_in_a) && !reaches_into(b, a, a_in_b);
+  return {by_fill ? Meeting::by_fill : Meeting::unclear, {}};
 }
 
 }  // namespace satcheck
