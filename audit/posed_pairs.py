@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from satcheck.scene import Body, Scene
 
 # How the core sorts a pair.
-OPEN, APART, DEEP = 0, 1, 2
+OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
@@ -103,10 +103,10 @@ class PosedPairs:
         margins: Numbers | None = None,
         tolerances: Sequence[float] | None = None,
     ) -> Codes:
-        """Shape (poses, pairs): OPEN, APART or DEEP. matrices: those of `PoseBatch`. margins: of
-        the same shape; pairs are APART only if they are farther apart by this much, and those with
-        NaN stay OPEN. tolerances: those of the pairs, on a path of joints; then only they count,
-        and no clearances."""
+        """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: those of `PoseBatch`.
+        margins: of the same shape; pairs are APART only if they are farther apart by this much, and
+        those with NaN stay OPEN. tolerances: those of the pairs, on a path of joints; then only
+        they count, and no clearances."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for k, (pair, (a, b)) in enumerate(zip(self.pairs, self._places, strict=True)):

@@ -113,6 +113,10 @@ class PairTally(Struct):
         if self.first_overlap is None:
             self.first_overlap = number
 
+    def count_undecided(self) -> None:
+        """A sample after `first_undecided`."""
+        self.undecided += 1
+
     def stated(self) -> SampledPair:
         counts = (self.overlaps, self.touches, self.near, self.undecided)
         return SampledPair(self.a, self.b, *counts, self.first_overlap)

@@ -1,14 +1,15 @@
 """The check of robots in many poses.
 
 The core first sorts the pairs of all poses (`posed_pairs.py`). A pair that is plainly apart needs
-nothing else, and a deep overlap counts without figures, unless the report lists its pose. All other
-pairs climb the ladder as in a check of one pose.
+nothing else. A deep overlap counts without figures, and a pair that the fill of a hole decides
+counts as undecided, unless the report lists its pose. All other pairs climb the ladder as in a
+check of one pose.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,7 @@ from satcheck.audit.check import DEFAULT_SETTINGS, check, volume_meter
 from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.doubtful_sizes import size_of
 from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPair, PosedPairs, same_way
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPair, PosedPairs, same_way
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import FailOn, Settings
 from satcheck.audit.sampled import (
@@ -201,18 +202,22 @@ def _is_plain(finding: Finding) -> bool:
 
 class _Row(Struct):
     """One pose with pairs that are not plainly apart, by their numbers. climbs: those that climb
-    the ladder; deep: those that overlap deeply, and whose findings nobody reads; by_pair: the
-    findings of those that have climbed. alone: the pose needs a check of its own."""
+    the ladder; deep, undecided: those that overlap deeply, and those that the fill of a hole
+    decides, whose findings nobody reads; by_pair: the findings of those that have climbed. alone: the
+    pose needs a check of its own."""
 
     row: int
     climbs: list[int]
     deep: list[int]
+    undecided: list[int]
     by_pair: dict[int, Finding] = {}
     alone: bool = False
 
     @property
     def is_noted(self) -> bool:
-        return bool(self.deep or self.alone) or not all(map(_is_plain, self.by_pair.values()))
+        return bool(self.deep or self.undecided or self.alone) or not all(
+            map(_is_plain, self.by_pair.values())
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         return tuple(f for _, f in sorted(self.by_pair.items()) if not _is_plain(f))
@@ -237,11 +242,12 @@ class _SortedBatch:
         results = self._results
         met = np.flatnonzero((self._sorted != APART).any(axis=1)).tolist()
         rows = {row: self._row(row) for row in met}
+        self._explain_first(rows)
         self._climb(rows.values())
         noted = [row for row in rows.values() if row.is_noted]
         listed = noted if results.lists_all else noted[: results.room]
         for row in listed:
-            row.climbs, row.deep = row.deep, []
+            row.climbs, row.deep, row.undecided = row.deep + row.undecided, [], []
         self._climb(listed)
         is_listed = {row.row for row in listed}
         if results.lists_all:
@@ -249,7 +255,7 @@ class _SortedBatch:
         else:
             results.by_verdict["pass"] += self._batch.count - len(noted)
         for number in sorted(is_listed.union(row.row for row in noted)):
-            row = rows.get(number) or _Row(number, [], [])
+            row = rows.get(number) or _Row(number, [], [], [])
             if row.alone:
                 results.add(self._checks.sample(self._batch, number))
             elif number in is_listed:
@@ -259,8 +265,20 @@ class _SortedBatch:
 
     def _row(self, row: int) -> _Row:
         codes = self._sorted[row]
-        climbs, deep = (np.flatnonzero(codes == code).tolist() for code in (OPEN, DEEP))
-        return _Row(row, climbs, deep)
+        climbs, deep, undecided = (
+            np.flatnonzero(codes == code).tolist() for code in (OPEN, DEEP, UNDECIDED)
+        )
+        return _Row(row, climbs, deep, undecided)
+
+    @staticmethod
+    def _explain_first(rows: Mapping[int, _Row]) -> None:
+        """Lets each undecided pair climb once, in the first of these poses, for its reason."""
+        explained: set[int] = set()
+        for row in rows.values():
+            first = set(row.undecided) - explained
+            explained |= first
+            row.climbs += sorted(first)
+            row.undecided = [k for k in row.undecided if k not in first]
 
     def _climb(self, rows: Iterable[_Row]) -> None:
         """Makes the findings of the pairs that climb."""
@@ -287,23 +305,27 @@ class _SortedBatch:
     def _sample(self, row: _Row) -> Sample:
         posture = self._batch.posture(self._checks.scene, row.row)
         findings = row.findings()
-        verdict = self._verdict(findings, row.deep)
+        verdict = self._verdict(row)
         number = self._batch.first + row.row
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
         return Sample(number, posture, verdict, findings, issues)
 
     def _count_unlisted(self, row: _Row) -> None:
         number, findings = self._batch.first + row.row, row.findings()
-        self._results.count(number, self._verdict(findings, row.deep), findings)
+        self._results.count(number, self._verdict(row), findings)
         for k in row.deep:
             a, b = self._pairs.names[k]
             fails = self._pairs.deep_fails(k)
             self._results.tally(a, b).count_overlap(number, fails=fails)
+        for k in row.undecided:
+            self._results.tally(*self._pairs.names[k]).count_undecided()
 
-    def _verdict(self, findings: Sequence[Finding], deep: Sequence[int]) -> Verdict:
+    def _verdict(self, row: _Row) -> Verdict:
         """As a report of this pose has it."""
-        if any(map(self._pairs.deep_fails, deep)):
+        if any(map(self._pairs.deep_fails, row.deep)):
             return "fail"
+        findings = row.findings()
         if any(fails(finding, self._results.fail_on) for finding in findings):
             return "fail"
-        return "incomplete" if any(f.undecided is not None for f in findings) else "pass"
+        undecided = row.undecided or any(f.undecided is not None for f in findings)
+        return "incomplete" if undecided else "pass"

@@ -21,7 +21,7 @@ from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
-from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPairs
+from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 from satcheck.audit.request.planner import ALWAYS, Request
 from satcheck.audit.request.trace import Trace
 from satcheck.report.report import Effect, Finding
@@ -146,7 +146,7 @@ class Search:
         for row, k in np.argwhere(active & (codes == DEEP)).tolist():
             found[k].hit = min(found[k].hit, float(middles[row]))
         unknown = active & (codes != APART)
-        later = active & (codes == OPEN)
+        later = unknown & (codes != DEEP)
         for row, k in np.argwhere(later & (margins <= NEAR * self._sizes)).tolist():
             if middles[row] >= found[k].hit or found[k].climbs >= self._climbs:
                 continue

@@ -13,7 +13,7 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.audit import samples as many
 from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.posed_pairs import APART, DEEP, OPEN, PosedPairs
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.samples import check_poses
 from satcheck.report.report import OVERLAPS, Finding, without_timings
@@ -58,6 +58,15 @@ def meshes(folder: Path, scale: str = "0.5 0.5 0.5") -> list[str]:
     for name in MESHES:
         (folder / name).write_bytes((SAMPLES / name).read_bytes())
     return [f'<mesh filename="{name}" scale="{scale}"/>' for name in MESHES]
+
+
+def open_cups(folder: Path) -> list[str]:
+    """Cubes without the faces at a corner, and small boxes for them."""
+    corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    faces = ("1243", "1562", "1375")  # seen from outside
+    text = [*(f"v {x} {y} {z}" for x, y, z in corners), *(f"f {' '.join(f)}" for f in faces)]
+    (folder / "cup.obj").write_text("\n".join(text) + "\n")
+    return ['<mesh filename="cup.obj"/>'] * 2 + ['<box size="0.2 0.3 0.2"/>'] * 3
 
 
 def plain(finding: Finding) -> dict[str, Any]:
@@ -120,7 +129,7 @@ def test_flags(tmp_path: Path) -> None:
 
 def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
     """What a report does not list is counted by these codes alone."""
-    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES])
+    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES, *open_cups(tmp_path)])
     bodies = place(scene, QUICK)
     pairs = PosedPairs(scene, bodies, Planner(QUICK, bodies.book, scene.composed))
     poses = RandomPoses([robot.robot for robot in scene.robots], 25, 7)
@@ -137,7 +146,9 @@ def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
                     assert relation == "separated"
                 if code == DEEP:
                     assert relation in OVERLAPS
-    assert seen == {OPEN, APART, DEEP}
+                if code == UNDECIDED:
+                    assert relation == "indeterminate"
+    assert seen == {OPEN, APART, DEEP, UNDECIDED}
 
 
 def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
@@ -165,7 +176,7 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
 def test_a_report_of_many_poses_counts_all_and_lists_the_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES[:2]])
+    scene = spider(tmp_path, [*meshes(tmp_path)[:3], *SHAPES[:2], *open_cups(tmp_path)])
     poses = RandomPoses([robot.robot for robot in scene.robots], 60, 3)
     whole = check_poses(scene, poses, QUICK)
     monkeypatch.setattr("satcheck.audit.sampled.LISTED_NOTED", 5)
@@ -181,6 +192,7 @@ def test_a_report_of_many_poses_counts_all_and_lists_the_first(
     ]
     assert short.by_verdict == whole.by_verdict
     assert short.pairs == whole.pairs
+    assert any(pair.undecided > 1 for pair in short.pairs)
     left_out = short.report().truncated
     assert left_out is not None
     assert left_out.samples == 55

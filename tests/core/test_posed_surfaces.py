@@ -12,7 +12,7 @@ from satcheck import core
 from satcheck.core.transform import Transform, about_fixed_axes, placed
 from tests.core.voxel_solids import VoxelSolid, box
 
-OPEN, APART, DEEP = 0, 1, 2
+OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 OVERLAPS = {"penetrating", "contains", "inside", "coincident"}
 STILL = placed((1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0), (0.0, 0.0, 0.0))
 
@@ -29,6 +29,11 @@ COMB = solid(box((0, 0, 0), (7, 1, 1)), *(box((i, 0, 0), (i + 1, 3, 1)) for i in
 PLATE = solid(box((0, 0, 0), (3, 3, 1)), without=box((1, 1, 0), (2, 2, 1)))
 HOLLOW = solid(box((0, 0, 0), (5, 5, 5)), without=box((1, 1, 1), (4, 4, 4)))
 ORIGIN = np.flatnonzero((np.asarray(CUBE.vertices) == 0).all(axis=1)).item()
+# The cube without the faces at a corner.
+CUP = core.Mesh(
+    np.asarray(CUBE.vertices),
+    np.asarray(CUBE.triangles)[(np.asarray(CUBE.triangles) != ORIGIN).all(axis=1)],
+)
 BODIES = (CUBE, L_SHAPE, STAIRS, COMB, PLATE, HOLLOW)
 
 
@@ -71,7 +76,7 @@ def turned(draw: random.Random, size: float, far: float) -> Transform:
 @pytest.mark.parametrize(("size", "far"), [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 1e6)])
 def test_random_poses_agree_with_the_exact_relation(opening: bool, size: float, far: float) -> None:
     draw = random.Random(repr((opening, size, far)))
-    seen: dict[int, int] = dict.fromkeys((OPEN, APART, DEEP), 0)
+    seen: dict[int, int] = dict.fromkeys((OPEN, APART, DEEP, UNDECIDED), 0)
     for _ in range(400):
         a, b = draw.choice(BODIES), draw.choice(BODIES)
         at_a, at_b = turned(draw, size, far), turned(draw, size, far)
@@ -112,6 +117,23 @@ def test_a_block_in_the_notch_of_an_angle() -> None:
     assert seen == {OPEN, APART, DEEP}
 
 
+def test_closed_bodies_that_cross_are_deep_by_a_point_beside_the_crossing() -> None:
+    """Thin combs: no ball inside is large, and their hulls mostly meet outside of both."""
+    thin = tuple(0.02 * c if k == 10 else c for k, c in enumerate(STILL))
+    comb = COMB.transformed(thin)
+    body, draw = body_of(comb), random.Random(6)
+    tolerance, seen = 1e-6, []
+    for _ in range(300):
+        at, other = turned(draw, 1.0, 0.0), turned(draw, 1.0, 0.0)
+        matrices = np.array([[at[:12], other[:12]]])
+        pairs = [(0, 1, tolerance, 0.5 * tolerance, math.inf)]
+        code = int(core.sift([body, body], pairs, matrices, 1)[0, 0])
+        relation = core.mesh_relation(in_world(comb, at), in_world(comb, other)).relation
+        assert code == (DEEP if relation in OVERLAPS else APART)
+        seen.append(code)
+    assert seen.count(DEEP) > 40
+
+
 def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
     tenth = tuple(0.1 * c if k % 5 == 0 and k < 12 else c for k, c in enumerate(STILL))
     in_wall, in_cavity = moved_by(tenth, 2.0, 2.0, 0.45), moved_by(tenth, 2.0, 2.0, 2.0)
@@ -124,15 +146,56 @@ def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
 
 
 def test_holes_may_be_filled() -> None:
-    """A cube without the faces at a corner: a body in the hull of the rim is undecided, and beyond
-    the rim it is in the material."""
-    triangles = np.asarray(CUBE.triangles)
-    open_cube = core.Mesh(np.asarray(CUBE.vertices), triangles[(triangles != ORIGIN).all(axis=1)])
+    """A body in the hull of the rim of the cup is undecided, and beyond the rim it is in the
+    material."""
     tenth = tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL))
-    for at, code in ((0.45, OPEN), (0.85, OPEN), (0.1, APART)):
+    for at, code in ((0.45, UNDECIDED), (0.85, OPEN), (0.1, APART)):
         there = moved_by(tenth, at, at, at)
-        assert sort(open_cube, STILL, CUBE, there, 0.0, 0.0) == code
-        assert sort(CUBE, there, open_cube, STILL, 0.0, 0.0) == code
+        assert sort(CUP, STILL, CUBE, there, 0.0, 0.0) == code
+        assert sort(CUBE, there, CUP, STILL, 0.0, 0.0) == code
+
+
+def beside(at: Transform, point: tuple[float, float, float], linear: Transform) -> Transform:
+    """A placement that takes the origin to where `at` takes the point."""
+    x, y, z = (
+        sum(at[4 * row + k] * point[k] for k in range(3)) + at[4 * row + 3] for row in range(3)
+    )
+    step = {3: x, 7: y, 11: z}
+    return tuple(step.get(k, c) for k, c in enumerate(linear))
+
+
+@pytest.mark.parametrize(("size", "far"), [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 1e6)])
+def test_what_the_fill_of_a_hole_decides_is_so_in_the_world(size: float, far: float) -> None:
+    """Small bodies within the hulls of cups, and at their edges."""
+    draw, seen = random.Random(repr((size, far))), []
+    for _ in range(300):
+        b = draw.choice((*BODIES, CUP, opened(COMB)))
+        at_a, turn = turned(draw, size, far), turned(draw, 0.1 * size, 0.0)
+        x, y, z = (draw.uniform(-0.2, 1) for _ in range(3))
+        pair = [(CUP, at_a), (b, beside(at_a, (x, y, z), turn))]
+        draw.shuffle(pair)
+        (a, at_a), (b, at_b) = pair
+        code = sort(a, at_a, b, at_b, draw.choice((0.0, 1e-6)) * size, math.inf)
+        hole = core.mesh_relation(in_world(a, at_a), in_world(b, at_b)).hole
+        seen.append((code, hole is not None))
+    assert (UNDECIDED, False) not in seen
+    assert seen.count((UNDECIDED, True)) > 40
+    assert seen.count((OPEN, True)) < 0.1 * seen.count((UNDECIDED, True))
+
+
+def test_a_hole_that_rounding_closes_decides_nothing() -> None:
+    """A cube in two pieces, 1e-12 apart. Far from the origin rounding joins them."""
+    corners, triangles = np.asarray(CUBE.vertices), np.asarray(CUBE.triangles)
+    of_lid = (triangles == ORIGIN).any(axis=1)
+    vertices = np.vstack((corners, corners + 1e-12))
+    split = core.Mesh(vertices, np.where(of_lid[:, None], triangles + len(corners), triangles))
+    tenth = tuple(0.1 * c if k in (0, 5, 10) else c for k, c in enumerate(STILL))
+    for far, code in ((0.0, UNDECIDED), (1e6, OPEN)):
+        at = moved_by(STILL, far, far, far)
+        there = beside(at, (0.45, 0.45, 0.45), tenth)
+        assert sort(split, at, CUBE, there, 0.0, math.inf) == code
+        hole = core.mesh_relation(in_world(split, at), in_world(CUBE, there)).hole
+        assert (hole is not None) == (code == UNDECIDED)
 
 
 def test_what_no_fill_meets_is_apart_and_what_crosses_is_deep() -> None:

@@ -75,7 +75,7 @@ PosedBody(corners, margin, inner) for any other: it lies in the hull of the corn
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
         R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
 gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;
-0: neither is proven.
+3: the fill of a hole decides whether they overlap; 0: none of this is proven.
 
 pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
 upper three rows of each placement. margins: float64 of shape (poses, pairs), added to the gap limits; NaN: the pair is

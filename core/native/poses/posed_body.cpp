@@ -6,54 +6,9 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "mesh/closing.hpp"
-#include "mesh/nearest_point.hpp"
 
 namespace satcheck {
 namespace {
-
-// Centres of inner balls are tried on a grid with this many cells along the longest side of the body.
-constexpr int kCells = 12;
-constexpr std::size_t kMostBalls = 48;
-// A centre that lies within this share of the radius of a larger ball adds little to that ball.
-constexpr double kCovered = 0.5;
-// The smallest useful ball, as a share of the longest side.
-constexpr double kSmallest = 1.0 / 64;
-
-std::vector<Ball> candidates(const Surface& surface, const Aabb& box) {
-  const Vec3 size = box.max - box.min;
-  const double longest = max_abs(size), step = longest / kCells;
-  const double rounding = chain_rounding(std::max(max_abs(box.min), max_abs(box.max)));
-  const auto cells = [&](double side) { return std::max(1, static_cast<int>(std::ceil(side / step))); };
-  const int nx = cells(size.x), ny = cells(size.y), nz = cells(size.z);
-  std::vector<Ball> balls;
-  for (int i = 0; i < nx; ++i) {
-    for (int j = 0; j < ny; ++j) {
-      for (int k = 0; k < nz; ++k) {
-        const Vec3 p = box.min + Vec3{(i + 0.5) * size.x / nx, (j + 0.5) * size.y / ny, (k + 0.5) * size.z / nz};
-        const double radius = nearest_point(surface, p).distance - rounding;
-        if (radius > kSmallest * longest) balls.push_back({p, radius});
-      }
-    }
-  }
-  std::sort(balls.begin(), balls.end(), [](const Ball& p, const Ball& q) {
-    return p.radius != q.radius ? p.radius > q.radius : coordinates_less(p.centre, q.centre);
-  });
-  return balls;
-}
-
-std::vector<Ball> balls_inside(Geometry& geometry) {
-  if (!geometry.solid()) return {};
-  const auto surface = geometry.surface();
-  std::vector<Ball> chosen;
-  for (const Ball& ball : candidates(*surface, geometry.bounds())) {
-    const auto covers = [&](const Ball& other) { return norm(ball.centre - other.centre) < kCovered * other.radius; };
-    if (std::any_of(chosen.begin(), chosen.end(), covers)) continue;
-    if (winding_number(*surface, ball.centre).value_or(0) == 0) continue;
-    chosen.push_back(ball);
-    if (chosen.size() == kMostBalls) break;
-  }
-  return chosen;
-}
 
 // By the circles of Gershgorin around the eigenvalues of M^T M, tight for a rotation and a scale.
 Stretch stretch_of(const Mat3& m) {
@@ -67,6 +22,18 @@ Stretch stretch_of(const Mat3& m) {
   const double least = std::min({xx - xy - xz, yy - xy - yz, zz - xz - yz}) - rounding;
   const double most = std::max({xx + xy + xz, yy + xy + yz, zz + xz + yz}) + rounding;
   return {std::sqrt(std::max(least, 0.0)), std::sqrt(most)};
+}
+
+// A lower bound of the distance of any two of the points: of their largest difference in a coordinate.
+double least_distance(std::vector<Vec3> points) {
+  std::sort(points.begin(), points.end(), coordinates_less);
+  double least = INFINITY;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size() && points[j].x - points[i].x < least; ++j) {
+      least = std::min(least, max_abs(points[j] - points[i]));
+    }
+  }
+  return least;
 }
 
 }  // namespace
@@ -114,16 +81,21 @@ bool PosedBody::may_hold(Vec3 point) {
 }
 
 const std::vector<Ball>& PosedBody::inner() {
-  if (geometry_) std::call_once(has_inner_, [&] { inner_ = balls_inside(*geometry_); });
+  if (geometry_ && geometry_->solid()) std::call_once(has_inner_, [&] { inner_ = balls_inside(surface()); });
   return inner_;
 }
 
-std::optional<Ball> PosedBody::ball_about(Vec3 point) const {
-  if (!geometry_ || !geometry_->solid()) return {};
-  const auto surface = geometry_->surface();
-  const double radius = nearest_point(*surface, point).distance - chain_rounding(max_abs(largest_));
-  if (!(radius > 0) || winding_number(*surface, point).value_or(0) == 0) return {};
-  return Ball{point, radius};
+const FilledHoles& PosedBody::filled() {
+  std::call_once(has_filled_, [&] {
+    filled_ = {closing_of(surface(), OpenParts::filled), least_distance(surface().mesh.vertices)};
+  });
+  return filled_;
+}
+
+bool PosedBody::encloses(Vec3 point) {
+  const Surface& own = surface();
+  if (own.solid) return winding_number(own, point).value_or(1) != 0;
+  return winding_number(*closing_of(own, OpenParts::sheets)->surface, point).value_or(1) != 0;
 }
 
 PosedPlace place_at(const PosedBody& body, const double* m) {
@@ -141,6 +113,22 @@ PosedPlace place_at(const PosedBody& body, const double* m) {
   if (!(at.reach <= kLargestCoordinate) || at.stretch.least == 0) at.reach = INFINITY;
   at.around = {at.linear * body.around().centre + at.offset, at.stretch.most * body.around().radius};
   return at;
+}
+
+Ball in_world(const PosedPlace& at, const Ball& ball) {
+  return {at.linear * ball.centre + at.offset, at.stretch.least * ball.radius};
+}
+
+std::vector<Ball> in_world(const PosedPlace& at, const std::vector<Ball>& balls) {
+  std::vector<Ball> placed;
+  for (const Ball& ball : balls) placed.push_back(in_world(at, ball));
+  return placed;
+}
+
+Vec3 in_file(const PosedPlace& at, Vec3 p) {
+  const Vec3 *row = at.linear.row, from = p - at.offset;
+  const Vec3 x = cross(row[1], row[2]), y = cross(row[2], row[0]), z = cross(row[0], row[1]);
+  return (x * from.x + y * from.y + z * from.z) * (1 / dot(row[0], x));
 }
 
 }  // namespace satcheck

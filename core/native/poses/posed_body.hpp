@@ -9,18 +9,20 @@
 
 #include "convex/support_scan.hpp"
 #include "ladder/geometry.hpp"
+#include "poses/inner_balls.hpp"
 
 namespace satcheck {
-
-struct Ball {
-  Vec3 centre;
-  double radius = 0;
-};
 
 // How an affine placement changes lengths: by a factor between the two, rounding included. least is 0 if nothing is
 // known.
 struct Stretch {
   double least = 0, most = 0;
+};
+
+// An open surface with its holes filled. closing: null for other surfaces. distance: of any two vertices, a lower bound.
+struct FilledHoles {
+  std::shared_ptr<const Closing> closing;
+  double distance = 0;
 };
 
 class PosedBody {
@@ -41,10 +43,12 @@ class PosedBody {
   const Surface& walls();
   // Whether a point on none of the walls is in the material, or may be in the fill of a hole.
   bool may_hold(Vec3 point);
+  // Whether a point that is not on the surface is in the material without any fill.
+  bool encloses(Vec3 point);
+  // Of an open surface. Made by the first call.
+  const FilledHoles& filled();
   // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
   const std::vector<Ball>& inner();
-  // The largest ball in the material of a solid mesh about a point in it; empty for other bodies and points.
-  std::optional<Ball> ball_about(Vec3 point) const;
 
  private:
   void enclose(const std::vector<Vec3>& corners);
@@ -54,10 +58,11 @@ class PosedBody {
   double margin_ = 0;
   Ball around_;
   Vec3 largest_;
-  std::once_flag has_surface_, has_walls_, has_inner_;
+  std::once_flag has_surface_, has_walls_, has_inner_, has_filled_;
   std::shared_ptr<Surface> surface_;
   std::shared_ptr<const Surface> walls_;
   std::vector<Ball> inner_;
+  FilledHoles filled_;
 };
 
 // A body in one pose.
@@ -71,5 +76,12 @@ struct PosedPlace {
 
 // matrix: 12 numbers, three rows of four.
 PosedPlace place_at(const PosedBody& body, const double* matrix);
+
+// Balls within those that the placement makes of them.
+Ball in_world(const PosedPlace& at, const Ball& ball);
+std::vector<Ball> in_world(const PosedPlace& at, const std::vector<Ball>& balls);
+
+// The point that the placement takes near `p`.
+Vec3 in_file(const PosedPlace& at, Vec3 p);
 
 }  // namespace satcheck

@@ -16,8 +16,8 @@ namespace {
 constexpr double kFrameRounding = 64 * kUnitRoundoff;
 // An entry of a product of 3x3 matrices, compared with another matrix: 6 roundings of its terms, rounded up.
 constexpr double kProductRounding = 8 * kUnitRoundoff;
-// After so many pairs of triangles that prove nothing, the walk for a crossing ends.
-constexpr int kMostUnclear = 64;
+// After so many pairs of triangles that prove nothing, the walk ends: for a crossing, and for a proof that bodies are apart.
+constexpr int kMostUnclear = 64, kNoneUnclear = 1;
 
 Mat3 inverse_of(const Mat3& m) {
   const Vec3 x = cross(m.row[1], m.row[2]), y = cross(m.row[2], m.row[0]), z = cross(m.row[0], m.row[1]);
@@ -43,6 +43,10 @@ struct Relative {
 
   Vec3 operator*(Vec3 p) const { return linear * p + offset; }
 };
+
+CommonSegment in_world(const PosedPlace& at, const CommonSegment& segment) {
+  return {at.linear * segment.middle + at.offset, at.linear * segment.inward};
+}
 
 Relative relative_place(const PosedPlace& at_a, Vec3 largest_a, const PosedPlace& at_b, Vec3 largest_b) {
   const Mat3 inverse = inverse_of(at_a.linear);
@@ -91,15 +95,21 @@ bool are_apart(const Corners& a, const Corners& b, double gap) {
   return false;
 }
 
-// A lower bound of the length of a translation after which the segment no longer crosses the triangle. Its ends are
-// above and below the plane, and it meets the plane at a point whose distance to the edges a translation can change by
-// its length over the sine of the angle of segment and plane. Negative if nothing is proven.
-double piercing_depth(Vec3 p, Vec3 q, const Corners& t, double size) {
+// Where a segment meets a triangle, rounded, and a lower bound of the length of a translation after which it does not:
+// negative if nothing is proven.
+struct Piercing {
+  Vec3 at;
+  double depth;
+};
+
+// The ends of the segment are above and below the plane, and it meets the plane at a point whose distance to the edges a
+// translation can change by its length over the sine of the angle of segment and plane.
+std::optional<Piercing> piercing(Vec3 p, Vec3 q, const Corners& t, double size) {
   const Vec3 e = t[1] - t[0], f = t[2] - t[0], n = cross(e, f);
   const double area = norm(n);
-  if (!(area > 0)) return -1;
+  if (!(area > 0)) return {};
   const double above = dot(n, p - t[0]) / area, below = dot(n, t[0] - q) / area;
-  if (above * below <= 0) return -1;
+  if (above * below <= 0) return {};
   const double whole = above + below;
   const Vec3 way = q - p, at = p + way * (above / whole);
   double room = INFINITY;
@@ -107,19 +117,34 @@ double piercing_depth(Vec3 p, Vec3 q, const Corners& t, double size) {
     const Vec3 edge = t[(i + 1) % 3] - t[i];
     room = smaller(room, dot(cross(edge, at - t[i]), n) / (area * norm(edge)));
   }
+  if (!(room > 0)) return {};
   const double sine = std::fabs(whole) / norm(way);
   // The normal of a thin triangle is less exact.
   const double rounding = 8 * kFrameRounding * size * (1 + norm(e) * norm(f) / area);
-  return smaller(smaller(std::fabs(above), std::fabs(below)), room * sine) - rounding;
+  return Piercing{at, smaller(smaller(std::fabs(above), std::fabs(below)), room * sine) - rounding};
 }
 
-bool cross_deeper(const Corners& a, const Corners& b, double size, double depth) {
-  for (int i = 0; i < 3; ++i) {
-    const int next = (i + 1) % 3;
-    if (piercing_depth(a[i], a[next], b, size) > depth || piercing_depth(b[i], b[next], a, size) > depth) return true;
+// Where the edges of either triangle pierce the other one; two points unless rounding hides one.
+struct TriangleCrossing {
+  int points = 0;
+  Vec3 ends[2];
+  double depth = -1;  // of the deepest piercing
+
+  TriangleCrossing(const Corners& a, const Corners& b, double size) {
+    for (int i = 0; i < 3; ++i) {
+      const int next = (i + 1) % 3;
+      add(piercing(a[i], a[next], b, size));
+      add(piercing(b[i], b[next], a, size));
+    }
   }
-  return false;
-}
+
+ private:
+  void add(const std::optional<Piercing>& found) {
+    if (!found) return;
+    depth = larger(depth, found->depth);
+    if (points < 2) ends[points++] = found->at;
+  }
+};
 
 // The boxes of B in the frame of A, and the axes along which they may be apart from those of A.
 class TurnedBoxes {
@@ -156,13 +181,23 @@ class TurnedBoxes {
   double pad_[3];
 };
 
+Vec3 unit_normal(const Corners& t) {
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  return n * (1 / norm(n));
+}
+
+double determinant(const Mat3& m) { return dot(m.row[0], cross(m.row[1], m.row[2])); }
+
 double longest(const Aabb& box) { return max_abs(box.max - box.min); }
 
 class Walk {
  public:
   // gap, depth: in the frame of A, all rounding included.
-  Walk(const Surface& a, const Surface& b, const Relative& place, double gap, double depth)
-      : a_(a), b_(b), place_(place), boxes_(place, gap), gap_(gap), depth_(depth) {}
+  Walk(const Surface& a, const Surface& b, const Relative& place, double gap, double depth, int most_unclear)
+      : a_(a), b_(b), place_(place), boxes_(place, gap), gap_(gap), depth_(depth), most_unclear_(most_unclear) {}
+
+  // In the frame of A, of the first two triangles that cross.
+  const std::optional<CommonSegment>& common() const { return common_; }
 
   Meeting run() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
@@ -173,7 +208,7 @@ class Walk {
       if (boxes_.apart(of_a.box, of_b.box)) continue;
       if (of_a.is_leaf() && of_b.is_leaf()) {
         if (compare_leaves(of_a, of_b)) return Meeting::crossing;
-        if (unclear_ >= (std::isinf(depth_) ? 1 : kMostUnclear)) return Meeting::unclear;
+        if (unclear_ >= most_unclear_ || (std::isinf(depth_) && common_)) return Meeting::unclear;
       } else if (of_b.is_leaf() || (!of_a.is_leaf() && longest(of_a.box) > longest(of_b.box))) {
         open.insert(open.end(), {{of_a.first + 1, j}, {of_a.first, j}});
       } else {
@@ -197,44 +232,84 @@ class Walk {
         if (!meet(box, box_at(a_.bvh, a_.mesh, i))) continue;
         const Corners other = corners(a_.mesh, a_.bvh.order[i]);
         if (are_apart(other, moved, gap_)) continue;
-        if (cross_deeper(other, moved, place_.size, depth_)) return true;
+        const TriangleCrossing crossing(other, moved, place_.size);
+        if (crossing.depth > depth_) return true;
+        if (!common_ && crossing.points == 2) common_ = common_segment(crossing, other, moved);
         ++unclear_;
       }
     }
     return false;
   }
 
+  CommonSegment common_segment(const TriangleCrossing& crossing, const Corners& of_a, const Corners& of_b) const {
+    const double mirrored = determinant(place_.linear) < 0 ? -1 : 1;
+    const Vec3 way = unit_normal(of_a) + unit_normal(of_b) * mirrored;
+    const double length = norm(crossing.ends[1] - crossing.ends[0]);
+    return {(crossing.ends[0] + crossing.ends[1]) * 0.5, way * (-length / norm(way))};
+  }
+
   const Surface &a_, &b_;
   const Relative& place_;
   TurnedBoxes boxes_;
   double gap_, depth_;
-  int unclear_ = 0;
+  int most_unclear_, unclear_ = 0;
+  std::optional<CommonSegment> common_;
 };
+
+// Whether holds(vertex) of a vertex of any part of the surface, which the placement takes into the frame of another body.
+template <class Holds>
+bool any_part(const Surface& surface, const Relative& place, Holds holds) {
+  return std::any_of(surface.parts.begin(), surface.parts.end(), [&](std::uint32_t t) {
+    return holds(place * surface.mesh.vertices[surface.mesh.triangles[t][0]]);
+  });
+}
 
 // Whether a part of the inner body lies in the material of the outer one, or may lie in the fill of a hole. place: of
 // the inner one.
 bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
-  const Surface& walls = inner.walls();
-  return std::any_of(walls.parts.begin(), walls.parts.end(), [&](std::uint32_t t) {
-    return outer.may_hold(place * walls.mesh.vertices[walls.mesh.triangles[t][0]]);
-  });
+  return any_part(inner.walls(), place, [&](Vec3 p) { return outer.may_hold(p); });
+}
+
+// The same without the fills of holes.
+bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
+  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p); });
+}
+
+Vec3 largest_of(const Surface& surface) {
+  const Aabb& box = surface.bvh.nodes[0].box;
+  const Vec3 low = absolute(box.min), high = absolute(box.max);
+  return {larger(low.x, high.x), larger(low.y, high.y), larger(low.z, high.z)};
 }
 
 }  // namespace
 
-Meeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap, double depth) {
+std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b) {
+  if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {};
+  const Relative b_in_a = relative_place(at_a, largest_of(a), at_b, largest_of(b));
+  Walk walk(a, b, b_in_a, 0, INFINITY, kMostUnclear);
+  walk.run();
+  return walk.common() ? std::optional(in_world(at_a, *walk.common())) : std::nullopt;
+}
+
+SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap,
+                          double depth) {
   const Relative b_in_a = relative_place(at_a, a.largest(), at_b, b.largest());
   const Relative a_in_b = relative_place(at_b, b.largest(), at_a, a.largest());
   // Surfaces farther apart than this stay apart while all rounding is undone, in the frames of both.
   const double rounding = b_in_a.slack + a_in_b.slack * (at_b.stretch.most / at_a.stretch.least) + kFrameRounding * b_in_a.size;
-  if (!std::isfinite(rounding)) return Meeting::unclear;
+  if (!std::isfinite(rounding)) return {};
   const double to_frame = (1 + kProductRounding) / at_a.stretch.least;
   const double least_gap = gap * to_frame + rounding, least_depth = depth * to_frame + rounding;
-  const Meeting meeting = Walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth).run();
-  if (meeting != Meeting::apart) return meeting;
+  Walk walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth, kMostUnclear);
+  const Meeting meeting = walk.run();
+  if (meeting == Meeting::unclear && walk.common()) return {meeting, in_world(at_a, *walk.common())};
+  if (meeting != Meeting::apart) return {meeting, {}};
   const bool closed = a.surface().solid && b.surface().solid;
-  if (!closed && Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY).run() != Meeting::apart) return Meeting::unclear;
-  return may_reach_into(a, b, b_in_a) || may_reach_into(b, a, a_in_b) ? Meeting::unclear : Meeting::apart;
+  const bool walls_apart =
+      closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() == Meeting::apart;
+  if (walls_apart && !may_reach_into(a, b, b_in_a) && !may_reach_into(b, a, a_in_b)) return {Meeting::apart, {}};
+  const bool by_fill = !closed && !reaches_into(a, b, b_in_a) && !reaches_into(b, a, a_in_b);
+  return {by_fill ? Meeting::by_fill : Meeting::unclear, {}};
 }
 
 }  // namespace satcheck

@@ -8,6 +8,8 @@
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "convex/closest_point.hpp"
+#include "poses/clear_ball.hpp"
+#include "poses/open_fill.hpp"
 #include "poses/posed_surfaces.hpp"
 
 namespace satcheck {
@@ -95,24 +97,6 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
   return {false, axis, {}};
 }
 
-// The point that the placement takes near `p`.
-Vec3 in_file(const PosedPlace& at, Vec3 p) {
-  const Vec3 *row = at.linear.row, from = p - at.offset;
-  const Vec3 x = cross(row[1], row[2]), y = cross(row[2], row[0]), z = cross(row[0], row[1]);
-  return (x * from.x + y * from.y + z * from.z) * (1 / dot(row[0], x));
-}
-
-Ball in_world(const PosedPlace& at, const Ball& ball) {
-  return {at.linear * ball.centre + at.offset, at.stretch.least * ball.radius};
-}
-
-// Whether two balls have a ball with a radius of more than `depth` in common.
-bool overlap(const Ball& p, const Ball& q, double depth) {
-  const double most = p.radius + q.radius - 2 * depth;
-  return p.radius > depth && q.radius > depth &&
-         norm_squared(p.centre - q.centre) < most * most * (1 - 16 * kUnitRoundoff);
-}
-
 class PoseSifter {
  public:
   PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs)
@@ -147,41 +131,28 @@ class PoseSifter {
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     if (!a.has_mesh() || !b.has_mesh()) return Sifted::open;
-    const Meeting meeting = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
+    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
     if (meeting == Meeting::apart) return Sifted::apart;
     if (meeting == Meeting::crossing) return Sifted::deep;
-    const bool deep = search.common && is_deep(place_a, place_b, a, b, *search.common, depth);
+    if (meeting == Meeting::by_fill && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
+    if (!a.surface().solid || !b.surface().solid) return Sifted::open;
+    const auto deep_at = [&](Vec3 point) { return ball_in_both(a.surface(), at_a, b.surface(), at_b, point, depth); };
+    if (search.common && deep_at(*search.common)) return Sifted::deep;
+    const bool deep = segment && ball_beside(*segment, a.surface(), at_a, b.surface(), at_b, depth);
     return deep ? Sifted::deep : Sifted::open;
   }
 
   const std::vector<Ball>& inner(PosedBody& body, Place& place) {
     if (!place.has_inner) {
       place.has_inner = true;
-      place.inner.clear();
-      const PosedPlace& at = place.at;
-      for (const Ball& ball : body.inner()) {
-        place.inner.push_back(in_world(at, ball));
-      }
+      place.inner = in_world(place.at, body.inner());
     }
     return place.inner;
   }
 
   // Whether two inner balls have a ball in common whose centre is that deep in both.
   bool have_deep_point(Place& place_a, Place& place_b, PosedBody& a, PosedBody& b, double depth) {
-    const std::vector<Ball>&of_a = inner(a, place_a), &of_b = inner(b, place_b);
-    for (const Ball& p : of_a) {
-      for (const Ball& q : of_b) {
-        if (overlap(p, q, depth)) return true;
-      }
-    }
-    return false;
-  }
-
-  // The same for the balls around one point of both hulls.
-  static bool is_deep(const Place& place_a, const Place& place_b, const PosedBody& a, const PosedBody& b, Vec3 common,
-                      double depth) {
-    const auto p = a.ball_about(in_file(place_a.at, common)), q = b.ball_about(in_file(place_b.at, common));
-    return p && q && overlap(in_world(place_a.at, *p), in_world(place_b.at, *q), depth);
+    return any_overlap(inner(a, place_a), inner(b, place_b), depth);
   }
 
   const std::vector<PosedBody*>& bodies_;

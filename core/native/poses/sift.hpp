@@ -1,5 +1,5 @@
-// Sorts the pairs of many poses: those that are proven apart, those that are proven to overlap deeply, and the others,
-// which climb the ladder. Bodies are not placed: directions, or the other body, are taken into their frames.
+// Sorts the pairs of many poses: those that are proven apart, those that are proven to overlap deeply, those that the
+// fill of a hole decides, and the others, which climb the ladder. Bodies are not placed: directions, or the other body, are taken into their frames.
 //
 // Every proof holds for the vertices in the world after each coordinate is rounded once, because it exceeds a bound of
 // all rounding (kPosedRounding).
@@ -14,9 +14,10 @@
 namespace satcheck {
 
 enum class Sifted : std::uint8_t {
-  open,   // neither is proven
-  apart,  // by more than the gap limit of the pair
-  deep,   // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap
+  open,       // none of these is proven
+  apart,      // by more than the gap limit of the pair
+  deep,       // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap
+  undecided,  // the surfaces are apart, and whether the bodies overlap depends on the fill of a hole
 };
 
 // One pair of bodies in all poses.

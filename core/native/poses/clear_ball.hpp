@@ -1,0 +1,30 @@
+// The ball about a point that a closed surface does not enter. It is inside or outside like the point.
+#pragma once
+
+#include <optional>
+
+#include "poses/posed_body.hpp"
+#include "poses/posed_surfaces.hpp"
+
+namespace satcheck {
+
+struct ClearBall {
+  Ball ball;  // in the world
+  bool inside;
+};
+
+// About the point that the placement takes near `point`. Empty if its radius is at most `room`, or if rounding hides where
+// it lies. closed: in file coordinates. point, room: in the world.
+std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at, Vec3 point, double room);
+
+// Whether two such balls, inside of both surfaces, have a ball with a radius of more than `depth` in common.
+bool ball_in_both(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b, Vec3 point, double depth);
+
+// The same about a point on the way inward from a crossing of the surfaces.
+bool ball_beside(const CommonSegment& crossing, const Surface& a, const PosedPlace& at_a, const Surface& b,
+                 const PosedPlace& at_b, double depth);
+
+// Whether the point is inside, or outside, and the surface farther away than `room`.
+bool is_clear(const Surface& closed, const PosedPlace& at, Vec3 point, double room, bool inside);
+
+}  // namespace satcheck

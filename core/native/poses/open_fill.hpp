@@ -1,0 +1,12 @@
+// Whether the fill of a hole decides if two bodies overlap, of which at least one is open (mesh_pair/open_surfaces.hpp).
+#pragma once
+
+#include "poses/posed_body.hpp"
+
+namespace satcheck {
+
+// True: the hull of a hole has a common inner point with the other body, and a point outside of it, however the vertices
+// in the world are rounded by at most `rounding`. The bodies have meshes whose surfaces do not meet.
+bool fills_differ(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double rounding);
+
+}  // namespace satcheck
