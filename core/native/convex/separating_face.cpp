@@ -123,19 +123,9 @@ std::optional<Outcome> outcome_if_flush(const Face& of_a, const Face& of_b) {
 }  // namespace
 
 Triangle corners_of(const Polytope& p, std::size_t f) {
-  const std::uint32_t first = p.face_offset[f], end = p.face_offset[f + 1];
-  Triangle best{};
-  double widest = -1;
-  // The widest triangle of a fan is best for the filter.
-  for (std::uint32_t i = first + 1; i + 1 < end; ++i) {
-    const Triangle t{p.face_vertex[first], p.face_vertex[i], p.face_vertex[i + 1]};
-    const double area = norm(cross(p.vertices[t[1]] - p.vertices[t[0]], p.vertices[t[2]] - p.vertices[t[0]]));
-    if (area > widest) {
-      widest = area;
-      best = t;
-    }
-  }
-  return best;
+  const std::uint32_t* corner = p.face_vertex.data() + p.face_offset[f];
+  const std::uint32_t count = p.face_offset[f + 1] - p.face_offset[f];
+  return {corner[0], corner[count / 3], corner[2 * count / 3]};
 }
 
 std::optional<Outcome> outcome_by_face(const WorldHull& a, const WorldHull& b, Vec3 axis) {
