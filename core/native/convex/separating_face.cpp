@@ -21,23 +21,16 @@ struct Face {
 };
 
 Face face_at(const WorldHull& hull, std::size_t index) {
-  const Triangle t = corners_of(hull.relative(), index);
+  const Triangle t = corners_of(hull.shape().polytope, index);
   return {hull, index, TrianglePlane(hull.vertex(t[0]), hull.vertex(t[1]), hull.vertex(t[2]))};
 }
 
+SATCHECK_WIDE std::uint32_t index_of_face(const Shape& shape, Vec3 axis) { return support_index(shape.face_normals, axis); }
+
 // Empty for a point and a segment.
 std::optional<Face> face_along(const WorldHull& hull, Vec3 axis) {
-  const std::vector<Vec3>& normals = hull.relative().face_normal;
-  if (normals.empty()) return std::nullopt;
-  std::size_t best = 0;
-  double most = -INFINITY;
-  for (std::size_t f = 0; f < normals.size(); ++f) {
-    const double along = dot(normals[f], axis);
-    if (along <= most) continue;
-    most = along;
-    best = f;
-  }
-  return face_at(hull, best);
+  if (hull.shape().polytope.face_count() == 0) return std::nullopt;
+  return face_at(hull, index_of_face(hull.shape(), axis));
 }
 
 // A convex polygon, a segment or a point in a plane, seen along the coordinate axis `drop`.
@@ -49,7 +42,7 @@ struct Outline {
 Vec2 projected(Vec3 p, int drop) { return {p[(drop + 1) % 3], p[(drop + 2) % 3]}; }
 
 Outline outline_of(const Face& face, int drop) {
-  const Polytope& p = face.hull.relative();
+  const Polytope& p = face.hull.shape().polytope;
   const std::uint32_t first = p.face_offset[face.index], end = p.face_offset[face.index + 1];
   Outline outline;
   outline.corners.reserve(end - first);
@@ -60,7 +53,7 @@ Outline outline_of(const Face& face, int drop) {
 
 // For each vertex whether it lies in the plane; empty if a vertex lies below.
 std::optional<std::vector<char>> vertices_in(const TrianglePlane& plane, const WorldHull& hull) {
-  std::vector<char> in_plane(hull.relative().vertices.size());
+  std::vector<char> in_plane(hull.shape().polytope.vertices.size());
   for (std::size_t i = 0; i < in_plane.size(); ++i) {
     const int side = plane.side(hull.vertex(i));
     if (side < 0) return std::nullopt;
@@ -71,7 +64,7 @@ std::optional<std::vector<char>> vertices_in(const TrianglePlane& plane, const W
 
 // A hull has at most two vertices in a plane that supports it, or a face.
 Outline outline_in_plane(const WorldHull& hull, const std::vector<char>& in_plane, int drop) {
-  const Polytope& p = hull.relative();
+  const Polytope& p = hull.shape().polytope;
   for (std::size_t f = 0; f < p.face_count(); ++f) {
     const auto first = p.face_vertex.begin() + p.face_offset[f], end = p.face_vertex.begin() + p.face_offset[f + 1];
     if (std::all_of(first, end, [&](std::uint32_t v) { return in_plane[v]; })) return outline_of(face_at(hull, f), drop);
@@ -100,7 +93,7 @@ std::optional<Outcome> outcome_in_plane(const Outline& p, const Outline& q) {
   return some_edge_separates(p, q) || some_edge_separates(q, p) ? Outcome::separated : Outcome::touching;
 }
 
-int drop_of(const Face& face) { return projection_axis(face.hull.relative().face_normal[face.index]); }
+int drop_of(const Face& face) { return projection_axis(face.hull.shape().polytope.face_normal[face.index]); }
 
 std::optional<Outcome> outcome_by_plane_of(const Face& face, const WorldHull& other) {
   const auto in_plane = vertices_in(face.plane, other);

@@ -20,18 +20,13 @@ bool is_in_place(const Shape& shape, const Pose& pose) {
   return shape.is_polytope() && shape.has_faces && pose.rotation == Mat3{} && pose.translation == Vec3{};
 }
 
-WorldHull::WorldHull(const Shape& shape, const Pose& pose) {
-  if (is_in_place(shape, pose)) {
-    in_place_ = &shape.polytope;
-    origin_ = shape.origin;
-  } else {
-    moved_ = moved_hull(shape, pose);
-  }
+WorldHull::WorldHull(const Shape& shape, const Pose& pose) : shape_(shape) {
+  if (!is_in_place(shape, pose)) moved_ = make_hull(moved_hull(shape, pose));
 }
 
 Polytope WorldHull::polytope() const {
-  Polytope hull = relative();
-  for (Vec3& p : hull.vertices) p = p + origin_;
+  Polytope hull = shape().polytope;
+  for (Vec3& p : hull.vertices) p = p + shape().origin;
   return hull;
 }
 

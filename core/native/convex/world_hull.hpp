@@ -1,6 +1,8 @@
 // The core of a placed shape for exact arithmetic.
 #pragma once
 
+#include <optional>
+
 #include "convex/shape.hpp"
 
 namespace satcheck {
@@ -16,17 +18,16 @@ class WorldHull {
   WorldHull(const WorldHull&) = delete;
   WorldHull& operator=(const WorldHull&) = delete;
 
-  // The vertices are relative to the origin of the shape.
-  const Polytope& relative() const { return in_place_ ? *in_place_ : moved_; }
-  // Not rounded.
-  Vec3 vertex(std::size_t i) const { return relative().vertices[i] + origin_; }
+  // A hull in place.
+  const Shape& shape() const { return moved_ ? *moved_ : shape_; }
+  // In the world, not rounded.
+  Vec3 vertex(std::size_t i) const { return shape().polytope.vertices[i] + shape().origin; }
   // A copy with its vertices in the world.
   Polytope polytope() const;
 
  private:
-  const Polytope* in_place_ = nullptr;
-  Polytope moved_;
-  Vec3 origin_;
+  const Shape& shape_;
+  std::optional<Shape> moved_;
 };
 
 }  // namespace satcheck

@@ -17,7 +17,7 @@ void test_in_place_far_from_zero() {
   const Shape shape = make_hull(points);
   CHECK(shape.origin != Vec3{});
   const WorldHull hull(shape, {});
-  CHECK(&hull.relative() == &shape.polytope);
+  CHECK(&hull.shape() == &shape);
   for (std::size_t i = 0; i < points.size(); ++i) CHECK(std::find(points.begin(), points.end(), hull.vertex(i)) != points.end());
   CHECK(hull.polytope().vertices == convex_hull(points).vertices);
 }
@@ -44,7 +44,7 @@ void test_cores() {
 void test_without_faces() {
   const Shape shape = make_hull_without_faces({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
   CHECK(!is_in_place(shape, {}));
-  CHECK(WorldHull(shape, {}).relative().face_count() == 4);
+  CHECK(WorldHull(shape, {}).shape().polytope.face_count() == 4);
 }
 
 }  // namespace
