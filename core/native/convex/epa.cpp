@@ -19,6 +19,9 @@ namespace satcheck {
 
 namespace {
 
+// Not inlined, so that it is compiled for wide registers.
+SATCHECK_WIDE SupportPoint farthest(const MinkowskiDifference& m, Vec3 direction) { return m.support(direction); }
+
 // The points of the seed that add a dimension beyond noise, and further support points, up to four in all. If A - B is
 // flat, there are fewer, and `flat_normal` is set.
 Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec3& flat_normal) {
@@ -40,7 +43,7 @@ Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec
     SupportPoint best{};
     double best_height = -1;
     for (const Vec3 direction : directions) {
-      const SupportPoint p = m.support(direction);
+      const SupportPoint p = farthest(m, direction);
       const double h = height(p.w);
       if (h > best_height) {
         best = p;

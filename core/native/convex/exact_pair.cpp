@@ -1,5 +1,6 @@
-// If the surfaces have no common point, the hulls are apart or nested. Otherwise the origin lies in A - B. It lies on
-// the boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or
+// If the surfaces have no common point, the hulls are apart or nested. If two of their triangles cross, the hulls
+// overlap: a plane that separates them weakly would contain both triangles. Otherwise the origin lies in A - B. It lies
+// on the boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or
 // spanned by two edges that meet, one of each. This is a finite number of signs of determinants of coordinate
 // differences. Float64 support values leave only axes within `slack` of separating to be tested.
 
@@ -112,7 +113,9 @@ class ExactPair {
         slack_(slack) {}
 
   Outcome decide() const {
-    if (!surfaces_meet()) {
+    const TriangleContact contact = strongest_contact();
+    if (contact == TriangleContact::crossing) return Outcome::penetrating;
+    if (contact == TriangleContact::disjoint) {
       return holds(a_.polytope, b_.polytope.vertices[0]) || holds(b_.polytope, a_.polytope.vertices[0])
                  ? Outcome::penetrating
                  : Outcome::separated;
@@ -124,16 +127,20 @@ class ExactPair {
   }
 
  private:
-  bool surfaces_meet() const {
+  // Of the triangles of both surfaces; the search ends at the first that cross.
+  TriangleContact strongest_contact() const {
     const std::vector<Corners> near_a = triangles_near(a_.polytope, bounds_b_);
     const std::vector<Corners> near_b = triangles_near(b_.polytope, bounds_a_);
+    TriangleContact strongest = TriangleContact::disjoint;
     for (const Corners& s : near_a) {
       const Aabb box = bounds_of(s);
       for (const Corners& t : near_b) {
-        if (meet(box, bounds_of(t)) && classify(s, t) != TriangleContact::disjoint) return true;
+        if (!meet(box, bounds_of(t))) continue;
+        strongest = std::max(strongest, classify(s, t));
+        if (strongest == TriangleContact::crossing) return strongest;
       }
     }
-    return false;
+    return strongest;
   }
 
   static std::vector<Corners> triangles_near(const Polytope& p, const Aabb& box) {

@@ -74,6 +74,7 @@ SATCHECK_WIDE PortalResult seek_portal(const MinkowskiDifference& m, double nois
       }
     }
   }
+  result.axis = direction;
   return result;
 }
 

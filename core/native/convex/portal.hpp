@@ -14,6 +14,7 @@ enum class PortalFinding {
 struct PortalResult {
   PortalFinding finding = PortalFinding::open;
   int rounds = 0;  // of one support point each
+  Vec3 axis;       // the last direction, from A to B, frame of A, of any length
 };
 
 // `noise`: a bound of the rounding error of a support value of the placed shapes.

@@ -4,17 +4,18 @@
 #include <optional>
 
 #include "convex/narrow_phase.hpp"
+#include "convex/world_hull.hpp"
 
 namespace satcheck {
 
-// Exact hulls in world coordinates. `axis` points from A to B and is close to the one that separates best; only the
-// face of A that looks most along it, and the face of B that looks most against it, are tested.
+// `axis` points from A to B, in the world, and is close to the one that separates best; only the face of A that looks
+// most along it, and the face of B that looks most against it, are tested.
 //
 // touching: the plane of such a face separates the hulls weakly, and they have a common point. separated: it separates
 // them, and they have none. Empty: neither face separates, which proves nothing.
-std::optional<Outcome> outcome_by_face(const Polytope& a, const Polytope& b, Vec3 axis);
+std::optional<Outcome> outcome_by_face(const WorldHull& a, const WorldHull& b, Vec3 axis);
 
-// Three corners of face f that span its plane, counter-clockwise seen from outside.
+// Three corners of face f, spread around it, counter-clockwise seen from outside. No corners of a face are in line.
 Triangle corners_of(const Polytope& p, std::size_t f);
 
 }  // namespace satcheck

@@ -86,6 +86,7 @@ Shape make_hull(Polytope polytope) {
   shape.polytope = std::move(polytope);
   shape.arcs = arcs_of(shape.polytope);
   shape.lanes = VertexLanes(shape.polytope.vertices);
+  shape.face_normals = VertexLanes(shape.polytope.face_normal);
   shape.support_map = LazySupportMap(shape.polytope.vertices.size());
   shape.extent = largest_coordinate(shape.polytope.vertices);
   const std::array<Vec3, 6> ends = skew_ends(shape.polytope.vertices);

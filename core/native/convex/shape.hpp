@@ -45,6 +45,7 @@ struct Shape {
   LazySupportMap support_map;  // of a hull of many vertices
   Polytope polytope;
   std::vector<EdgeArc> arcs;  // of a solid hull
+  VertexLanes face_normals;   // of the polytope
 
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
 };

@@ -14,7 +14,7 @@ std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, c
                                            double length) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
   if (m.curved) return std::nullopt;
-  const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
+  const Polytope core_a = WorldHull(a, pose_a).polytope(), core_b = WorldHull(b, pose_b).polytope();
   const Dyadic of_cores = Dyadic(length) + Dyadic(a.margin) + Dyadic(b.margin);
   switch (decide_exactly(core_a, core_b, 2 * proof_noise(m.scale, a, pose_a, b, pose_b))) {
     case Outcome::separated:

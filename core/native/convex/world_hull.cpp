@@ -1,16 +1,33 @@
-// A hull that is not moved is its own world hull. Other hulls are computed again, because rounding bends their faces.
+// Hulls that are moved are computed again, because rounding bends their faces.
 #include "convex/convex_hull.hpp"
 #include "convex/world_hull.hpp"
 
 namespace satcheck {
 
-Polytope world_hull(const Shape& shape, const Pose& pose) {
+namespace {
+
+Polytope moved_hull(const Shape& shape, const Pose& pose) {
   if (shape.kind == ShapeKind::sphere) return convex_hull({pose.translation});
   if (shape.kind == ShapeKind::capsule) return convex_hull({pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}});
-  Polytope hull = shape.polytope;
-  for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
-  const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
-  return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
+  std::vector<Vec3> vertices = shape.polytope.vertices;
+  for (Vec3& p : vertices) p = pose * (p + shape.origin);
+  return convex_hull(vertices);
+}
+
+}  // namespace
+
+bool is_in_place(const Shape& shape, const Pose& pose) {
+  return shape.is_polytope() && shape.has_faces && pose.rotation == Mat3{} && pose.translation == Vec3{};
+}
+
+WorldHull::WorldHull(const Shape& shape, const Pose& pose) : shape_(shape) {
+  if (!is_in_place(shape, pose)) moved_ = make_hull(moved_hull(shape, pose));
+}
+
+Polytope WorldHull::polytope() const {
+  Polytope hull = shape().polytope;
+  for (Vec3& p : hull.vertices) p = p + shape().origin;
+  return hull;
 }
 
 }  // namespace satcheck

@@ -5,9 +5,11 @@
 
 #include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
+#include "convex/exact_depth.hpp"
 #include "convex/exact_pair.hpp"
 #include "convex/gjk.hpp"
 #include "tests/check.hpp"
+#include "tests/pairs.hpp"
 
 using namespace satcheck;
 
@@ -80,6 +82,29 @@ void test_integer_polytopes() {
   CHECK(outcomes[3] >= outcomes[1] * 9 / 10);
 }
 
+// Rounding bends the faces of turned polytopes, so that those of flush ones cross. The exact depth knows it too.
+void test_turned_polytopes() {
+  std::mt19937 engine(6);
+  testing::Source source(6);
+  std::uniform_int_distribution<int> shift(-4, 4), count(6, 12);
+  int shallow = 0;
+  for (int round = 0; round < 400; ++round) {
+    Points a = random_points(engine, count(engine), {0, 0, 0});
+    Points b = random_points(engine, count(engine), {double(shift(engine)), double(shift(engine)), double(shift(engine))});
+    const Pose pose = source.pose(1);
+    for (Vec3& p : a) p = pose * p;
+    for (Vec3& p : b) p = pose * p;
+    const Polytope hull_a = convex_hull(a), hull_b = convex_hull(b);
+    const Outcome outcome = decide_exactly(hull_a, hull_b, kSlack);
+    CHECK(decide_exactly(hull_b, hull_a, kSlack) == outcome);
+    if (outcome == Outcome::separated || hull_a.dimension < 3 || hull_b.dimension < 3) continue;
+    const ExactDifference difference(hull_a.vertices, hull_b.vertices);
+    CHECK((compare_depth(difference, Dyadic(0x1p-300)) > 0) == (outcome == Outcome::penetrating));
+    shallow += outcome == Outcome::penetrating && compare_depth(difference, Dyadic(kSlack)) < 0;
+  }
+  CHECK(shallow >= 10);
+}
+
 void test_one_ulp() {
   const Points cube = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
   for (double far : {0.0, 0x1p20, 0x1p40}) {
@@ -100,5 +125,6 @@ void test_one_ulp() {
 
 UNIT(exact_pair) {
   test_integer_polytopes();
+  test_turned_polytopes();
   test_one_ulp();
 }

@@ -54,6 +54,16 @@ void test_box_contacts_touch() {
   CHECK(check_pair(box, {}, box, at(1 - ulp / 2, 0, 0), Query::depth).outcome == Outcome::penetrating);
 }
 
+// The portal leaves them open, and the face they share proves them without another stage in float64.
+void test_flush_hulls_in_place() {
+  const auto block = [](double start, double end) {
+    return make_hull({{start, 0, 0}, {start, 1, 0}, {start, 0, 1}, {start, 1, 1}, {end, 0, 0}, {end, 1, 0}, {end, 0, 1}, {end, 1, 1}});
+  };
+  const PairResult r = check_pair(block(0, 1), {}, block(1, 3), {}, Query::overlap);
+  CHECK(r.outcome == Outcome::touching && r.method == Method::exact);
+  CHECK(r.portal_rounds > 0 && r.gjk_iterations == 0 && r.epa_iterations == 0);
+}
+
 void test_spheres_and_capsules() {
   const Shape small = make_sphere(1), big = make_sphere(2), pill = make_capsule(0.5, 2);
   check_consistency(check_pair(small, at(0, 0, 0), big, at(5, 0, 0), Query::distance), 8);
@@ -166,6 +176,7 @@ void test_powers_of_two_scale_exactly() {
 UNIT(narrow_phase) {
   test_boxes_by_hand();
   test_box_contacts_touch();
+  test_flush_hulls_in_place();
   test_spheres_and_capsules();
   test_round_shapes_by_hand();
   test_flat_shapes();

@@ -1,5 +1,5 @@
 // The verdict by a face against the full exact stage, on small integer polytopes: many are flush, and some are points,
-// segments or polygons.
+// segments or polygons. Those far from 0 for their size have an origin.
 #include <random>
 
 #include "convex/convex_hull.hpp"
@@ -13,13 +13,17 @@ namespace {
 
 constexpr double kSlack = 1e-13;  // several support errors at this size
 
-Polytope random_hull(std::mt19937& engine, int most, Vec3 shift) {
+std::optional<Outcome> by_face(const Shape& a, const Shape& b, Vec3 axis) {
+  return outcome_by_face(WorldHull(a, {}), WorldHull(b, {}), axis);
+}
+
+std::vector<Vec3> random_points(std::mt19937& engine, int most, Vec3 shift) {
   std::uniform_int_distribution<int> coordinate(0, 3), count(1, most);
   std::vector<Vec3> points(count(engine));
   for (Vec3& p : points) {
     p = Vec3{double(coordinate(engine)), double(coordinate(engine)), double(coordinate(engine))} + shift;
   }
-  return convex_hull(points);
+  return points;
 }
 
 void test_against_the_exact_stage() {
@@ -28,12 +32,13 @@ void test_against_the_exact_stage() {
   int touching = 0, separated = 0;
   for (int round = 0; round < 6000; ++round) {
     const Vec3 offset{double(shift(engine)), double(shift(engine)), double(shift(engine))};
-    const Polytope a = random_hull(engine, 12, {0, 0, 0}), b = random_hull(engine, 12, offset);
-    const Outcome truth = decide_exactly(a, b, kSlack);
+    const std::vector<Vec3> points_a = random_points(engine, 12, {0, 0, 0}), points_b = random_points(engine, 12, offset);
+    const Shape a = make_hull(points_a), b = make_hull(points_b);
+    const Outcome truth = decide_exactly(convex_hull(points_a), convex_hull(points_b), kSlack);
     for (Vec3 axis : {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, offset}) {
-      const std::optional<Outcome> by_face = outcome_by_face(a, b, axis);
-      if (!by_face) continue;
-      CHECK(*by_face == truth);
+      const std::optional<Outcome> outcome = by_face(a, b, axis);
+      if (!outcome) continue;
+      CHECK(*outcome == truth);
       ++(truth == Outcome::touching ? touching : separated);
     }
   }
@@ -47,14 +52,13 @@ void test_one_ulp_in_the_plane() {
   for (double start : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0)}) {
     above.clear();
     for (int i = 0; i < 8; ++i) above.push_back({i & 1 ? 2 : start, double(i >> 1 & 1), double(i >> 2)});
-    const auto outcome = outcome_by_face(convex_hull(below), convex_hull(above), {0, 0, 1});
-    CHECK(outcome == (start > 1 ? Outcome::separated : Outcome::touching));
+    CHECK(by_face(make_hull(below), make_hull(above), {0, 0, 1}) == (start > 1 ? Outcome::separated : Outcome::touching));
   }
 }
 
 void test_no_proof_for_an_overlap() {
-  const Polytope hull = convex_hull({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
-  for (Vec3 axis : {Vec3{1, 0, 0}, {0, 0, -1}, {1, 1, 1}}) CHECK(!outcome_by_face(hull, hull, axis));
+  const Shape hull = make_hull({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
+  for (Vec3 axis : {Vec3{1, 0, 0}, {0, 0, -1}, {1, 1, 1}}) CHECK(!by_face(hull, hull, axis));
 }
 
 }  // namespace
