@@ -20,7 +20,9 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
   const Aabb at{p, p};
   double best = INFINITY;
   NearestPoint result{};
-  std::vector<std::pair<double, std::uint32_t>> stack{{0.0, 0u}};
+  std::vector<std::pair<double, std::uint32_t>> stack;
+  stack.reserve(kUsualDepth);
+  stack.push_back({0.0, 0u});
   while (!stack.empty()) {
     const auto [bound, index] = stack.back();
     stack.pop_back();

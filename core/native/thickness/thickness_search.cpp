@@ -226,7 +226,7 @@ class Search {
     if (record_) nodes = record_->divide(parent.node, halves->plane);
     for (Cell* part : {&halves->below, &halves->above}) {
       const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
-      share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.is_listed,
+      share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.met,
                                                                 parent.columns, parent.inside, {}, 0, node}));
     }
   }
