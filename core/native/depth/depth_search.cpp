@@ -26,8 +26,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a box and of moving a vertex, and the steps between two calls of poll().
-constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000;
+// Measured steps of a box and of moving a vertex.
+constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -74,7 +74,7 @@ bool is_sum(double sum, double x, double y) {
 class Search {
  public:
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
-      : a_(a), b_(b), moved_(a), goal_(goal), sets_(goal.across) {
+      : a_(a), b_(b), moved_(a), goal_(goal), poller_(goal.poll), sets_(goal.across) {
     result_.upper = goal.upper;
   }
 
@@ -85,8 +85,8 @@ class Search {
     while (!open_.empty()) {
       TranslationBox box = open_.top();
       open_.pop();
-      open_from = box.key;
-      if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
+      reached_ = open_from = box.key;
+      if (proven() >= enough()) break;
       if (work() >= goal_.work) {
         result_.stop = DepthStop::work_spent;
         break;
@@ -158,10 +158,11 @@ class Search {
     return true;
   }
 
+  // All shorter translations leave an overlap.
+  double proven() const { return std::fmax(std::fmin(reached_, covered_to_), goal_.lower); }
+
   void poll() {
-    if (!goal_.poll || work() < next_poll_) return;
-    next_poll_ = work() + kPollWork;
-    goal_.poll();
+    if (poller_.is_due(work())) poller_.call({proven(), result_.upper, work()});
   }
 
   bool is_on_seam(const TranslationBox& box) const { return max_abs(box.half) < kSeam * result_.upper; }
@@ -284,12 +285,14 @@ class Search {
   const Surface& b_;
   MovedSurface moved_;
   DepthGoal goal_;
+  Poller poller_;
   std::uint64_t start_ = work_done;
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
+  double reached_ = 0;            // and the open ones none shorter than this
   ForbiddenUnion sets_;
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
-  std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
+  std::uint64_t next_number_ = 0;
   bool scanned_ = false;
 };
 

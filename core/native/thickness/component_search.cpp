@@ -24,7 +24,7 @@ double hull_bound(const ThicknessInterval& ball, const ThicknessGoal& goal) {
 }  // namespace
 
 ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal)
-    : goal_(goal), overlap_(overlap_components(a, b, kMostPairs)) {
+    : goal_(goal), poller_(goal.poll), overlap_(overlap_components(a, b, kMostPairs)) {
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);
   for (const ThicknessInterval& ball : balls_) upper_.push_back(hull_bound(ball, goal));
@@ -104,11 +104,13 @@ double ComponentSearch::upper_end(std::size_t component, const SearchWithin& wit
 
 ThicknessInterval ComponentSearch::searched(ThicknessGoal& goal, const SearchWithin& within) {
   goal.work = share_;
+  if (goal_.poll) goal.poll = [this](const SearchState& of_one) { goal_.poll({best_.lower, best_.upper, best_.work + of_one.work}); };
   const ThicknessInterval interval = within(goal);
   left_ -= std::min(left_, interval.work);
   share_ -= std::min(share_, interval.work);
   best_.work += interval.work;
   best_.boxes += interval.boxes;
+  if (poller_.is_due(best_.work)) poller_.call({best_.lower, best_.upper, best_.work});
   if (interval.found) take_point(interval);
   return interval;
 }

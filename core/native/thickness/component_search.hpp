@@ -38,6 +38,7 @@ class ComponentSearch {
   ThicknessInterval searched(ThicknessGoal& goal, const SearchWithin& within);
 
   const ThicknessGoal& goal_;
+  Poller poller_;
   OverlapComponents overlap_;
   std::vector<ThicknessInterval> balls_;
   ThicknessInterval best_;

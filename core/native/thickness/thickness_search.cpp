@@ -19,8 +19,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a cell, and steps between two calls of poll().
-constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
+// Measured steps of a cell.
+constexpr std::uint64_t kCellWork = 1000;
 
 // Of work, until the components of the overlap are looked at: at least, and for each triangle. If their hulls do not
 // decide, the whole overlap is searched for half of that time again: the search is often almost at its end.
@@ -50,7 +50,7 @@ class Search {
  public:
   // centre: was subtracted from both surfaces.
   Search(const Surface& a, const Surface& b, const ThicknessGoal& goal, Vec3 centre)
-      : bodies_(a, b, goal), goal_(goal), centre_(centre) {
+      : bodies_(a, b, goal), goal_(goal), poller_(goal.poll), centre_(centre) {
     best_ = dropped_ = floor_ = 0.0 - std::fmax(goal.less_a, goal.less_b);
     if (goal.prove && goal.across < 0) record_.emplace();
   }
@@ -93,10 +93,7 @@ class Search {
     const bool narrow = upper - best_ <= goal_.width * std::fabs(upper) || open_.empty();
     result_.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
     if (decided || narrow || work() >= most_work_) return true;
-    if (goal_.poll && work() >= next_poll_) {
-      next_poll_ = work() + kPollWork;
-      goal_.poll();
-    }
+    if (poller_.is_due(work())) poller_.call({result_.lower, result_.upper, work()});
     return false;
   }
 
@@ -259,6 +256,7 @@ class Search {
 
   TwoBodies bodies_;
   ThicknessGoal goal_;
+  Poller poller_;
   Vec3 centre_;
   Mat3 axes_;
   std::optional<Aabb> box_;  // common to the boxes of the bodies
@@ -267,7 +265,7 @@ class Search {
   double floor_, best_, dropped_;
   ThicknessInterval result_;
   std::vector<std::unique_ptr<OpenCell>> open_;  // a heap, largest bound first
-  std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
+  std::uint64_t next_number_ = 0;
 };
 
 // The search of two surfaces near the origin, in the order that does not depend on which of them is called A.
