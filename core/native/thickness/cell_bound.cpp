@@ -277,6 +277,10 @@ class CellBound {
       }
       best.depth = smaller(best.depth, distance);
     };
+    // What was near to other points of the cell is likely to be near to this one.
+    for (const Column& column : columns_) {
+      if (column.body == body) compare(column.patch);
+    }
     const PatchList& near = near_to(body);
     if (near.size() < kManyPatches || bodies_.in_plane()) {
       work_done += kFilterWork * near.size();
