@@ -24,7 +24,7 @@ double hull_bound(const ThicknessInterval& ball, const ThicknessGoal& goal) {
 }  // namespace
 
 ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal)
-    : goal_(goal), poller_(goal.poll), overlap_(overlap_components(a, b, kMostPairs)) {
+    : goal_(goal), poller_(goal.poll), overlap_(overlap_components(a, b, kMostPairs, Unresolved::left_out)) {
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);
   for (const ThicknessInterval& ball : balls_) upper_.push_back(hull_bound(ball, goal));
