@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -128,7 +129,7 @@ class Search {
   // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
-  void push(Vec3 centre, Vec3 half, std::vector<std::uint32_t> sets, std::uint32_t seen) {
+  void push(Vec3 centre, Vec3 half, std::vector<std::shared_ptr<const ForbiddenSet>> sets, std::uint32_t seen) {
     TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
     box.key = norm(box.nearest_to_origin());
     if (box.key >= result_.upper) return;
