@@ -7,6 +7,7 @@ import sys
 from _thread import allocate_lock
 from typing import TYPE_CHECKING
 
+from satcheck.cli.output import harmless
 from satcheck.core.steps import current
 
 if TYPE_CHECKING:
@@ -80,10 +81,13 @@ class Bar:
     def _show(self) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, ProgressColumn
+        from rich.text import Text
 
         class Step(ProgressColumn):
-            def render(column, _: Task) -> str:
-                return current() or self._verb
+            def render(column, _: Task) -> Text:
+                # A name may hold anything, also what rich takes for its markup.
+                name = harmless(current()) or self._verb
+                return Text(name, no_wrap=True, overflow="ellipsis")
 
         class Pace(ProgressColumn):
             def render(column, task: Task) -> str:

@@ -10,6 +10,7 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.contacts import MAX_TRIANGLE_PAIRS
+from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.request.trace import Trace
 from satcheck.report.components import Component, Components, Passing
 from satcheck.report.report import OVERLAPS, Vector
@@ -56,7 +57,10 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
         if component.resolved and ball.upper - ball.lower > width * ball.upper:
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
-            search = core.search_thickness(a, b, width=width, work=share, within=component)
+            with shown(f"component {place + 1} of {len(components)}", pair) as progress:
+                search = core.search_thickness(
+                    a, b, width=width, work=share, within=component, progress=progress
+                )
             work -= min(work, search.work)
             ball = _narrowed(ball, search, others if overlap.resolved else None)
         yield ball

@@ -18,6 +18,7 @@ from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.escape import Escape, verified_escape
+from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
 from satcheck.audit.request.trace import Trace
@@ -99,15 +100,17 @@ def search(
 ) -> core.DepthInterval:
     """The interval between known bounds narrowed, by translations of A that free the meshes and by
     proofs that others do not. width, work: those of the settings."""
-    interval = core.search_depth(
-        pair.a.surface(),
-        pair.b.surface(),
-        upper=upper,
-        lower=min(lower, upper),
-        width=pair.settings.depth_width if width is None else width,
-        work=pair.settings.work if work is None else work,
-        across=pair.settings.across,
-    )
+    with shown("depth", pair) as progress:
+        interval = core.search_depth(
+            pair.a.surface(),
+            pair.b.surface(),
+            upper=upper,
+            lower=min(lower, upper),
+            width=pair.settings.depth_width if width is None else width,
+            work=pair.settings.work if work is None else work,
+            across=pair.settings.across,
+            progress=progress,
+        )
     reason = "" if interval.stop == "narrow" else "; the budget ended the search"
     trace.record(
         "search",

@@ -13,6 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
+from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.figures.thickness import across, why_not_thick
 from satcheck.audit.rounding import EXACT_WIDTH
 
@@ -114,14 +115,16 @@ def _search(
     *,
     prove: bool,
 ) -> core.ThicknessInterval:
-    return core.search_thickness(
-        a.surface(),
-        b.surface(),
-        width=0.0,
-        work=pair.settings.thickness_work,
-        less_a=off[0],
-        less_b=off[1],
-        limit=limit,
-        across=across(pair, prove=prove),
-        prove=prove,
-    )
+    with shown("surface tolerance", pair) as progress:
+        return core.search_thickness(
+            a.surface(),
+            b.surface(),
+            width=0.0,
+            work=pair.settings.thickness_work,
+            less_a=off[0],
+            less_b=off[1],
+            limit=limit,
+            across=across(pair, prove=prove),
+            prove=prove,
+            progress=progress,
+        )

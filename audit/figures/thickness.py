@@ -13,6 +13,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
+from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.report.report import Ball
@@ -71,16 +72,18 @@ def search(
 ) -> core.ThicknessInterval:
     """limit: the search ends once the interval lies on one side of it."""
     a, b = pair.a.surface(), pair.b.surface()
-    interval = core.search_thickness(
-        a,
-        b,
-        width=width,
-        work=work,
-        limit=limit,
-        across=across(pair, prove=pair.settings.certificate),
-        prove=pair.settings.certificate,
-        threads=pair.settings.jobs if pair.alone else 1,
-    )
+    with shown(STAGE, pair) as progress:
+        interval = core.search_thickness(
+            a,
+            b,
+            width=width,
+            work=work,
+            limit=limit,
+            across=across(pair, prove=pair.settings.certificate),
+            prove=pair.settings.certificate,
+            threads=pair.settings.jobs if pair.alone else 1,
+            progress=progress,
+        )
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
     if interval.stop == "work spent":
         trace.record(STAGE, "budget spent", f"{by}; the budget ended the search")

@@ -352,3 +352,26 @@ def test_ctrl_c_ends_a_search() -> None:
             search(a, b, upper=6.0, width=0.0, work=3_600_000_000_000)
     finally:
         later.cancel()
+
+
+class EnoughError(Exception):
+    """Raised by who has seen enough of a search."""
+
+
+def test_a_search_says_how_far_it_is() -> None:
+    """Its interval only becomes narrower, and holds what a search without an audience proves."""
+    a, b = Surface(torus(24, 12), True), Surface(torus(20, 10).translated(CROSSED), True)
+    seen: list[tuple[float, float, float]] = []
+
+    def progress(lower: float, upper: float, share: float) -> None:
+        seen.append((lower, upper, share))
+        if len(seen) == 3:
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        search_depth(a, b, upper=6.0, lower=0.0, width=0.0, work=10**12, progress=progress)
+    truth = search_depth(a, b, upper=6.0, lower=0.0, width=0.01, work=WORK)
+    for (lower, upper, share), (lower_after, upper_after, share_after) in itertools.pairwise(seen):
+        assert lower <= lower_after <= truth.upper
+        assert truth.lower <= upper_after <= upper
+        assert 0 < share < share_after < 1

@@ -202,3 +202,19 @@ def test_flush_waves_and_waves_pressed_together() -> None:
     )
     assert 0 < pressed.lower <= 0.01
     assert pressed.upper <= 0.03
+
+
+def test_a_search_says_how_far_it_is() -> None:
+    seen: list[tuple[float, float, float]] = []
+    found = search_thickness(
+        waves(up=False),
+        waves(up=True, shift=-0.01),
+        width=1e-12,
+        work=2 * WORK,
+        progress=lambda *state: seen.append(state),
+    )
+    assert len(seen) > 1
+    assert seen == sorted(seen, key=lambda state: state[2])
+    for lower, upper, share in seen:
+        assert lower <= found.lower <= found.upper <= upper
+        assert share > 0

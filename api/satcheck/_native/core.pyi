@@ -490,6 +490,7 @@ def search_depth(
     width: float,
     work: int,
     across: int = -1,
+    progress: Callable[[float, float, float], object] | None = None,
 ) -> DepthInterval: ...
 
 class DepthBound:
@@ -556,6 +557,7 @@ def search_thickness(
     prove: bool = False,
     within: OverlapComponent | None = None,
     threads: int = 1,
+    progress: Callable[[float, float, float], object] | None = None,
 ) -> ThicknessInterval: ...
 def mesh_distance(a: Surface, b: Surface, limit: float = ...) -> MeshDistance: ...
 def compare_gap(a: Surface, b: Surface, length: float) -> Literal[-1, 0, 1]: ...

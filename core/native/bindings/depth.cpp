@@ -1,10 +1,12 @@
 // The Python face of the depth of concave pairs. Nothing but conversions.
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
@@ -17,13 +19,13 @@ namespace satcheck {
 namespace {
 
 DepthInterval checked_search(const Surface& a, const Surface& b, double upper, double lower, double width,
-                             std::uint64_t work, int across) {
+                             std::uint64_t work, int across, Progress progress) {
   if (!(upper >= 0 && std::isfinite(upper))) throw std::invalid_argument("upper must be a finite length >= 0");
   if (!(lower >= 0 && std::isfinite(lower))) throw std::invalid_argument("lower must be a finite length >= 0");
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
   if (a.mesh.triangles.empty() || b.mesh.triangles.empty()) throw std::invalid_argument("a surface is empty");
-  return search_depth(a, b, {upper, lower, width, work, across, raise_interrupts});
+  return search_depth(a, b, {upper, lower, width, work, across, polling(std::move(progress), work)});
 }
 
 }  // namespace
@@ -47,12 +49,13 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
       .def_ro("mesh_tests", &DepthInterval::mesh_tests)
       .def_ro("sets", &DepthInterval::sets);
   m.def("search_depth", &checked_search, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
-        "across"_a = -1,
+        "across"_a = -1, "progress"_a.none() = nb::none(),
         nb::call_guard<nb::gil_scoped_release>(),
         R"(The depth of two overlapping meshes as a proven interval. The search ends when the interval is `width` wide, relative
 to its upper end, or after `work` steps of about a nanosecond. upper: the length of a known way out; lower: a known
 bound. across: for prisms along a world axis, this axis; translations are perpendicular to it; -1: none.
-The same input gives the same result on every machine. In the main thread a signal handler may raise, for example KeyboardInterrupt.
+progress(lower, upper, share) is called now and then with the interval so far and the share of the work that is spent;
+what it raises ends the search. The same input gives the same result on every machine. In the main thread a signal handler may raise, for example KeyboardInterrupt.
 ValueError for a length that is negative or not finite, or for an empty surface.)");
 }
 

@@ -1,7 +1,12 @@
-// Signals of Python during a long search.
+// Python during a long search: its signals, and its progress.
 #pragma once
 
 #include <nanobind/nanobind.h>
+
+#include <functional>
+#include <utility>
+
+#include "base/poll.hpp"
 
 namespace satcheck {
 
@@ -9,6 +14,17 @@ namespace satcheck {
 inline void raise_interrupts() {
   const nanobind::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+}
+
+// Called with the interval so far, and with the share of the work that is spent; may be empty.
+using Progress = std::function<void(double lower, double upper, double share)>;
+
+// work: of the search, at most.
+inline Poll polling(Progress progress, std::uint64_t work) {
+  return [progress = std::move(progress), work](const SearchState& state) {
+    raise_interrupts();
+    if (progress) progress(state.lower, state.upper, static_cast<double>(state.work) / static_cast<double>(work));
+  };
 }
 
 }  // namespace satcheck

@@ -34,7 +34,10 @@ it is not resolved. resolved: False if a surface meets itself here.)")
                                 "components: by the least corner of their bounds. resolved: False if their number may differ.")
       .def_ro("resolved", &OverlapComponents::resolved)
       .def_ro("components", &OverlapComponents::components, nb::rv_policy::reference_internal);
-  m.def("overlap_components", &overlap_components, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
+  const auto described = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
+    return overlap_components(a, b, max_pairs);
+  };
+  m.def("overlap_components", described, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(The connected components of the overlap of two solids, by exact predicates. Surfaces that are not closed are not
 resolved. max_pairs: limit on pairs of triangles that meet; more are not resolved. Swapping a and b only swaps the
 fields of a and b.)");

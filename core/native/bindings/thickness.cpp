@@ -1,5 +1,6 @@
 // The Python face of the thickness of overlaps. Nothing but conversions.
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
@@ -7,6 +8,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
@@ -27,7 +29,7 @@ const char* name_of(ThicknessStop stop) {
 
 ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
                                  double less_b, std::optional<double> limit, int across, bool prove,
-                                 const OverlapComponent* within, unsigned threads) {
+                                 const OverlapComponent* within, unsigned threads, Progress progress) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (!(less_a >= 0 && std::isfinite(less_a))) throw std::invalid_argument("less_a must be a finite length >= 0");
   if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
@@ -35,7 +37,7 @@ ThicknessInterval checked_search(const Surface& a, const Surface& b, double widt
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
   if (within != nullptr && prove) throw std::invalid_argument("within a component nothing is proven of the pair");
   const auto box = within != nullptr ? std::optional(box_around(*within)) : std::nullopt;
-  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, prove, box, threads, raise_interrupts});
+  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, prove, box, threads, polling(std::move(progress), work)});
 }
 
 }  // namespace
@@ -81,13 +83,14 @@ centre: of the largest ball in that; lower: how thick the overlap is around it, 
 belong to another component.)");
   m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
         "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
-        nb::call_guard<nb::gil_scoped_release>(),
+        "progress"_a.none() = nb::none(), nb::call_guard<nb::gil_scoped_release>(),
         R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its
 upper end unless `work` steps, each about a nanosecond, are spent first. less_a, less_b: taken from the distance to the surface
 of a and of b. limit: the search ends as soon as the interval lies on one side of this length. across: an axis of the world along
 which both solids are prisms: triangles across it do not count; -1: none. prove: write down why `upper` holds, not with an axis.
 within: a component of the overlap: only its balls count, and others that have their centre in a box around it.
-threads: 0 for one a core. The same input gives the same result on every machine, with any number of threads.
+threads: 0 for one a core. progress(lower, upper, share) is called now and then with the interval so far and the share of
+the work that is spent; what it raises ends the search. The same input gives the same result on every machine, with any number of threads.
 Swapping a and b changes nothing. In the main thread a signal handler may raise, KeyboardInterrupt for one.
 ValueError for a length that is negative or not finite, or for a surface that is not a solid.)");
 }

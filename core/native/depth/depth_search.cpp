@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -26,8 +27,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a box and of moving a vertex, and the steps between two calls of poll().
-constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000;
+// Measured steps of a box and of moving a vertex.
+constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -74,7 +75,7 @@ bool is_sum(double sum, double x, double y) {
 class Search {
  public:
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
-      : a_(a), b_(b), moved_(a), goal_(goal), sets_(goal.across) {
+      : a_(a), b_(b), moved_(a), goal_(goal), poller_(goal.poll), sets_(goal.across) {
     result_.upper = goal.upper;
   }
 
@@ -85,8 +86,8 @@ class Search {
     while (!open_.empty()) {
       TranslationBox box = open_.top();
       open_.pop();
-      open_from = box.key;
-      if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
+      reached_ = open_from = box.key;
+      if (proven() >= enough()) break;
       if (work() >= goal_.work) {
         result_.stop = DepthStop::work_spent;
         break;
@@ -128,7 +129,7 @@ class Search {
   // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
-  void push(Vec3 centre, Vec3 half, std::vector<std::uint32_t> sets, std::uint32_t seen) {
+  void push(Vec3 centre, Vec3 half, std::vector<std::shared_ptr<const ForbiddenSet>> sets, std::uint32_t seen) {
     TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
     box.key = norm(box.nearest_to_origin());
     if (box.key >= result_.upper) return;
@@ -158,10 +159,11 @@ class Search {
     return true;
   }
 
+  // All shorter translations leave an overlap.
+  double proven() const { return std::fmax(std::fmin(reached_, covered_to_), goal_.lower); }
+
   void poll() {
-    if (!goal_.poll || work() < next_poll_) return;
-    next_poll_ = work() + kPollWork;
-    goal_.poll();
+    if (poller_.is_due(work())) poller_.call({proven(), result_.upper, work()});
   }
 
   bool is_on_seam(const TranslationBox& box) const { return max_abs(box.half) < kSeam * result_.upper; }
@@ -284,12 +286,14 @@ class Search {
   const Surface& b_;
   MovedSurface moved_;
   DepthGoal goal_;
+  Poller poller_;
   std::uint64_t start_ = work_done;
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
+  double reached_ = 0;            // and the open ones none shorter than this
   ForbiddenUnion sets_;
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
-  std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
+  std::uint64_t next_number_ = 0;
   bool scanned_ = false;
 };
 

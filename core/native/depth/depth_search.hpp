@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
+#include "base/poll.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -15,7 +15,7 @@ struct DepthGoal {
   double width = 0.01;     // wanted width of the interval, relative to its upper end
   std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
   int across = -1;         // for a depth in a plane, the world axis along which nothing is moved; -1: none
-  std::function<void()> poll = {};  // called about every twentieth of a second; an exception ends the search
+  Poll poll = {};
 };
 
 enum class DepthStop : std::uint8_t {

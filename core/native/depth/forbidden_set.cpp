@@ -24,6 +24,9 @@ constexpr double kMostFactor = 64;
 // normals 2 a coordinate, products, their sum and the difference 8, over three coordinates.
 constexpr double kPartError = 32 * kUnitRoundoff;
 
+// The reach of a box from its centre along a direction.
+double spread_of(Vec3 half, Vec3 n) { return std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z; }
+
 // The length of a small normal may be out of range; that of its multiple is not.
 Vec3 unit(Vec3 normal) {
   const Vec3 scaled = normal * (1 / max_abs(normal));
@@ -45,14 +48,25 @@ ForbiddenSet::Reach ForbiddenSet::reach(Vec3 c, Vec3 h) const {
   if (empty()) return {-INFINITY, false};
   Reach result{INFINITY, true};
   for (std::size_t k = 0; k < normal.size(); ++k) {
-    const Vec3& n = normal[k];
-    const double middle = n.x * c.x + n.y * c.y + n.z * c.z;
-    const double spread = std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z;
+    const double middle = dot(normal[k], c), spread = spread_of(h, normal[k]);
     if (middle + spread < offset[k]) continue;
     if (middle - spread >= offset[k]) return {-INFINITY, false};
     result.length = std::fmin(result.length, offset[k]);
+    ++result.facets;
   }
   return result;
+}
+
+ForbiddenSet ForbiddenSet::within(Vec3 c, Vec3 h) const {
+  ForbiddenSet part;
+  part.box = box;
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    if (dot(normal[k], c) + spread_of(h, normal[k]) < offset[k]) continue;
+    part.normal.push_back(normal[k]);
+    part.offset.push_back(offset[k]);
+    part.facet.push_back(facet[k]);
+  }
+  return part;
 }
 
 double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double least) const {

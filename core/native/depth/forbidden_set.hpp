@@ -1,6 +1,7 @@
 // A convex set of translations of A, each of which leaves A and B with a common interior.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/vec.hpp"
@@ -28,12 +29,16 @@ struct ForbiddenSet {
 
   // length: the set contains all translations in the box that are shorter than this, because planes at least this far
   // from the origin cut off only longer ones. Infinite if the set contains the whole box, -infinite if they do not
-  // meet.
+  // meet. facets: the number of those that the box reaches.
   struct Reach {
     double length;
     bool meets;
+    std::size_t facets = 0;
   };
   Reach reach(Vec3 centre, Vec3 half) const;
+
+  // The same set without the facets that the box does not reach: within the box, they are the same.
+  ForbiddenSet within(Vec3 centre, Vec3 half) const;
 
   // The same length for the part of the box beyond a plane: normal . t >= offset, `normal` unit. If it is less than
   // `least`, any number below `least`.

@@ -10,6 +10,8 @@ namespace {
 
 // Measured steps of one plane of a set.
 constexpr std::uint64_t kPlaneWork = 2;
+// A set is kept without the facets that a box does not reach if at most this share is left, one in so many.
+constexpr std::size_t kFewer = 2;
 // At most this many facets of a set may cut a box whose rest is covered by other sets.
 constexpr std::size_t kMostCuts = 4;
 // At most this many times a point is moved out of a set within its box.
@@ -29,16 +31,18 @@ double spread(const TranslationBox& box, Vec3 n) {
 double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double most) const {
   const Aabb bounds = box.bounds();
   for (; box.seen < sets_.size(); ++box.seen) {
-    if (meet(sets_[box.seen].box, bounds)) box.sets.push_back(box.seen);
+    if (meet(sets_[box.seen]->box, bounds)) box.sets.push_back(sets_[box.seen]);
   }
   double farthest = -INFINITY;
   std::size_t kept = 0;
-  for (const std::uint32_t i : box.sets) {
-    work_done += work_of(sets_[i]);
-    const ForbiddenSet::Reach reach = sets_[i].reach(box.centre, box.half);
-    if (reach.meets) box.sets[kept++] = i;
+  for (std::shared_ptr<const ForbiddenSet>& set : box.sets) {
+    work_done += work_of(*set);
+    const ForbiddenSet::Reach reach = set->reach(box.centre, box.half);
     farthest = std::fmax(farthest, reach.length);
     if (farthest >= most) break;
+    if (!reach.meets) continue;
+    if (reach.facets <= set->normal.size() / kFewer) set = std::make_shared<const ForbiddenSet>(set->within(box.centre, box.half));
+    std::swap(box.sets[kept++], set);
   }
   if (farthest >= least) return farthest;
   box.sets.resize(kept);
@@ -47,15 +51,14 @@ double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double 
 
 double ForbiddenUnion::covered_by_several(const TranslationBox& box, double least) {
   if (box.sets.size() < 2) return -INFINITY;
-  for (const std::uint32_t i : box.sets) {
-    const double length = covered_with(i, box, least);
+  for (const auto& set : box.sets) {
+    const double length = covered_with(*set, box, least);
     if (length >= least) return length;
   }
   return -INFINITY;
 }
 
-double ForbiddenUnion::covered_with(std::uint32_t first, const TranslationBox& box, double least) {
-  const ForbiddenSet& set = sets_[first];
+double ForbiddenUnion::covered_with(const ForbiddenSet& set, const TranslationBox& box, double least) {
   work_done += work_of(set);
   cuts_.clear();
   double length = INFINITY;
@@ -74,8 +77,8 @@ double ForbiddenUnion::covered_with(std::uint32_t first, const TranslationBox& b
   for (const Wall& cut : cuts_) {
     double beyond = -INFINITY;
     for (std::size_t j = 0; j < box.sets.size() && beyond < least; ++j) {
-      if (box.sets[j] == first) continue;
-      beyond = std::fmax(beyond, sets_[box.sets[j]].reach_beyond(box.centre, box.half, cut.normal, cut.offset, least));
+      if (box.sets[j].get() == &set) continue;
+      beyond = std::fmax(beyond, box.sets[j]->reach_beyond(box.centre, box.half, cut.normal, cut.offset, least));
     }
     length = std::fmin(length, beyond);
     if (length < least) return -INFINITY;
@@ -84,9 +87,9 @@ double ForbiddenUnion::covered_with(std::uint32_t first, const TranslationBox& b
 }
 
 bool ForbiddenUnion::is_open(const TranslationBox& box, Vec3 t, double most) const {
-  return norm(t) < most && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
-    work_done += work_of(sets_[i]);
-    return sets_[i].exit(t).depth > 0;
+  return norm(t) < most && std::none_of(box.sets.begin(), box.sets.end(), [&](const auto& set) {
+    work_done += work_of(*set);
+    return set->exit(t).depth > 0;
   });
 }
 
@@ -96,9 +99,9 @@ std::optional<Vec3> ForbiddenUnion::nearest_open(const TranslationBox& box, Vec3
   std::vector<Wall> walls;
   while (norm(t) < most) {
     ForbiddenSet::Exit deepest;
-    for (const std::uint32_t i : box.sets) {
-      work_done += work_of(sets_[i]);
-      const ForbiddenSet::Exit exit = sets_[i].exit(t);
+    for (const auto& set : box.sets) {
+      work_done += work_of(*set);
+      const ForbiddenSet::Exit exit = set->exit(t);
       if (exit.depth > deepest.depth) deepest = exit;
     }
     if (!(deepest.depth > 0)) return box.contains(t) ? std::optional(t) : std::nullopt;
@@ -113,10 +116,10 @@ std::optional<Vec3> ForbiddenUnion::nearest_open(const TranslationBox& box, Vec3
 
 Vec3 ForbiddenUnion::on_facets(const TranslationBox& box) const {
   Vec3 t = box.nearest_to_origin();
-  for (const std::uint32_t i : box.sets) {
-    for (std::size_t k = 0; k < sets_[i].normal.size(); ++k) {
-      const Vec3 n = sets_[i].normal[k];
-      const double facet = sets_[i].facet[k];
+  for (const auto& set : box.sets) {
+    for (std::size_t k = 0; k < set->normal.size(); ++k) {
+      const Vec3 n = set->normal[k];
+      const double facet = set->facet[k];
       if (std::fabs(facet - dot(n, box.centre)) <= spread(box, n)) t = t + n * (facet - dot(n, t));
     }
   }
@@ -124,16 +127,16 @@ Vec3 ForbiddenUnion::on_facets(const TranslationBox& box) const {
 }
 
 bool ForbiddenUnion::holds(Vec3 t) const {
-  return std::any_of(sets_.begin(), sets_.end(), [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; });
+  return std::any_of(sets_.begin(), sets_.end(), [&](const auto& set) { return set->exit(t).depth > 0; });
 }
 
 ForbiddenSet::Exit ForbiddenUnion::deepest_exit(Vec3 t) const {
   ForbiddenSet::Exit deepest;
   const Aabb point{t, t};
-  for (const ForbiddenSet& set : sets_) {
-    if (!meet(set.box, point)) continue;
-    work_done += work_of(set);
-    const ForbiddenSet::Exit exit = set.exit(t);
+  for (const auto& set : sets_) {
+    if (!meet(set->box, point)) continue;
+    work_done += work_of(*set);
+    const ForbiddenSet::Exit exit = set->exit(t);
     if (exit.depth > deepest.depth) deepest = exit;
   }
   return deepest;

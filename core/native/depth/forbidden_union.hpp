@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "depth/forbidden_set.hpp"
@@ -17,11 +19,12 @@ class ForbiddenUnion {
   // across: an axis of the world along which nothing is moved; -1: none.
   explicit ForbiddenUnion(int across) : across_(across) {}
 
-  void add(ForbiddenSet set) { sets_.push_back(std::move(set)); }
+  void add(ForbiddenSet set) { sets_.push_back(std::make_shared<const ForbiddenSet>(std::move(set))); }
   std::size_t size() const { return sets_.size(); }
 
   // A length up to which a single set contains all translations in the box; -infinite if it is less than `least`. The
-  // search for a longer one ends at `most`. Stores in box.sets which sets may contain a part of the box.
+  // search for a longer one ends at `most`. Stores in box.sets which sets may contain a part of the
+  // box.
   double covered_by_one(TranslationBox& box, double least, double most) const;
 
   // The same by one set and, for each part of the box beyond a facet of that set, one more set. With this, two sets
@@ -43,10 +46,10 @@ class ForbiddenUnion {
   ForbiddenSet::Exit deepest_exit(Vec3 t) const;
 
  private:
-  double covered_with(std::uint32_t first, const TranslationBox& box, double least);
+  double covered_with(const ForbiddenSet& first, const TranslationBox& box, double least);
 
   int across_;
-  std::vector<ForbiddenSet> sets_;
+  std::vector<std::shared_ptr<const ForbiddenSet>> sets_;
   std::vector<Wall> cuts_;  // buffer for covered_with()
 };
 

@@ -100,8 +100,9 @@ class Growth {
   void add_plane(Vec3 normal, double offset) { planes_.push_back({normal, offset, offset}); }
 
   void push_node(std::uint32_t index) {
-    // The box of the node in the metric's frame contains the image of the node.
     const Aabb& box = solid_.bvh.nodes[index].box;
+    if (is_beyond(box)) return;
+    // The box of the node in the metric's frame contains the image of the node.
     const Vec3 centre = (box.min * 0.5 + box.max * 0.5) - seed_, half = (box.max - box.min) * 0.5;
     double squared = 0;
     for (const Vec3& row : metric_.row) {
@@ -113,7 +114,9 @@ class Growth {
   }
 
   void push_triangle(std::uint32_t index) {
-    const Corners local = in_metric(corners(solid_.mesh, index));
+    const Corners c = corners(solid_.mesh, index);
+    if (is_beyond(c)) return;
+    const Corners local = in_metric(c);
     queue_.push({norm_squared(nearest_on_triangle({}, local)), index, true});
   }
 
@@ -122,26 +125,41 @@ class Growth {
     return c;
   }
 
-  bool is_beyond(const Aabb& box) const {
+  // Whether a plane keeps the obstacle off the seed. The plane of the obstacle before is tried first: near obstacles
+  // often share one.
+  template <typename IsBeyond>
+  bool is_beyond_any(IsBeyond is_beyond) {
+    if (is_beyond(planes_[last_])) return true;
+    const auto plane = std::find_if(planes_.begin(), planes_.end(), is_beyond);
+    if (plane == planes_.end()) return false;
+    last_ = static_cast<std::size_t>(plane - planes_.begin());
+    return true;
+  }
+
+  bool is_beyond(const Aabb& box) {
     const Vec3 centre = (box.min * 0.5 + box.max * 0.5) - seed_, half = (box.max - box.min) * 0.5;
-    return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& p) {
+    return is_beyond_any([&](const Plane& p) {
       const Vec3 n = p.normal;
       const double reach = std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z;
       return dot(n, centre) - reach >= p.offset;
     });
   }
 
+  bool is_beyond(const Corners& c) {
+    return is_beyond_any([&](const Plane& p) { return least_along(p.normal, c) >= p.offset; });
+  }
+
   double least_along(Vec3 normal, const Corners& c) const {
-    return std::fmin(dot(normal, c[0] - seed_), std::fmin(dot(normal, c[1] - seed_), dot(normal, c[2] - seed_)));
+    return smaller(dot(normal, c[0] - seed_), smaller(dot(normal, c[1] - seed_), dot(normal, c[2] - seed_)));
   }
 
   // Moves or adds a plane so that the triangle lies beyond it. False: the seed would not stay inside.
   bool cut_off(const Corners& c) {
+    if (is_beyond(c)) return true;
     Plane* closest = nullptr;
     double closest_share = -INFINITY, closest_offset = 0;
     for (Plane& p : planes_) {
       const double least = least_along(p.normal, c);
-      if (least >= p.offset) return true;
       const double share = least / p.nominal;
       if (share > closest_share) {
         closest_share = share;
@@ -204,6 +222,7 @@ class Growth {
   Metric metric_;
   double pad_ = 0;
   std::vector<Plane> planes_;
+  std::size_t last_ = 0;  // the plane that the last obstacle lies beyond
   std::priority_queue<Candidate, std::vector<Candidate>, Farther> queue_;
 };
 

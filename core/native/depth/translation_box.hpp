@@ -2,16 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/vec.hpp"
+#include "depth/forbidden_set.hpp"
 
 namespace satcheck {
 
 struct TranslationBox {
   double key;  // distance of its nearest point from the origin
   Vec3 centre, half;
-  std::vector<std::uint32_t> sets;  // those of the first `seen` forbidden sets that may contain a part of it
+  // Those of the first `seen` forbidden sets that may contain a part of it. Facets that the box does not reach may be left
+  // out of them.
+  std::vector<std::shared_ptr<const ForbiddenSet>> sets;
   std::uint32_t seen;
   std::uint64_t number;
 

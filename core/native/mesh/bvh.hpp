@@ -57,12 +57,17 @@ inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {
 // Measured steps of a visit to a node.
 inline constexpr std::uint64_t kNodeWork = 10;
 
+// Few trees are deeper.
+inline constexpr std::size_t kUsualDepth = 48;
+
 // Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
 // Returns whether all were visited.
 template <class Visit>
 bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit) {
   if (bvh.nodes.empty()) return true;
-  std::vector<std::uint32_t> stack{0};
+  std::vector<std::uint32_t> stack;
+  stack.reserve(kUsualDepth);
+  stack.push_back(0);
   while (!stack.empty()) {
     const BvhNode& node = bvh.nodes[stack.back()];
     stack.pop_back();

@@ -20,7 +20,9 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
   const Aabb at{p, p};
   double best = INFINITY;
   NearestPoint result{};
-  std::vector<std::pair<double, std::uint32_t>> stack{{0.0, 0u}};
+  std::vector<std::pair<double, std::uint32_t>> stack;
+  stack.reserve(kUsualDepth);
+  stack.push_back({0.0, 0u});
   while (!stack.empty()) {
     const auto [bound, index] = stack.back();
     stack.pop_back();
@@ -37,8 +39,9 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
       stack.push_back(nearer);
       continue;
     }
-    work_done += kTriangleWork * node.count;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!(box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best)) continue;
+      work_done += kTriangleWork;
       const std::uint32_t t = surface.bvh.order[i];
       const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
       const double d = norm_squared(q - p);

@@ -17,6 +17,8 @@ constexpr int kHalvings = 40;
 constexpr int kClimbSteps = 24;
 constexpr double kStride = 0.9;
 constexpr int kStrideHalvings = 3;
+// A step has to make the free ball larger by this factor.
+constexpr double kDeeper = 1 + 1.0 / 64;
 
 bool inside_both(const Surface& a, const Surface& b, Vec3 p) {
   return winding_number(a, p).value_or(0) != 0 && winding_number(b, p).value_or(0) != 0;
@@ -83,8 +85,10 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
       double stride = kStride * depth;
       for (int k = 0; k < kStrideHalvings && !climbed; ++k, stride *= 0.5) {
         const Vec3 q = p + way * stride;
-        const NearestPoint at_a = nearest_point(a, q), at_b = nearest_point(b, q);
-        if (std::fmin(at_a.distance, at_b.distance) <= depth * (1 + 1.0 / 64)) continue;
+        const NearestPoint at_a = nearest_point(a, q);
+        if (at_a.distance <= depth * kDeeper) continue;
+        const NearestPoint at_b = nearest_point(b, q);
+        if (at_b.distance <= depth * kDeeper) continue;
         p = q;
         on_a = at_a;
         on_b = at_b;

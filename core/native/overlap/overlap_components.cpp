@@ -39,8 +39,9 @@ class Overlap {
     }
   }
 
-  OverlapComponents describe() {
-    find_self_contact();
+  OverlapComponents describe(Unresolved unresolved) {
+    find_self_contact(unresolved);
+    if (is_left_out(unresolved)) return {false, {}};
     std::map<std::uint32_t, OverlapComponent> found;
     add_faces(found);
     add_volumes(found);
@@ -79,10 +80,12 @@ class Overlap {
     }
   }
 
+  bool is_left_out(Unresolved unresolved) const { return !resolved_ && unresolved == Unresolved::left_out; }
+
   // Marks self-contacts of triangles that meet the other surface or lie within the other solid.
-  void find_self_contact() {
+  void find_self_contact(Unresolved unresolved) {
     irregular_.assign(cells_.faces().size(), false);
-    for (std::uint32_t f = 0; f < cells_.faces().size(); ++f) {
+    for (std::uint32_t f = 0; f < cells_.faces().size() && !is_left_out(unresolved); ++f) {
       const CellFace& face = cells_.faces()[f];
       const auto in_other = [&](std::uint32_t side) {
         const auto windings = labels_.of(side);
@@ -170,19 +173,20 @@ Surface without_collinear(const Surface& solid) {
   return result;
 }
 
-OverlapComponents components_in_order(const Surface& a, const Surface& b, std::size_t max_pairs) {
+OverlapComponents components_in_order(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved) {
   if (!a.solid || !b.solid || a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {false, {}};
   const Surface plain_a = without_collinear(a), plain_b = without_collinear(b);
   SpaceCells cells(plain_a, plain_b, max_pairs);
   if (!cells.complete()) return {false, {}};
-  return Overlap(cells).describe();
+  return Overlap(cells).describe(unresolved);
 }
 
 }  // namespace
 
-OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs) {
+OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved) {
   const bool in_order = comes_before(a, b);
-  OverlapComponents result = in_order ? components_in_order(a, b, max_pairs) : components_in_order(b, a, max_pairs);
+  OverlapComponents result =
+      in_order ? components_in_order(a, b, max_pairs, unresolved) : components_in_order(b, a, max_pairs, unresolved);
   std::stable_sort(result.components.begin(), result.components.end(), [](const auto& x, const auto& y) {
     return x.bounds.min != y.bounds.min ? coordinates_less(x.bounds.min, y.bounds.min)
                                         : coordinates_less(x.bounds.max, y.bounds.max);

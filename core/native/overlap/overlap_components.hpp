@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,9 +36,13 @@ struct OverlapComponents {
   std::vector<OverlapComponent> components;  // by the least corner of their bounds
 };
 
+// What is asked of an overlap that is not resolved.
+enum class Unresolved : std::uint8_t { described, left_out };
+
 // Swapping a and b only swaps the fields of a and b. max_pairs: limit on pairs of triangles that meet; more are not
 // resolved.
-OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs);
+OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs,
+                                     Unresolved unresolved = Unresolved::described);
 
 // Whether one of two solids passes through the other. Empty: not resolved.
 std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs);

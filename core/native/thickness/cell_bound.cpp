@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
@@ -83,18 +84,19 @@ class CellBound {
     return bodies_.widened(box_, open_.bound + bodies_.less(body) + 2 * bodies_.rounding());
   }
 
+  // The patches of the body near the cell, once they are listed, and those that may have a point in its interior.
+  const PatchList& near_to(int body) const { return (*open_.near)[static_cast<std::size_t>(body)]; }
+  const PatchList& met_by(int body) const { return *open_.met[static_cast<std::size_t>(body)]; }
+
   // Whether the body has no point inside the cell.
   bool is_outside(int body) {
     const auto side = static_cast<std::size_t>(body);
     if (open_.inside[side]) return false;
-    const PatchList& near = open_.is_listed ? open_.near[side] : met_[side] = bodies_.patches_at(body, box_);
-    PatchList met;
-    work_done += kFilterWork * near.size();
-    for (const std::uint32_t i : near) {
-      if (may_meet(body, i)) met.push_back(i);
-    }
-    met_[side] = std::move(met);
-    if (!met_[side].empty()) return false;
+    if (!open_.met[side]) open_.met[side] = bodies_.patches_at(body, box_);
+    PatchList& met = *open_.met[side];
+    work_done += kFilterWork * met.size();
+    std::erase_if(met, [&](std::uint32_t i) { return !may_meet(body, i); });
+    if (!met.empty()) return false;
     if (is_void_at_middle(body)) return true;
     open_.inside[side] = bodies_.is_inside(body, middle_);
     return false;
@@ -110,7 +112,8 @@ class CellBound {
   // there. What is near to it follows from the parts of the cell.
   bool is_crowded() {
     for (int body = 0; body < 2; ++body) {
-      if (open_.is_listed && open_.near[static_cast<std::size_t>(body)].size() <= kCrowd) continue;
+      const auto& met = open_.met[static_cast<std::size_t>(body)];
+      if (met && met->size() <= kCrowd) continue;
       if (bodies_.patches_at(body, box_, kCrowd + 1).size() <= kCrowd || !is_void_at_middle(body)) continue;
       open_.bound = std::fmin(open_.bound, radius_ + cell_.error + bodies_.rounding() - bodies_.less(body));
       return true;
@@ -120,24 +123,31 @@ class CellBound {
 
   // Lists the patches near enough to matter.
   void list_patches() {
+    auto lists = std::make_shared<PatchLists>();
     for (int body = 0; body < 2; ++body) {
-      PatchList& near = open_.near[static_cast<std::size_t>(body)];
+      const auto side = static_cast<std::size_t>(body);
       const Aabb around = reach_of(body);
-      if (!open_.is_listed) near = bodies_.patches_at(body, around);
-      work_done += kFilterWork * near.size();
-      std::erase_if(near, [&](std::uint32_t i) { return !meet(bodies_.box(body, i), around); });
+      if (!open_.near) {
+        (*lists)[side] = bodies_.patches_at(body, around);
+        continue;
+      }
+      const PatchList& known = near_to(body);
+      work_done += kFilterWork * known.size();
+      std::copy_if(known.begin(), known.end(), std::back_inserter((*lists)[side]),
+                   [&](std::uint32_t i) { return meet(bodies_.box(body, i), around); });
     }
-    open_.is_listed = true;
+    open_.near = std::move(lists);
   }
 
   // Around a point outside of either body.
   void bound_by_voids() {
     for (int body = 0; body < 2; ++body) {
       const auto side = static_cast<std::size_t>(body);
-      if (met_[side].empty() || met_[side].size() > kCrowd) continue;
+      const PatchList& met = met_by(body);
+      if (met.empty() || met.size() > kCrowd) continue;
       const auto hollow = hollow_of(body);
       if (!hollow) continue;
-      const CellVoid here{cell_, body, met_[side], *hollow, open_.is_listed ? &open_.near[1 - side] : nullptr};
+      const CellVoid here{cell_, body, met, *hollow, open_.near ? &(*open_.near)[1 - side] : nullptr};
       const double bound = bound_around(here, bodies_, kWorthwhile * std::fmin(open_.bound, radius_));
       open_.bound = std::fmin(open_.bound, bound);
     }
@@ -149,7 +159,7 @@ class CellBound {
     const ConvexPatches& patches = bodies_.patches(body);
     Vec3 front;
     double least = INFINITY;
-    for (const std::uint32_t i : met_[static_cast<std::size_t>(body)]) {
+    for (const std::uint32_t i : met_by(body)) {
       const Vec3 on = patches.nearest(patches.patches[i], middle_);
       if (norm(on - middle_) >= least) continue;
       least = norm(on - middle_);
@@ -242,7 +252,7 @@ class CellBound {
 
   // The plane of the patch, where that will do, or its distance.
   Column best_column(int body, std::uint32_t patch) const {
-    const PatchList& near = open_.near[static_cast<std::size_t>(body)];
+    const PatchList& near = near_to(body);
     const auto plane = bodies_.plane_column(body, patch, reach_of(body), near, kPlaneTolerance * open_.bound);
     return plane ? *plane : Column{patch, false, body, 0, 1};
   }
@@ -267,7 +277,11 @@ class CellBound {
       }
       best.depth = smaller(best.depth, distance);
     };
-    const PatchList& near = open_.near[static_cast<std::size_t>(body)];
+    // What was near to other points of the cell is likely to be near to this one.
+    for (const Column& column : columns_) {
+      if (column.body == body) compare(column.patch);
+    }
+    const PatchList& near = near_to(body);
     if (near.size() < kManyPatches || bodies_.in_plane()) {
       work_done += kFilterWork * near.size();
       for (const std::uint32_t i : near) compare(i);
@@ -302,8 +316,7 @@ class CellBound {
   void choose_cut() {
     if (outside_ >= 0) {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
-      const PatchList& met = met_[static_cast<std::size_t>(outside_)];
-      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met, point_, layer);
+            open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer);
     }
     if (!open_.cut) open_.cut = cut_at_gap(gap());
   }
@@ -351,7 +364,6 @@ class CellBound {
   Vec3 middle_;        // a point of the cell
   double radius_ = 0;  // no point of it is farther from there
   std::array<std::optional<bool>, 2> void_at_middle_;
-  PatchLists met_;  // patches that may meet the cell
   std::optional<MatrixGame> game_;
   std::vector<Column> columns_;
   std::vector<double> values_;  // of each column at all corners

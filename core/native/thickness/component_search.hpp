@@ -1,20 +1,50 @@
 // The thickness of an overlap from its components: slivers between facets, one by one.
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <optional>
+#include <vector>
 
+#include "overlap/overlap_components.hpp"
 #include "thickness/thickness_search.hpp"
 
 namespace satcheck {
 
-using SearchWithin = std::function<ThicknessInterval(const ThicknessGoal&)>;
+class ComponentSearch {
+ public:
+  ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal);
 
-// The hull of a component bounds its thickness at once. `search` is called for components whose hulls leave the goal open,
-// the thickest hull first, with their boxes and their share of the work. known: an interval of the whole overlap.
-// Nothing where the components are not resolved, or where many hulls are much thicker than what is known: each of
-// these components takes as long as the whole overlap took.
-std::optional<ThicknessInterval> search_components(const Surface& a, const Surface& b, const ThicknessGoal& goal,
-                                                   const ThicknessInterval& known, const SearchWithin& search);
+  // False: the components say nothing.
+  bool resolved() const { return overlap_.resolved; }
+
+  // known: an interval of the whole overlap, narrowed by the balls in the hulls of the components. No search.
+  ThicknessInterval bound(const ThicknessInterval& known);
+
+  // Whether many hulls are much thicker than what is known: each of these components takes as long as the whole overlap.
+  bool are_thick(const ThicknessInterval& known) const;
+
+  // `within` is called for components whose hulls leave the goal open, the thickest hull first, with their boxes and their
+  // share of the work that is left.
+  using SearchWithin = std::function<ThicknessInterval(const ThicknessGoal&)>;
+  ThicknessInterval search(const ThicknessInterval& known, const SearchWithin& within);
+
+ private:
+  double enough() const;
+  void take_ball(const ThicknessInterval& ball);
+  void take_point(const ThicknessInterval& other);
+  template <class Share>
+  void narrow(const SearchWithin& within, Share share);
+  double upper_end(std::size_t component, const SearchWithin& within);
+  ThicknessInterval searched(ThicknessGoal& goal, const SearchWithin& within);
+
+  const ThicknessGoal& goal_;
+  Poller poller_;
+  OverlapComponents overlap_;
+  std::vector<ThicknessInterval> balls_;
+  ThicknessInterval best_;
+  std::vector<double> upper_;  // of each component
+  std::uint64_t left_ = 0;     // of the work
+  std::uint64_t share_ = 0;    // of that, for one component
+};
 
 }  // namespace satcheck

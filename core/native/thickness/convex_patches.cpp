@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
+#include "base/edge_table.hpp"
 #include "base/patches.hpp"
 #include "exact/point_in_triangle.hpp"
 #include "exact/predicates.hpp"
@@ -15,12 +18,6 @@ namespace {
 // The cost of a distance grows with the corners of a patch.
 constexpr std::size_t kMostCorners = 16;
 
-struct Edge {
-  std::uint32_t low, high;  // vertices
-  std::uint32_t triangle;   // place in the list
-  bool upward;              // runs from low to high
-};
-
 struct Seam {
   double length_squared;
   std::uint32_t from, to;      // as the first triangle runs it
@@ -30,11 +27,9 @@ struct Seam {
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
-      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), outlines_(triangles.size()),
+      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), merged_(triangles.size()),
         normals_(triangles.size()) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const Triangle& t = mesh.triangles[triangles[i]];
-      outlines_[i] = {t[0], t[1], t[2]};
       const auto c = corners(mesh, triangles[i]);
       const Vec3 normal = rounded_normal(c[0], c[1], c[2]);
       const double length = norm(normal);
@@ -46,34 +41,36 @@ class Merging {
     for (const Seam& seam : flat_seams()) merge(seam);
     ConvexPatches result;
     result.patch_of.assign(mesh_.triangles.size(), kNoPatch);
-    std::vector<std::vector<std::uint32_t>> members(triangles_.size());
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) members[sets_.find(i)].push_back(triangles_[i]);
+    std::vector<std::uint32_t> sizes(triangles_.size(), 0);
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) ++sizes[sets_.find(i)];
+    std::uint32_t first = 0;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-      if (sets_.find(i) == i) append(result, i, members[i]);
+      if (sizes[i] == 0) continue;
+      result.patch_of[triangles_[i]] = static_cast<std::uint32_t>(result.patches.size());
+      append(result, i, first, sizes[i]);
+      first += sizes[i];
     }
+    list_triangles(result);
     return result;
   }
 
  private:
+  using Outline = std::span<const std::uint32_t>;
+
+  // Vertices, of a set at its representative.
+  Outline outline(std::uint32_t i) const {
+    return merged_[i].empty() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged_[i]);
+  }
+
   std::vector<Seam> flat_seams() const {
-    std::vector<Edge> edges;
-    edges.reserve(3 * triangles_.size());
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-      const auto& t = outlines_[i];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-        edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
-      }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-    });
+    std::vector<Triangle> faces;
+    faces.reserve(triangles_.size());
+    for (const std::uint32_t t : triangles_) faces.push_back(mesh_.triangles[t]);
+    const EdgeTable edges(mesh_.vertices.size(), faces);
     std::vector<Seam> seams;
-    for (std::size_t i = 0; i < edges.size();) {
-      std::size_t end = i + 1;
-      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-      if (end == i + 2 && edges[i].upward != edges[i + 1].upward) add_seam(seams, edges[i], edges[i + 1]);
-      i = end;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto h = edges.half_edges(e);
+      if (h.size() == 2 && edges.ascends(h[0]) != edges.ascends(h[1])) add_seam(seams, h[0], h[1]);
     }
     std::sort(seams.begin(), seams.end(), [](const Seam& a, const Seam& b) {
       if (a.length_squared != b.length_squared) return a.length_squared > b.length_squared;
@@ -82,16 +79,17 @@ class Merging {
     return seams;
   }
 
-  void add_seam(std::vector<Seam>& seams, const Edge& a, const Edge& b) const {
-    if (!(dot(normals_[a.triangle], normals_[b.triangle]) > 0)) return;
-    if (deviation(a.triangle, outlines_[b.triangle]) > flatness_) return;
-    if (deviation(b.triangle, outlines_[a.triangle]) > flatness_) return;
-    const std::uint32_t from = a.upward ? a.low : a.high, to = a.upward ? a.high : a.low;
-    seams.push_back({norm_squared(mesh_.vertices[from] - mesh_.vertices[to]), from, to, a.triangle, b.triangle});
+  // The half-edges run against each other.
+  void add_seam(std::vector<Seam>& seams, std::uint32_t half_edge, std::uint32_t other) const {
+    const std::uint32_t a = half_edge / 3, b = other / 3;
+    if (!(dot(normals_[a], normals_[b]) > 0)) return;
+    if (deviation(a, outline(b)) > flatness_ || deviation(b, outline(a)) > flatness_) return;
+    const std::uint32_t from = outline(a)[half_edge % 3], to = outline(a)[(half_edge % 3 + 1) % 3];
+    seams.push_back({norm_squared(mesh_.vertices[from] - mesh_.vertices[to]), from, to, a, b});
   }
 
   // From the plane of a triangle.
-  double deviation(std::uint32_t plane, const std::vector<std::uint32_t>& outline) const {
+  double deviation(std::uint32_t plane, Outline outline) const {
     const Vec3 origin = mesh_.vertices[mesh_.triangles[triangles_[plane]][0]];
     double most = 0;
     for (const std::uint32_t v : outline) {
@@ -104,24 +102,23 @@ class Merging {
     const std::uint32_t p = sets_.find(seam.first), q = sets_.find(seam.second);
     if (p == q) return;
     const std::uint32_t kept = std::min(p, q);
-    std::vector<std::uint32_t> joined = joined_outline(outlines_[p], outlines_[q], seam);
+    std::vector<std::uint32_t> joined = joined_outline(outline(p), outline(q), seam);
     if (joined.empty() || deviation(kept, joined) > flatness_) return;
     if (!is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
     sets_.unite(p, q);
-    outlines_[kept] = std::move(joined);
-    outlines_[std::max(p, q)].clear();
+    merged_[kept] = std::move(joined);
+    merged_[std::max(p, q)].clear();
   }
 
   // Empty where they share more than the seam, or have too many corners.
-  static std::vector<std::uint32_t> joined_outline(const std::vector<std::uint32_t>& p, const std::vector<std::uint32_t>& q,
-                                                   const Seam& seam) {
+  static std::vector<std::uint32_t> joined_outline(Outline p, Outline q, const Seam& seam) {
     if (p.size() + q.size() > kMostCorners + 2) return {};
     for (const std::uint32_t v : q) {
       if (v != seam.from && v != seam.to && std::find(p.begin(), p.end(), v) != p.end()) return {};
     }
     // p runs from -> to, q runs to -> from.
     std::vector<std::uint32_t> joined;
-    const auto walk = [&](const std::vector<std::uint32_t>& loop, std::uint32_t start, std::uint32_t end) {
+    const auto walk = [&](Outline loop, std::uint32_t start, std::uint32_t end) {
       auto at = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), start) - loop.begin());
       for (; loop[at % loop.size()] != end; ++at) joined.push_back(loop[at % loop.size()]);
     };
@@ -130,7 +127,7 @@ class Merging {
     return joined;
   }
 
-  bool is_convex_at(const std::vector<std::uint32_t>& outline, std::uint32_t plane, std::uint32_t vertex) const {
+  bool is_convex_at(Outline outline, std::uint32_t plane, std::uint32_t vertex) const {
     const std::size_t n = outline.size();
     const auto at = static_cast<std::size_t>(std::find(outline.begin(), outline.end(), vertex) - outline.begin());
     const auto point = [&](std::size_t i) { return mesh_.vertices[outline[i % n]]; };
@@ -138,29 +135,39 @@ class Merging {
     return orientation_2d(point(at + n - 1), point(at), point(at + 1), axis) * (normals_[plane][axis] > 0 ? 1 : -1) >= 0;
   }
 
-  void append(ConvexPatches& result, std::uint32_t i, const std::vector<std::uint32_t>& members) const {
-    Patch patch{normals_[i], mesh_.vertices[outlines_[i][0]], static_cast<std::uint32_t>(result.outlines.size()),
-                static_cast<std::uint32_t>(outlines_[i].size()), static_cast<std::uint32_t>(result.triangles.size()),
-                static_cast<std::uint32_t>(members.size()), 0};
+  // A patch of the set with this representative; its triangles are listed later.
+  void append(ConvexPatches& result, std::uint32_t i, std::uint32_t first_triangle, std::uint32_t triangle_count) const {
+    const Outline vertices = outline(i);
+    Patch patch{normals_[i], mesh_.vertices[vertices[0]], static_cast<std::uint32_t>(result.outlines.size()),
+                static_cast<std::uint32_t>(vertices.size()), first_triangle, triangle_count, 0};
     Aabb& box = result.boxes.emplace_back();
-    for (const std::uint32_t v : outlines_[i]) {
+    for (const std::uint32_t v : vertices) {
       result.outlines.push_back(mesh_.vertices[v]);
       box.include(mesh_.vertices[v]);
     }
-    patch.slack = members.size() > 1 ? 2 * deviation(i, outlines_[i]) : 0;
+    patch.slack = triangle_count > 1 ? 2 * deviation(i, vertices) : 0;
     const Vec3 bulge{patch.slack, patch.slack, patch.slack};
     box = {box.min - bulge, box.max + bulge};
-    for (const std::uint32_t t : members) result.patch_of[t] = static_cast<std::uint32_t>(result.patches.size());
-    result.triangles.insert(result.triangles.end(), members.begin(), members.end());
     result.patches.push_back(patch);
+  }
+
+  void list_triangles(ConvexPatches& result) {
+    result.triangles.resize(triangles_.size());
+    std::vector<std::uint32_t> next;
+    for (const Patch& patch : result.patches) next.push_back(patch.first_triangle);
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      const std::uint32_t patch = result.patch_of[triangles_[sets_.find(i)]];
+      result.patch_of[triangles_[i]] = patch;
+      result.triangles[next[patch]++] = triangles_[i];
+    }
   }
 
   const Mesh& mesh_;
   const std::vector<std::uint32_t>& triangles_;
   double flatness_;
   DisjointSets sets_;
-  std::vector<std::vector<std::uint32_t>> outlines_;  // of each set, at its representative
-  std::vector<Vec3> normals_;                         // of each triangle
+  std::vector<std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
+  std::vector<Vec3> normals_;                       // of each triangle
 };
 
 }  // namespace

@@ -19,10 +19,11 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a cell, and steps between two calls of poll().
-constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
+// Measured steps of a cell.
+constexpr std::uint64_t kCellWork = 1000;
 
-// Of work, until the components of the overlap are looked at: at least, and for each triangle.
+// Of work, until the components of the overlap are looked at: at least, and for each triangle. If their hulls do not
+// decide, the whole overlap is searched for half of that time again: the search is often almost at its end.
 constexpr std::uint64_t kPatience = 10'000'000, kPatiencePerTriangle = 2000;
 
 // Bounds below this many roundings are not divided further: rounding keeps them above 0.
@@ -49,12 +50,15 @@ class Search {
  public:
   // centre: was subtracted from both surfaces.
   Search(const Surface& a, const Surface& b, const ThicknessGoal& goal, Vec3 centre)
-      : bodies_(a, b, goal), goal_(goal), centre_(centre) {
+      : bodies_(a, b, goal), goal_(goal), poller_(goal.poll), centre_(centre) {
     best_ = dropped_ = floor_ = 0.0 - std::fmax(goal.less_a, goal.less_b);
+    if (goal.prove && goal.across < 0) record_.emplace();
   }
 
-  ThicknessInterval run() {
-    if (goal_.prove && goal_.across < 0) record_.emplace();
+  // Goes on until this many steps have been spent in all.
+  ThicknessInterval run(std::uint64_t most_work) {
+    start_ = work_done - result_.work;
+    most_work_ = most_work;
     search();
     if (record_ && box_) result_.proof = std::make_shared<ThicknessProof>(record_->proof(bodies_, centre_, *box_));
     return result_;
@@ -62,7 +66,7 @@ class Search {
 
  private:
   void search() {
-    push_root();
+    if (!box_) push_root();
     while (!open_.empty()) {
       if (finish(open_.front()->bound)) return;
       divide_largest();
@@ -88,11 +92,8 @@ class Search {
     const bool decided = goal_.limit && (result_.lower > *goal_.limit || result_.upper <= *goal_.limit);
     const bool narrow = upper - best_ <= goal_.width * std::fabs(upper) || open_.empty();
     result_.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
-    if (decided || narrow || work() >= goal_.work) return true;
-    if (goal_.poll && work() >= next_poll_) {
-      next_poll_ = work() + kPollWork;
-      goal_.poll();
-    }
+    if (decided || narrow || work() >= most_work_) return true;
+    if (poller_.is_due(work())) poller_.call({result_.lower, result_.upper, work()});
     return false;
   }
 
@@ -222,7 +223,7 @@ class Search {
     if (record_) nodes = record_->divide(parent.node, halves->plane);
     for (Cell* part : {&halves->below, &halves->above}) {
       const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
-      share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.is_listed,
+      share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.met,
                                                                 parent.columns, parent.inside, {}, 0, node}));
     }
   }
@@ -255,32 +256,44 @@ class Search {
 
   TwoBodies bodies_;
   ThicknessGoal goal_;
+  Poller poller_;
   Vec3 centre_;
   Mat3 axes_;
   std::optional<Aabb> box_;  // common to the boxes of the bodies
   std::optional<ThicknessRecord> record_;
-  std::uint64_t start_ = work_done;
+  std::uint64_t start_ = 0, most_work_ = 0;  // of work: where this search would have begun, and where it ends
   double floor_, best_, dropped_;
   ThicknessInterval result_;
   std::vector<std::unique_ptr<OpenCell>> open_;  // a heap, largest bound first
-  std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
+  std::uint64_t next_number_ = 0;
 };
 
-ThicknessInterval search_in_order(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
-  const Vec3 centre = exact_centre(a, b);
-  if (centre == Vec3{}) return Search(a, b, goal, centre).run();
-  MovedSurface moved_a(a), moved_b(b);
-  return Search(moved_a.at(-centre), moved_b.at(-centre), goal, centre).run();
-}
+// The search of two surfaces near the origin, in the order that does not depend on which of them is called A.
+class OrderedSearch {
+ public:
+  OrderedSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal) : swapped_(!comes_before(a, b)) {
+    const Surface &first = swapped_ ? b : a, &second = swapped_ ? a : b;
+    ThicknessGoal ordered = goal;
+    if (swapped_) std::swap(ordered.less_a, ordered.less_b);
+    const Vec3 centre = exact_centre(first, second);
+    search_.emplace(moved(0, first, centre), moved(1, second, centre), ordered, centre);
+  }
 
-ThicknessInterval search_either_way(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
-  if (comes_before(a, b)) return search_in_order(a, b, goal);
-  ThicknessGoal swapped = goal;
-  std::swap(swapped.less_a, swapped.less_b);
-  ThicknessInterval interval = search_in_order(b, a, swapped);
-  if (interval.proof) interval.proof->swap_bodies();
-  return interval;
-}
+  ThicknessInterval run(std::uint64_t most_work) {
+    ThicknessInterval interval = search_->run(most_work);
+    if (interval.proof && swapped_) interval.proof->swap_bodies();
+    return interval;
+  }
+
+ private:
+  const Surface& moved(std::size_t body, const Surface& surface, Vec3 centre) {
+    return centre == Vec3{} ? surface : moved_[body].emplace(surface).at(-centre);
+  }
+
+  bool swapped_;
+  std::array<std::optional<MovedSurface>, 2> moved_;
+  std::optional<Search> search_;
+};
 
 ThicknessStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& goal) {
   if (goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit)) return ThicknessStop::decided;
@@ -293,19 +306,23 @@ ThicknessStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& go
 // Many small components, as between the facets of a bolt and those of its hole, take one search of all of them long.
 ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
+  OrderedSearch whole(a, b, goal);
   const bool has_components = goal.across < 0 && !goal.prove && !goal.within;
   const std::uint64_t patience = kPatience + kPatiencePerTriangle * (a.mesh.triangles.size() + b.mesh.triangles.size());
-  if (!has_components || goal.work <= patience) return search_either_way(a, b, goal);
-  ThicknessGoal next = goal;
-  next.work = patience;
-  const ThicknessInterval first = search_either_way(a, b, next);
-  if (first.stop != ThicknessStop::work_spent) return first;
-  next.work = goal.work - patience;
-  const auto search = [&](const ThicknessGoal& of_one) { return search_either_way(a, b, of_one); };
-  std::optional<ThicknessInterval> interval = search_components(a, b, next, first, search);
-  if (!interval) return search_either_way(a, b, goal);
-  interval->stop = stop_of(*interval, goal);
-  return *interval;
+  if (!has_components || goal.work <= patience) return whole.run(goal.work);
+  ThicknessInterval known = whole.run(patience);
+  if (known.stop != ThicknessStop::work_spent) return known;
+  ComponentSearch components(a, b, goal);
+  if (!components.resolved()) return whole.run(goal.work);
+  ThicknessInterval interval = components.bound(known);
+  if (stop_of(interval, goal) == ThicknessStop::work_spent) {
+    const bool is_thick = components.are_thick(known);
+    known = whole.run(is_thick ? goal.work : std::min(goal.work, patience + patience / 2));
+    if (is_thick || known.stop != ThicknessStop::work_spent) return known;
+    interval = components.search(known, [&](const ThicknessGoal& of_one) { return OrderedSearch(a, b, of_one).run(of_one.work); });
+  }
+  interval.stop = stop_of(interval, goal);
+  return interval;
 }
 
 }  // namespace satcheck

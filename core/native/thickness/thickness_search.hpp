@@ -6,10 +6,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
+#include "base/poll.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -34,7 +34,7 @@ struct ThicknessGoal {
   // has its centre in the box.
   std::optional<BoxAlong> within = {};
   unsigned threads = 1;  // 0: one for each core; the answer does not depend on it
-  std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
+  Poll poll = {};
 };
 
 enum class ThicknessStop : std::uint8_t {

@@ -12,7 +12,7 @@
 namespace satcheck {
 
 // From so many patches on, the tree of the surface has the ones in a place sooner than a list.
-inline constexpr std::size_t kManyPatches = 256;
+inline constexpr std::size_t kManyPatches = 1024;
 
 using PatchList = std::vector<std::uint32_t>;
 using PatchLists = std::array<PatchList, 2>;  // of either body

@@ -56,7 +56,9 @@ double bound_around(const CellVoid& of, const TwoBodies& bodies, double enough) 
   const double rounding = bodies.rounding(), less = bodies.less(other);
   // A point that is this far beyond the cell's farthest one lies in the box.
   const Aabb around = bodies.widened(of.cell.box(), enough + less + 2 * rounding);
-  const PatchList near = of.near == nullptr ? bodies.patches_at(other, around) : *of.near;
+  PatchList listed;
+  if (of.near == nullptr) listed = bodies.patches_at(other, around);
+  const PatchList& near = of.near == nullptr ? listed : *of.near;
   BoxCorners corners(bodies, other, around);
   double bound = -less;
   for (const std::uint32_t number : of.met) {

@@ -57,6 +57,21 @@ void random_hulls() {
   }
 }
 
+// Facets that a box does not reach say nothing about its points.
+void sets_within_boxes() {
+  const Mesh a = box({0, 0, 0}, {1, 1, 1}), b = box({0.75, 0, 0}, {2, 1, 1});
+  const ForbiddenSet set = forbidden_set(a.vertices, b.vertices);
+  const Vec3 centre{0, 0.875, 0}, half{0.5, 0.25, 0.5};
+  const ForbiddenSet part = set.within(centre, half);
+  const ForbiddenSet::Reach whole = set.reach(centre, half), reach = part.reach(centre, half);
+  // Two triangles each of the facets x = -0.25 and y = 1.
+  CHECK(set.normal.size() == 12 && part.normal.size() == 4 && whole.facets == 4 && reach.facets == 4);
+  CHECK(reach.meets && reach.length == whole.length);
+  for (const Vec3 t : {centre, Vec3{-0.375, 0.875, 0}, Vec3{0, 1.0625, 0.25}, Vec3{0.25, 0.75, -0.5}}) {
+    CHECK((part.exit(t).depth > 0) == (set.exit(t).depth > 0));
+  }
+}
+
 // Of a part of a box that counts as held, no point is outside; and two halves of a box that one set holds are held.
 void parts_of_boxes() {
   std::mt19937 random(5);
@@ -91,5 +106,6 @@ UNIT(forbidden_set) {
   two_cubes();
   no_volume_no_set();
   random_hulls();
+  sets_within_boxes();
   parts_of_boxes();
 }

@@ -45,6 +45,17 @@ void caves() {
   CHECK(overlap_components(make_surface(hollow, true), block, kPlenty).components.size() == 2);
 }
 
+// Two boxes that cross count as one solid, which meets itself within the block.
+void what_is_not_resolved() {
+  Mesh crossed = testing::box({0, 0, 0}, {4, 4, 4});
+  testing::append(crossed, testing::box({2, 2, 2}, {6, 6, 6}));
+  const Surface a = make_surface(crossed, true), block = box({1, 1, 1}, {5, 5, 5});
+  const OverlapComponents described = overlap_components(a, block, kPlenty);
+  CHECK(!described.resolved && !described.components.empty());
+  const OverlapComponents left_out = overlap_components(a, block, kPlenty, Unresolved::left_out);
+  CHECK(!left_out.resolved && left_out.components.empty());
+}
+
 void spheres_cross_in_one_curve() {
   Mesh other = testing::uv_sphere(24);
   for (Vec3& p : other.vertices) p = {p.z + 0.7, p.x + 0.1, p.y + 0.2};
@@ -60,5 +71,6 @@ UNIT(overlap_components) {
   corner_of_boxes();
   pin_through_a_plate();
   caves();
+  what_is_not_resolved();
   spheres_cross_in_one_curve();
 }
