@@ -86,7 +86,12 @@ class Search {
       TranslationBox box = open_.top();
       open_.pop();
       open_from = box.key;
-      if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
+      const double lower = std::fmax(std::fmin(open_from, covered_to_), goal_.lower);
+      if (lower >= enough()) break;
+      if (lower >= goal_.limit) {
+        result_.stop = DepthStop::decided;
+        break;
+      }
       if (work() >= goal_.work) {
         result_.stop = DepthStop::work_spent;
         break;
