@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.report.values import Count, Interval, Length, Share, Value
+from satcheck.report.values import Count, Interval, Length, Share, Value, Vector
 
 # The value of a joint is a number, or a list of numbers.
 Joints = dict[str, float | list[float]]
@@ -43,10 +43,12 @@ class Sweep(Value, frozen=True, kw_only=True):
     could not be excluded, and at no t they overlap by more than it. `penetrating`: they overlap by
     more at some t. tolerance: the touch band of the sweep. time_of_impact: no such overlap before
     its lower end; at its upper end, a check of the bodies, posed and rounded to float64, finds one.
-    at: the pose there. joints: on a path of joints, their values there. poses: the numbers, from 1,
-    of the poses of that path before and after it. contact: no common point before this t. reached:
-    no such overlap up to this t. worst: only if the depth is asked, or the clearance, the
-    tolerance or a limit needs it.
+    at: the pose there. point: in the world, common to both bodies in that pose, up to rounding; of
+    curved shapes, up to the tolerance and the way of the bodies during time_of_impact. None: there
+    is no proven hit, or no such point is known. joints: on a path of joints, their values there.
+    poses: the numbers, from 1, of the poses of that path before and after it. contact: no common
+    point before this t. reached: no such overlap up to this t. worst: only if the depth is asked,
+    or the clearance, the tolerance or a limit needs it.
     distance_at_least: a lower bound of the distance at every t, where `worst` is None. reason: why
     the answer is `indeterminate`, or what the sweep of surfaces left open. steps: the cost. proven:
     False: only boxes or hulls show the hit, at an accuracy below exact.
@@ -55,6 +57,7 @@ class Sweep(Value, frozen=True, kw_only=True):
     relation: SweptRelation
     time_of_impact: Interval | None = None
     at: tuple[Place, ...] = ()
+    point: Vector | None = None
     joints: Joints | None = None
     poses: tuple[Count, Count] | None = None
     contact: Share | None = None

@@ -97,9 +97,11 @@ def search(
     *,
     width: float | None = None,
     work: int | None = None,
+    limit: float = math.inf,
 ) -> core.DepthInterval:
     """The interval between known bounds narrowed, by translations of A that free the meshes and by
-    proofs that others do not. width, work: those of the settings."""
+    proofs that others do not. width, work: those of the settings. limit: the search also ends when
+    the depth is proven to be at least this."""
     with shown("depth", pair) as progress:
         interval = core.search_depth(
             pair.a.surface(),
@@ -109,12 +111,14 @@ def search(
             width=pair.settings.depth_width if width is None else width,
             work=pair.settings.work if work is None else work,
             across=pair.settings.across,
+            limit=limit,
             progress=progress,
         )
-    reason = "" if interval.stop == "narrow" else "; the budget ended the search"
+    spent = interval.stop == "work spent"
+    reason = "; the budget ended the search" if spent else ""
     trace.record(
         "search",
-        "narrow" if interval.stop == "narrow" else "budget spent",
+        "budget spent" if spent else interval.stop,
         f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes "
         f"of translations, {interval.sets} convex sets of them, "
         f"{interval.mesh_tests} tests of the meshes{reason}",

@@ -170,7 +170,8 @@ def _searched(pair: Pair, lower: float, trace: Trace) -> Band | None:
         return None
     from satcheck.audit.figures.concave_depth import search
 
-    way_out = search(pair, lower, hulls.upper, trace).way_out
+    limit = pair.tolerance * LITTLE_LONGER
+    way_out = search(pair, lower, hulls.upper, trace, limit=limit).way_out
     return None if way_out is None else band_of(pair, way_out)
 
 

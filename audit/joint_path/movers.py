@@ -107,6 +107,7 @@ class JointMovers:
                 reached=lower,
                 time_of_impact=(lower, found.hit),
                 at=self._places(k, found.hit),
+                point=self._search.impact_point(k, lower, found.hit),
                 joints=self._path.pose(found.hit),
                 poses=self._path.poses_around(found.hit),
                 contact=lower,

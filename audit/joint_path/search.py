@@ -19,11 +19,13 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
+from satcheck.audit.motion.impact_point import impact_point
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 from satcheck.audit.request.planner import ALWAYS, Request
 from satcheck.audit.request.trace import Trace
+from satcheck.core.conventions import Vector
 from satcheck.report.report import Effect, Finding
 from satcheck.scene.robot import JointPath
 
@@ -114,6 +116,15 @@ class Search:
             intervals, active = _joined(halves, len(found))
             active = self._worth_it(intervals, active, found, narrowing=True)
             intervals, active = _kept(intervals, active)
+
+    def impact_point(self, k: int, lower: float, hit: float) -> Vector | None:
+        """A point of both bodies of a pair at their first overlap; before `lower` they have none.
+        Of their way it counts only the piece of the path that ends with the hit."""
+        piece = max(int(np.searchsorted(self._path.times, hit)) - 1, 0)
+        start, end = np.array([max(lower, self._path.times[piece])]), np.array([hit])
+        at, way = (self._travel.middle(Interval(since, end)) for since in (end, start))
+        moved = 2.0 * float(self._travel.between(way, *self._pairs.places[k])[0])
+        return impact_point(self._pair(at, 0, k, self._pairs.tolerance(k), 0.0), moved)
 
     def _whole(self, asked: Flags) -> tuple[Interval, Flags]:
         """All pieces of the path."""

@@ -14,7 +14,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import triangle_normal
 from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.motion.limits import SHORTEST_STEP
+from satcheck.audit.motion.limits import is_step
 from satcheck.audit.motion.moving_pair import MovingPair, overlaps
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
@@ -50,7 +50,7 @@ class ContactOffsets:
         if self._last is not None:
             on = self._pair.apart(t, end, self._last).time
             seamless = self._proven_until >= t
-            if _is_step(on, t, end) and (seamless or self._frees(self._pair.placed(t), self._last)):
+            if is_step(on, t, end) and (seamless or self._frees(self._pair.placed(t), self._last)):
                 return self._keep(self._last, t, on)
         placed = self._pair.placed(t)
         ahead = self._ahead(t, end)
@@ -58,7 +58,7 @@ class ContactOffsets:
         for walls in range(1, WALLS + 1):
             for offset in self._offsets(ways, walls):
                 on = self._pair.apart(t, end, offset).time
-                if _is_step(on, t, end) and self._frees(placed, offset):
+                if is_step(on, t, end) and self._frees(placed, offset):
                     return self._keep(offset, t, on)
             # A contact as short as this does not move the start of the impact (SLID).
             if walls == 1 and overlaps(self._pair.found_at(ahead)):
@@ -102,16 +102,15 @@ class ContactOffsets:
 
 
 def _normals(placed: Pair, pairs: Iterable[tuple[int, int]]) -> Counter[Vector]:
-    """Unit normals of these triangles and how often they occur. Those of A are reversed."""
+    """Unit normals of these triangles and how often they occur. Those of A are reversed. The
+    normals of a body without an inside occur both ways."""
     normals: Counter[Vector] = Counter()
     for triangles in pairs:
         for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
             normal = triangle_normal(body, triangle)
-            if normal is not None:
-                x, y, z = (round(way * c, DIGITS) + 0.0 for c in normal)
+            if normal is None:
+                continue
+            for sign in (way,) if body.solid else (way, -way):
+                x, y, z = (round(sign * c, DIGITS) + 0.0 for c in normal)
                 normals[x, y, z] += 1
     return normals
-
-
-def _is_step(step: float, t: float, end: float) -> bool:
-    return step >= SHORTEST_STEP or t + step >= end

@@ -8,10 +8,9 @@ body, however fast or thin.
 
 Where we deviate: a contact is no collision. While bodies touch, the scan goes on as long as it can
 prove that they overlap by no more than the touch band. For two convex bodies the signed distance
-proves it; for others, the hull that a sliding body sweeps (swept_hull.py), or a translation of A,
-no longer than the band, after which they stay apart. If
-the proof fails, the scan looks for an overlap later in the motion. If it finds none, the answer is
-open.
+proves it; else the hull that a sliding body sweeps (swept_hull.py), or a translation of A, no
+longer than the band, after which they stay apart. If the proof fails, the scan looks for an overlap
+later in the motion. If it finds none, the answer is open.
 """
 
 from __future__ import annotations
@@ -23,7 +22,13 @@ from msgspec import Struct
 
 from satcheck.audit.figures.escape import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
-from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SHORTEST_WIDE_STEP, SLID
+from satcheck.audit.motion.limits import (
+    PROBES,
+    SHORTEST_STEP,
+    SHORTEST_WIDE_STEP,
+    SLID,
+    is_step,
+)
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps
 from satcheck.audit.motion.swept_hull import safe_slide
 from satcheck.report.report import OVERLAPS
@@ -132,10 +137,10 @@ class _Scan:
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
-        if on >= SHORTEST_STEP or not self._pair.pair.may("exact"):
+        if is_step(on, self.t, end) or not self._pair.pair.may("exact"):
             return on
         slide = safe_slide(self._pair, self.t, end)
-        return slide if slide >= SHORTEST_STEP else self._offsets.safe_time(self.t, end)
+        return slide if is_step(slide, self.t, end) else self._offsets.safe_time(self.t, end)
 
     def impact(self) -> Impact:
         if self.reason is None:
@@ -151,14 +156,11 @@ class _Scan:
         return Impact(self.met, upper, self.t, contact)
 
     def _advance(self, step: float, end: float) -> bool:
-        """Whether the step is long enough to be one, or reaches the end."""
-        if self.t + step >= end:
-            self.t = end
-            return True
-        if step < SHORTEST_STEP:
-            return False
-        self.t = math.nextafter(self.t + step, 0.0)
-        return True
+        """Goes on by the step. Whether it is long enough to be one."""
+        is_long = is_step(step, self.t, end)
+        later = math.nextafter(self.t + step, 0.0)
+        self.t = end if self.t + step >= end else max(self.t, later)
+        return is_long
 
 
 def _first_overlap(pair: MovingPair, start: float) -> float | None:

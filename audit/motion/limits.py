@@ -31,3 +31,8 @@ PADS_IN_BAND = 8
 # The hull that a sliding body sweeps is tried over the rest of a piece of the motion, and over so
 # many parts of it, each half as long as the one before.
 SLIDES = 8
+
+
+def is_step(step: float, t: float, end: float) -> bool:
+    """Whether a step from t on is long enough to be one, or reaches the end."""
+    return step >= SHORTEST_STEP or t + step >= end

@@ -84,6 +84,11 @@ class MovingPair:
             t, self.pair.b.bounds
         )
 
+    def path_length(self, start: float, end: float) -> float:
+        """An upper bound of the way of a point of A relative to B from start to end."""
+        times = [start, *(time for time in self.times if start < time < end)]
+        return max(map(self.fastest, times)) * (end - start)
+
     @property
     def holed(self) -> list[str]:
         """The bodies with holes whose fill may matter. Sheets have no inside, and with --allow-open

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.impact import Impact, first_impact, possible_overlap
+from satcheck.audit.motion.impact_point import impact_point
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
 from satcheck.audit.motion.worst import (
@@ -95,6 +96,7 @@ class _Answer:
             reached=impact.reached,
             time_of_impact=(impact.lower, upper),
             at=self._places(upper),
+            point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
             contact=impact.contact,
             worst=None if worst is None else self._pose(worst),
             steps=pair.steps,

@@ -1,13 +1,19 @@
-"""Contact of solids that slide along a line, as a slider in its slot. No translation may free them.
+"""Contact of bodies that slide along a line, as a slider in its slot. No direction of the contact
+may free them.
 
 While A moves along a line relative to B, it stays within the convex hull of its first and its last
-place. If this hull, made a little smaller, has no common interior with B, then no ball thicker than
-the touch band lies in both bodies at any time between. The overlap is then within the band, as for
-bodies at rest (docs/thickness.md).
+place. The overlap stays within the touch band:
+
+- if the hull, made a little smaller, has no common interior with the solid B. Then no ball thicker
+  than the band lies in both bodies at any time, as for bodies at rest (docs/thickness.md).
+- if the hull overlaps that of B by no more than the band. The translation that ends this overlap
+  ends every one on the way. This is asked of convex bodies and of sheets, for example of a spike
+  that passes the tip of another one: their faces show no way off.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -17,6 +23,9 @@ from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import Vector
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.motion.moving_pair import MovingPair
 
@@ -31,29 +40,39 @@ def safe_slide(pair: MovingPair, t: float, end: float) -> float:
     if velocity is None:
         return 0.0
     placed = pair.placed(t)
+    a, b = placed.a, placed.b
+    if pair.convex or not placed.both_solid:
+        band = pair.tolerance - pair.pad
+        return _longest(end - t, lambda s: _hulls_stay(a, b, scaled(velocity, s), band))
     margin = 0.5 * pair.tolerance - pair.pad
-    for body, other, way in ((placed.a, placed.b, 1.0), (placed.b, placed.a, -1.0)):
-        spans = [(end - t) * 0.5**k for k in range(SLIDES)]
-        # A body that overlaps the other where it stands is rejected after one test.
-        if not _sweeps_free(body, other, scaled(velocity, way * spans[-1]), margin):
-            continue
-        for span in spans:
-            if _sweeps_free(body, other, scaled(velocity, way * span), margin):
-                return span
-    return 0.0
+    span = _longest(end - t, lambda s: _sweeps_free(a, b, scaled(velocity, s), margin))
+    return span or _longest(end - t, lambda s: _sweeps_free(b, a, scaled(velocity, -s), margin))
+
+
+def _longest(time: float, is_safe: Callable[[float], bool]) -> float:
+    """The longest safe span of those that halve the time; 0.0: none. The shortest is asked first,
+    because that rejects bodies which overlap where they stand."""
+    spans = [time * 0.5**k for k in range(SLIDES)]
+    return next(filter(is_safe, spans), 0.0) if is_safe(spans[-1]) else 0.0
 
 
 def _velocity(pair: MovingPair, t: float) -> Vector | None:
-    """Of A relative to B, per unit of t; None: a body turns, or has no inside, or both are convex,
-    so that their signed distance says more."""
-    bodies = pair.pair
-    if pair.convex or bodies.curved or not (bodies.a.solid and bodies.b.solid):
+    """Of A relative to B, per unit of t; None: a body turns, or is curved."""
+    if pair.pair.curved:
         return None
     a, b = pair.track_a.piece_at(t), pair.track_b.piece_at(t)
     if a.degrees or b.degrees:
         return None
     x, y, z = (p - q for p, q in zip(a.velocity, b.velocity, strict=True))
     return x, y, z
+
+
+def _hulls_stay(a: PlacedBody, b: PlacedBody, step: Vector, band: float) -> bool:
+    """Whether the hull of A here and after the step overlaps the hull of B by no more than the
+    band."""
+    swept = core.Hull(_both_ends(a.hull().vertices, step))
+    lower = core.check_pair(swept, b.hull_shape(), query="depth").lower
+    return lower is not None and lower >= -band
 
 
 def _sweeps_free(body: PlacedBody, other: PlacedBody, step: Vector, margin: float) -> bool:
@@ -70,11 +89,14 @@ def _hull_of_both(hull: core.Polytope, step: Vector) -> core.Mesh:
     import numpy as np
 
     corners, triangles = hull.vertices, hull.triangles
-    both = core.Mesh(
-        np.vstack((corners, corners + np.array(step))),
-        np.vstack((triangles, triangles + np.uint32(len(corners)))),
-    )
-    return both.convex_hull().to_mesh()
+    faces = np.vstack((triangles, triangles + np.uint32(len(corners))))
+    return core.Mesh(_both_ends(corners, step), faces).convex_hull().to_mesh()
+
+
+def _both_ends(corners: NDArray[np.float64], step: Vector) -> NDArray[np.float64]:
+    import numpy as np
+
+    return np.vstack((corners, corners + np.array(step)))
 
 
 def _smaller(hull: core.Mesh, margin: float) -> core.Surface | None:

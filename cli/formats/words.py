@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.cli.formats.numbers import at_least, at_most, bounds, number
+from satcheck.cli.formats.numbers import at_least, at_most, bounds, number, vector
 from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
@@ -84,15 +84,16 @@ def is_hit(finding: Finding) -> bool:
 
 
 def in_motion(finding: Finding, unit: str | None) -> str:
-    """`hits at 60 deg`, `0.25 mm apart`, `apart`, `touches`, `undecided from t = 0.4`; empty where
-    neither body moves."""
+    """`hits at 60 deg, near (1.5, 2, 0)`, `0.25 mm apart`, `apart`, `touches`,
+    `undecided from t = 0.4`; empty where neither body moves."""
     swept = finding.motion
     if swept is None:
         return ""
     if swept.relation == "penetrating":
         verb = "hits" if swept.proven else "possibly hits"
         on_path = "" if swept.poses is None else between_poses(*swept.poses)
-        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}{on_path}"
+        near = "" if swept.point is None else f", near {vector(swept.point)}"
+        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}{on_path}{near}"
     if swept.relation == "indeterminate":
         return f"undecided from t = {number(swept.reached)}"
     if swept.relation == "touching":

@@ -24,6 +24,7 @@ WAY = Sweep(
     reached=0.5,
     time_of_impact=(0.25, 0.5),
     at=(Place("passer", "degrees", 60.0),),
+    point=(1.5, 2.0, 0.0),
 )
 
 

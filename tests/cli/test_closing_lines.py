@@ -76,7 +76,8 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (HIT_AT_60,),
             (
                 "2 bodies, 1 pair: 1 penetrating. 1 pair hits while moving.",
-                "FAIL: block and passer, while they move: hits at 60 deg. "
+                "FAIL: block and passer, while they move: hits at 60 deg, "
+                "near (1.5, 2, 0). "
                 "Next: -o report.html shows it in 3-D.",
             ),
         ),

@@ -50,6 +50,25 @@ def random_solid(rng: random.Random) -> VoxelSolid:
     return VoxelSolid(frozenset(cells))
 
 
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("share", [0.25, 0.75, 2.0])
+def test_a_limit_ends_the_search(seed: int, share: float) -> None:
+    """As soon as the depth is at least the limit; a limit that is never reached changes nothing."""
+    rng = random.Random(seed)
+    a, b = (Surface(random_solid(rng).mesh(), True) for _ in range(2))
+    goal: dict[str, Any] = {"upper": 14.0, "lower": 0.0, "width": 0.01, "work": WORK}
+    whole = search_depth(a, b, **goal)
+    limit = share * whole.upper
+    found = search_depth(a, b, **goal, limit=limit)
+    assert found.work <= whole.work
+    if share < 1:
+        assert found.stop == "decided"
+        assert found.lower >= limit * (1 - 1e-9)
+        assert whole.lower <= found.upper
+    else:
+        assert (found.stop, found.lower, found.upper) == ("narrow", whole.lower, whole.upper)
+
+
 @pytest.mark.parametrize("seed", range(24))
 def test_voxel_solids_have_their_depth(seed: int) -> None:
     rng = random.Random(seed)
@@ -331,6 +350,8 @@ def test_open_surfaces_are_parted_where_triangles_no_longer_cross() -> None:
         {"width": 1.0},
         {"width": -0.1},
         {"across": 3},
+        {"limit": 0.0},
+        {"limit": math.nan},
     ],
 )
 def test_what_is_no_goal_is_refused(wrong: dict[str, Any]) -> None:

@@ -471,7 +471,7 @@ class DepthInterval:
     @property
     def way_out(self) -> Point | None: ...
     @property
-    def stop(self) -> str: ...
+    def stop(self) -> Literal["narrow", "decided", "work spent"]: ...
     @property
     def work(self) -> int: ...
     @property
@@ -490,6 +490,7 @@ def search_depth(
     width: float,
     work: int,
     across: int = -1,
+    limit: float = ...,
     progress: Callable[[float, float, float], object] | None = None,
 ) -> DepthInterval: ...
 

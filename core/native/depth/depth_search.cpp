@@ -88,6 +88,10 @@ class Search {
       open_.pop();
       reached_ = open_from = box.key;
       if (proven() >= enough()) break;
+      if (proven() >= goal_.limit) {
+        result_.stop = DepthStop::decided;
+        break;
+      }
       if (work() >= goal_.work) {
         result_.stop = DepthStop::work_spent;
         break;

@@ -1,7 +1,8 @@
-// The depth of two meshes that are not both convex, as a proven interval. It is narrowed until it is narrow enough or
-// the work is spent.
+// The depth of two meshes that are not both convex, as a proven interval. It is narrowed until it is narrow enough, beyond
+// a limit, or the work is spent.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "base/poll.hpp"
@@ -15,11 +16,13 @@ struct DepthGoal {
   double width = 0.01;     // wanted width of the interval, relative to its upper end
   std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
   int across = -1;         // for a depth in a plane, the world axis along which nothing is moved; -1: none
+  double limit = INFINITY;  // the search also ends once the depth is proven to be at least this
   Poll poll = {};
 };
 
 enum class DepthStop : std::uint8_t {
   narrow,      // the interval is as narrow as requested
+  decided,     // it is not, but its lower end is at least the limit
   work_spent,  // the work was spent first
 };
 

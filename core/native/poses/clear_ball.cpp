@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh/nearest_point.hpp"
 
 namespace satcheck {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/tolerances.hpp"
+#include "base/rounding.hpp"
 #include "mesh/nearest_point.hpp"
 
 namespace satcheck {

@@ -73,6 +73,8 @@ def test_a_straight_arm_hits_a_post_at_a_known_angle(tmp_path: Path) -> None:
     assert high - low < 1e-12
     assert motion.joints == {"shoulder": pytest.approx(angle), "elbow": 0.0}
     assert motion.poses == (1, 2)
+    assert motion.point == pytest.approx((x, y, motion.point[2]), abs=1e-9)
+    assert abs(motion.point[2]) <= half
 
 
 def test_a_sheet_between_two_free_poses(tmp_path: Path) -> None:

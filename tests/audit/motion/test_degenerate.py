@@ -82,6 +82,52 @@ def test_falling_onto_each_other(above, below):
     assert impact.upper <= 0.25 + 4 * BAND
 
 
+@pytest.mark.parametrize("below", ["a spike", "a wedge along x", "a wedge along y"])
+@pytest.mark.parametrize("above", ["a spike", "a wedge along x", "a wedge along y"])
+@pytest.mark.parametrize("way", [(1.0, 3.0, 0.0), (3.0, -1.0, 0.0)])
+@pytest.mark.parametrize("gap", [-(2.0**-44), 0.0, 2.0**-44])
+def test_tips_and_edges_that_pass_each_other(above, below, way, gap):
+    """They touch for a moment, or are apart or overlap by less than the rounding of a pose. No face
+    has a normal that frees them."""
+    points, faces = ABOVE[above]
+    start = [(x - way[0] / 2, y - way[1] / 2, z - 1.0 + gap) for x, y, z in points]
+    impact = first_impact(moving((start, faces), Translation(way), BELOW[below], tolerance=0.0))
+    assert impact.free
+    assert impact.contact is not None
+
+
+@pytest.mark.parametrize("below", BELOW)
+@pytest.mark.parametrize("above", ABOVE)
+@pytest.mark.parametrize("gap", [0.0, 2.0**-44])
+def test_a_fall_that_ends_in_touch(above, below, gap):
+    fall = Translation((0.0, 0.0, gap - 1.0))
+    impact = first_impact(moving(ABOVE[above], fall, BELOW[below], tolerance=0.0))
+    assert impact.free
+    assert impact.contact == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "way", "touch"),
+    [
+        # Edge to edge.
+        (((0, 2, 3), (1, 0, 1), (0, 1, 2)), ((3, 0, 2), (1, 3, 1), (3, 0, 0)), (2, 1, 1), 3 / 4),
+        # Corner to corner, at the start.
+        (((2, 0, 1), (1, 3, 1), (1, 3, 3)), ((3, 0, 0), (2, 0, 1), (2, 0, 0)), (1, 2, -3), 0),
+        # Parallel, one through the other.
+        (((2, 2, 2), (2, 0, 1), (2, 3, 2)), ((3, 0, 3), (3, 0, 1), (3, 3, 3)), (3, 0, 2), 1 / 3),
+        (((1, 1, 3), (1, 1, 1), (1, 0, 3)), ((2, 2, 1), (2, 1, 3), (2, 0, 2)), (3, 1, -1), 1 / 3),
+    ],
+)
+def test_triangles_that_touch_for_a_moment(a, b, way, touch):
+    """Found among random ones of small integers (bench/impacts.py)."""
+    sheets = [([tuple(map(float, p)) for p in corners], [(0, 1, 2)]) for corners in (a, b)]
+    path = Translation(tuple(map(float, way)))
+    pair = moving(sheets[0], path, sheets[1], tolerance=0.0, allow_open=True)
+    impact = first_impact(pair, (pair.tolerance,))
+    assert impact.free
+    assert impact.contact == pytest.approx(touch)
+
+
 @pytest.mark.parametrize("above", ABOVE)
 @pytest.mark.parametrize("gap", [0.0, 1e-9])
 def test_passing_at_a_cliff(above, gap):
