@@ -203,8 +203,8 @@ def _is_plain(finding: Finding) -> bool:
 class _Row(Struct):
     """One pose with pairs that are not plainly apart, by their numbers. climbs: those that climb
     the ladder; deep, undecided: those that overlap deeply, and those that the fill of a hole
-    decides, whose findings nobody reads; by_pair: the findings of those that have climbed. alone: the
-    pose needs a check of its own."""
+    decides, whose findings nobody reads; by_pair: the findings of those that have climbed. alone:
+    the pose needs a check of its own."""
 
     row: int
     climbs: list[int]

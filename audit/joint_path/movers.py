@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.joint_path.search import Found, Nearest, Search
+from satcheck.audit.joint_path.search import Nearest, Search, SweptPair
 from satcheck.audit.joint_path.travel import Interval, Travel
 from satcheck.audit.posed_pairs import PosedPairs
 from satcheck.audit.request.planner import Planner
@@ -73,12 +73,12 @@ class JointMovers:
             ],
             dtype=bool,
         )
-        found = self._search.first_overlaps(moves)
-        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
+        swept = self._search.first_overlaps(moves)
+        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(swept)], bool)
         if near.any():
-            self._search.narrow(near, found)
+            self._search.narrow(near, swept)
         for k in np.flatnonzero(moves).tolist():
-            self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+            self._sweeps[self._pairs.names[k]] = self._swept(k, swept[k])
 
     def paths(self, a: str, b: str) -> Paths | None:
         """The sweep of a pair; None: the bodies do not move relative to each other."""
@@ -95,45 +95,45 @@ class JointMovers:
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
 
-    def _asks_for_distance(self, k: int, found: Found) -> bool:
-        return bool(self._pairs.pairs[k].request.clearance) and _is_free(found)
+    def _asks_for_distance(self, k: int, swept: SweptPair) -> bool:
+        return bool(self._pairs.pairs[k].request.clearance) and _is_free(swept)
 
-    def _swept(self, k: int, found: Found) -> Sweep:
-        if not isinf(found.hit):
-            lower = min(found.free_until, found.hit)
+    def _swept(self, k: int, swept: SweptPair) -> Sweep:
+        if not isinf(swept.hit):
+            lower = min(swept.free_until, swept.hit)
             return Sweep(
                 relation="penetrating",
-                tolerance=found.tolerance,
+                tolerance=swept.tolerance,
                 reached=lower,
-                time_of_impact=(lower, found.hit),
-                at=self._places(k, found.hit),
-                point=self._search.impact_point(k, lower, found.hit),
-                joints=self._path.pose(found.hit),
-                poses=self._path.poses_around(found.hit),
+                time_of_impact=(lower, swept.hit),
+                at=self._places(k, swept.hit),
+                point=self._search.impact_point(k, lower, swept.hit),
+                joints=self._path.pose(swept.hit),
+                poses=self._path.poses_around(swept.hit),
                 contact=lower,
-                steps=found.steps,
+                steps=swept.steps,
             )
-        if not _is_free(found):
+        if not _is_free(swept):
             return Sweep(
                 relation="indeterminate",
-                tolerance=found.tolerance,
-                reached=found.free_until,
-                contact=found.free_until,
-                reason=_reason(found),
-                steps=found.steps,
+                tolerance=swept.tolerance,
+                reached=swept.free_until,
+                contact=swept.free_until,
+                reason=_reason(swept),
+                steps=swept.steps,
             )
-        nearest, touches = found.nearest, not isinf(found.touch)
+        nearest, touches = swept.nearest, not isinf(swept.touch)
         clearance = self._pairs.pairs[k].request.clearance or 0.0
         is_near = nearest is not None and nearest.upper < clearance
         worst = self._worst(k, nearest) if nearest is not None and is_near else None
         return Sweep(
             relation="touching" if touches else "near" if is_near else "separated",
-            tolerance=found.tolerance,
+            tolerance=swept.tolerance,
             reached=1.0,
-            contact=found.touch if touches else None,
+            contact=swept.touch if touches else None,
             worst=worst,
             distance_at_least=nearest.lower if nearest and worst is None else None,
-            steps=found.steps,
+            steps=swept.steps,
         )
 
     def _worst(self, k: int, nearest: Nearest) -> WorstPose:
@@ -169,13 +169,13 @@ def _require_answers(scene: Scene, settings: Settings) -> None:
         raise SatcheckError("bad-pose", f"a path of joints cannot be checked with {what}")
 
 
-def _is_free(found: Found) -> bool:
-    return isinf(found.hit) and isinf(found.free_until)
+def _is_free(swept: SweptPair) -> bool:
+    return isinf(swept.hit) and isinf(swept.free_until)
 
 
-def _reason(found: Found) -> str:
-    at = f"t = {found.free_until:.6g}"
-    if found.is_spent:
+def _reason(swept: SweptPair) -> str:
+    at = f"t = {swept.free_until:.6g}"
+    if swept.is_spent:
         return f"the budget of the sweep was spent, at {at}"
     return f"nothing proves that the bodies stay apart, or within the tolerance, at {at}"
 

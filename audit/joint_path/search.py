@@ -58,7 +58,7 @@ class Nearest(Struct):
     time: float = 0.0
 
 
-class Found(Struct):
+class SweptPair(Struct):
     """What is known about one pair. hit: a t with an overlap; free_until: before this t there is
     none. touch: the first t at which the bodies may touch. nearest: if a clearance asks for it.
     tolerance: half the width of the touch band. is_spent: whether the budget ended the search."""
@@ -83,38 +83,38 @@ class Search:
         self._steps = STEPS + STEPS_A_PIECE * pieces
         self._climbs = CLIMBS + CLIMBS_A_PIECE * pieces
 
-    def first_overlaps(self, asked: Flags) -> list[Found]:
+    def first_overlaps(self, asked: Flags) -> list[SweptPair]:
         """asked: which pairs."""
         intervals, active = self._whole(asked)
         at = self._travel.middle(intervals)
-        found = [
-            Found(tolerance=max(self._pairs.tolerance(k), self._band(at, k)))
+        swept = [
+            SweptPair(tolerance=max(self._pairs.tolerance(k), self._band(at, k)))
             for k in range(len(self._pairs.pairs))
         ]
         while len(intervals.start):
             halves: list[tuple[Interval, Flags]] = []
             for part, own, at in self._chunks(intervals, active):
-                unknown, right = self._settle(part, own, at, found)
+                unknown, right = self._settle(part, own, at, swept)
                 halves += _halved(part, unknown, right)
-            intervals, active = _joined(halves, len(found))
-            active = self._worth_it(intervals, active, found)
+            intervals, active = _joined(halves, len(swept))
+            active = self._worth_it(intervals, active, swept)
             intervals, active = _kept(intervals, active)
-        return found
+        return swept
 
-    def narrow(self, asked: Flags, found: list[Found]) -> None:
+    def narrow(self, asked: Flags, swept: list[SweptPair]) -> None:
         """Narrows the least distances of these pairs, which do not overlap, as far as their
         clearances ask."""
         for k in np.flatnonzero(asked).tolist():
-            found[k].nearest = Nearest(self._pairs.pairs[k].request.clearance or 0.0)
-            found[k].steps = 0
+            swept[k].nearest = Nearest(self._pairs.pairs[k].request.clearance or 0.0)
+            swept[k].steps = 0
         intervals, active = self._whole(asked)
         while len(intervals.start):
             halves: list[tuple[Interval, Flags]] = []
             for part, own, at in self._chunks(intervals, active):
-                unknown = self._compare(part, own, at, found)
+                unknown = self._compare(part, own, at, swept)
                 halves += _halved(part, unknown, unknown)
-            intervals, active = _joined(halves, len(found))
-            active = self._worth_it(intervals, active, found, narrowing=True)
+            intervals, active = _joined(halves, len(swept))
+            active = self._worth_it(intervals, active, swept, narrowing=True)
             intervals, active = _kept(intervals, active)
 
     def impact_point(self, k: int, lower: float, hit: float) -> Vector | None:
@@ -148,28 +148,28 @@ class Search:
         return margins
 
     def _settle(
-        self, part: Interval, active: Flags, at: Middle, found: list[Found]
+        self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]
     ) -> tuple[Flags, Flags]:
         """(intervals that stay unknown, those whose later half does, too)"""
         margins = self._margins(active, at)
-        codes = self._pairs.sift(at.matrices, margins, [f.tolerance for f in found])
+        codes = self._pairs.sift(at.matrices, margins, [f.tolerance for f in swept])
         middles = part.middle
         for row, k in np.argwhere(active & (codes == DEEP)).tolist():
-            found[k].hit = min(found[k].hit, float(middles[row]))
+            swept[k].hit = min(swept[k].hit, float(middles[row]))
         unknown = active & (codes != APART)
         later = unknown & (codes != DEEP)
         for row, k in np.argwhere(later & (margins <= NEAR * self._sizes)).tolist():
-            if middles[row] >= found[k].hit or found[k].climbs >= self._climbs:
+            if middles[row] >= swept[k].hit or swept[k].climbs >= self._climbs:
                 continue
-            found[k].climbs += 1
-            pair = self._pair(at, row, k, found[k].tolerance, float(margins[row, k]))
+            swept[k].climbs += 1
+            pair = self._pair(at, row, k, swept[k].tolerance, float(margins[row, k]))
             finding = examine(pair, Trace()).finding
             if overlaps(finding):
-                found[k].hit, later[row, k] = float(middles[row]), False
+                swept[k].hit, later[row, k] = float(middles[row]), False
             elif _is_clear(finding):
                 unknown[row, k] = later[row, k] = False
-            elif self._stays_within(at, row, k, found[k].tolerance, float(margins[row, k])):
-                found[k].touch = min(found[k].touch, float(part.start[row]))
+            elif self._stays_within(at, row, k, swept[k].tolerance, float(margins[row, k])):
+                swept[k].touch = min(swept[k].touch, float(part.start[row]))
                 unknown[row, k] = later[row, k] = False
         return unknown, later
 
@@ -183,20 +183,20 @@ class Search:
         pair = self._pair(at, row, k, tolerance - travelled, 0.0)
         return examine(pair, Trace()).finding.relation in FREE
 
-    def _compare(self, part: Interval, active: Flags, at: Middle, found: list[Found]) -> Flags:
+    def _compare(self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]) -> Flags:
         """The intervals in which the pairs may be nearer than the least known distance."""
         travelled = self._margins(active, at)
-        limits = np.array([f.nearest.lower if f.nearest else 0.0 for f in found])
-        codes = self._pairs.sift(at.matrices, travelled + limits, [f.tolerance for f in found])
+        limits = np.array([f.nearest.lower if f.nearest else 0.0 for f in swept])
+        codes = self._pairs.sift(at.matrices, travelled + limits, [f.tolerance for f in swept])
         unknown: Flags = active & (codes != APART)
         worth = unknown & (travelled <= np.maximum(0.25 * limits, NEAR * self._sizes))
         for k in np.flatnonzero(worth.any(axis=0)).tolist():
             rows = np.flatnonzero(worth[:, k])
-            nearest = found[k].nearest
+            nearest = swept[k].nearest
             assert nearest is not None
             for row in rows[:: -(-len(rows) // MEASURED)].tolist():
                 enough = nearest.lower + float(travelled[row, k])
-                pair = self._pair(at, row, k, found[k].tolerance, enough)
+                pair = self._pair(at, row, k, swept[k].tolerance, enough)
                 finding = examine(pair, Trace()).finding
                 unknown[row, k] = not _is_clear(finding)
                 if finding.distance is not None and finding.distance < nearest.upper:
@@ -214,25 +214,25 @@ class Search:
         return max(PADS_IN_BAND * at.pad, FINEST * float(self._sizes[k]))
 
     def _worth_it(
-        self, intervals: Interval, active: Flags, found: list[Found], *, narrowing: bool = False
+        self, intervals: Interval, active: Flags, swept: list[SweptPair], *, narrowing: bool = False
     ) -> Flags:
         """The intervals to ask about: no later than a known overlap, within the budget of the pair,
         and not too short. Others leave the pair open from their start on."""
-        active = active & (intervals.start[:, None] < np.array([f.hit for f in found]))
+        active = active & (intervals.start[:, None] < np.array([f.hit for f in swept]))
         short = intervals.end - intervals.start <= SHORTEST
         for k in np.flatnonzero(active.any(axis=0)).tolist():
-            found[k].steps += int(active[:, k].sum())
-            found[k].is_spent = found[k].steps > self._steps
-            ends = active[:, k] if found[k].is_spent else active[:, k] & short
+            swept[k].steps += int(active[:, k].sum())
+            swept[k].is_spent = swept[k].steps > self._steps
+            ends = active[:, k] if swept[k].is_spent else active[:, k] & short
             if not ends.any():
                 continue
             since = float(intervals.start[ends].min())
             if narrowing:
-                nearest = found[k].nearest
+                nearest = swept[k].nearest
                 assert nearest is not None
                 nearest.lower = 0.0
             else:
-                found[k].free_until = min(found[k].free_until, since)
+                swept[k].free_until = min(swept[k].free_until, since)
             active[:, k] &= ~ends
         return active
 
