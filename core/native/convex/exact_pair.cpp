@@ -1,12 +1,14 @@
-// If the surfaces have no common point, the hulls are apart or nested. If two of their triangles cross, the hulls
-// overlap: a plane that separates them weakly would contain both triangles. Otherwise the origin lies in A - B. It lies
-// on the boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or
-// spanned by two edges that meet, one of each. This is a finite number of signs of determinants of coordinate
-// differences. Float64 support values leave only axes within `slack` of separating to be tested.
+// A vertex of one hull inside of the other one proves an overlap, as do common vertices that span a solid, and two
+// triangles of the surfaces that cross: a plane that separates the hulls weakly would contain both triangles. If the
+// surfaces have no common point, the hulls are apart or nested. Otherwise the origin lies in A - B. It lies on the
+// boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or spanned by
+// two edges that meet, one of each. This is a finite number of signs of determinants of coordinate differences. Float64
+// support values leave only axes within `slack` of separating to be tested.
 
 #include "convex/exact_pair.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/rounding.hpp"
@@ -102,6 +104,43 @@ Aabb bounds_of(const Points& points) {
   return box;
 }
 
+// Whether a vertex of p lies strictly inside of q. The face that refuted the last vertex is tried first, because it
+// refutes most of them.
+bool some_vertex_inside(const Polytope& p, const Polytope& q) {
+  if (q.dimension < 3) return false;
+  std::vector<TrianglePlane> planes;
+  for (std::size_t f = 0; f < q.face_count(); ++f) {
+    const Triangle t = corners_of(q, f);
+    planes.emplace_back(q.vertices[t[0]], q.vertices[t[1]], q.vertices[t[2]]);
+  }
+  std::size_t first = 0;
+  return std::any_of(p.vertices.begin(), p.vertices.end(), [&](Vec3 v) {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const std::size_t f = (first + i) % planes.size();
+      if (planes[f].side(v) < 0) continue;
+      first = f;
+      return false;
+    }
+    return true;
+  });
+}
+
+std::vector<Vec3> common_vertices(const Polytope& a, const Polytope& b) {
+  std::vector<Vec3> of_a = a.vertices, of_b = b.vertices, common;
+  std::sort(of_a.begin(), of_a.end(), coordinates_less);
+  std::sort(of_b.begin(), of_b.end(), coordinates_less);
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common), coordinates_less);
+  return common;
+}
+
+// Whether four of the points, which are all different, are not in a plane.
+bool span_solid(const std::vector<Vec3>& points) {
+  if (points.size() < 4) return false;
+  const Vec3 p = points[0], q = points[1];
+  const auto r = std::find_if(points.begin(), points.end(), [&](Vec3 v) { return !collinear(p, q, v); });
+  return r != points.end() && std::any_of(r, points.end(), [&](Vec3 v) { return orientation(p, q, *r, v) != 0; });
+}
+
 class ExactPair {
  public:
   ExactPair(Polytope a, Polytope b, double slack)
@@ -113,34 +152,35 @@ class ExactPair {
         slack_(slack) {}
 
   Outcome decide() const {
-    const TriangleContact contact = strongest_contact();
-    if (contact == TriangleContact::crossing) return Outcome::penetrating;
-    if (contact == TriangleContact::disjoint) {
-      return holds(a_.polytope, b_.polytope.vertices[0]) || holds(b_.polytope, a_.polytope.vertices[0])
-                 ? Outcome::penetrating
-                 : Outcome::separated;
+    const Polytope &a = a_.polytope, &b = b_.polytope;
+    if (some_vertex_inside(a, b) || some_vertex_inside(b, a) || span_solid(common_vertices(a, b))) return Outcome::penetrating;
+    switch (first_contact()) {
+      case TriangleContact::disjoint:
+        return holds(a, b.vertices[0]) || holds(b, a.vertices[0]) ? Outcome::penetrating : Outcome::separated;
+      case TriangleContact::crossing:
+        return Outcome::penetrating;
+      case TriangleContact::touching:
+        break;
     }
     // Two flat hulls whose dimensions add up to less than three span no volume.
-    if (a_.polytope.dimension + b_.polytope.dimension < 3) return Outcome::touching;
+    if (a.dimension + b.dimension < 3) return Outcome::touching;
     const bool weakly = some_face_separates(a_, b_, 1) || some_face_separates(b_, a_, -1) || some_edges_separate();
     return weakly ? Outcome::touching : Outcome::penetrating;
   }
 
  private:
-  // Of the triangles of both surfaces; the search ends at the first that cross.
-  TriangleContact strongest_contact() const {
+  TriangleContact first_contact() const {
     const std::vector<Corners> near_a = triangles_near(a_.polytope, bounds_b_);
     const std::vector<Corners> near_b = triangles_near(b_.polytope, bounds_a_);
-    TriangleContact strongest = TriangleContact::disjoint;
     for (const Corners& s : near_a) {
       const Aabb box = bounds_of(s);
       for (const Corners& t : near_b) {
         if (!meet(box, bounds_of(t))) continue;
-        strongest = std::max(strongest, classify(s, t));
-        if (strongest == TriangleContact::crossing) return strongest;
+        const TriangleContact contact = classify(s, t);
+        if (contact != TriangleContact::disjoint) return contact;
       }
     }
-    return strongest;
+    return TriangleContact::disjoint;
   }
 
   static std::vector<Corners> triangles_near(const Polytope& p, const Aabb& box) {

@@ -1,6 +1,6 @@
 // If all of one hull lies on or above a face plane of the other, they share at most points of that plane. Both have a
 // convex outline there: the separating axis theorem in two dimensions decides whether these meet, by the lines through
-// their edges.
+// their edges. Two faces that look at each other in one plane separate their hulls without a test of other vertices.
 
 #include "convex/separating_face.hpp"
 

@@ -103,6 +103,7 @@ Shape make_hull_without_faces(std::vector<Vec3> points) {
   polytope.vertices = std::move(points);
   Shape shape = make_hull(std::move(polytope));
   shape.has_faces = false;
+  shape.lazy_faces = std::make_shared<LazyFaces>();
   return shape;
 }
 
@@ -118,10 +119,15 @@ Shape make_triangle(const std::array<Vec3, 3>& corners) {
   return make_hull_without_faces({p.begin(), p.end()});
 }
 
-Shape with_faces(const Shape& hull) {
-  std::vector<Vec3> points = hull.polytope.vertices;
-  for (Vec3& p : points) p = p + hull.origin;
-  return make_hull(points);
+const Shape& with_faces(const Shape& shape) {
+  if (shape.has_faces) return shape;
+  LazyFaces& faces = *shape.lazy_faces;
+  std::call_once(faces.once, [&] {
+    std::vector<Vec3> points = shape.polytope.vertices;
+    for (Vec3& p : points) p = p + shape.origin;
+    faces.hull = std::make_shared<const Shape>(make_hull(points));
+  });
+  return *faces.hull;
 }
 
 Shape make_box(Vec3 half_extents) {

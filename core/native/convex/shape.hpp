@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 
 #include "convex/polytope.hpp"
@@ -19,6 +21,14 @@ enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone
 struct EdgeArc {
   Vec3 tail, direction;  // unit direction
   Vec3 normal_left, normal_right;
+};
+
+struct Shape;
+
+// A hull with its faces, made when a query first needs them.
+struct LazyFaces {
+  std::once_flag once;
+  std::shared_ptr<const Shape> hull;
 };
 
 struct Shape {
@@ -46,6 +56,7 @@ struct Shape {
   Polytope polytope;
   std::vector<EdgeArc> arcs;  // of a solid hull
   VertexLanes face_normals;   // of the polytope
+  std::shared_ptr<LazyFaces> lazy_faces;  // of a hull without faces; copies share it
 
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
 };
@@ -57,8 +68,8 @@ Shape make_hull(Polytope polytope);
 Shape make_triangle(const std::array<Vec3, 3>& corners);
 // The hull of points that span a solid. The faces are not computed.
 Shape make_hull_without_faces(std::vector<Vec3> points);
-// The same hull, with its faces.
-Shape with_faces(const Shape& hull);
+// The same shape, with its faces. They are computed at the first call, from any thread, and live as long as the shape.
+const Shape& with_faces(const Shape& shape);
 // All sizes are positive and finite, or std::invalid_argument is thrown.
 Shape make_box(Vec3 half_extents);
 Shape make_sphere(double radius);

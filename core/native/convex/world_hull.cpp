@@ -17,11 +17,15 @@ Polytope moved_hull(const Shape& shape, const Pose& pose) {
 }  // namespace
 
 bool is_in_place(const Shape& shape, const Pose& pose) {
-  return shape.is_polytope() && shape.has_faces && pose.rotation == Mat3{} && pose.translation == Vec3{};
+  return shape.is_polytope() && pose.rotation == Mat3{} && pose.translation == Vec3{};
 }
 
-WorldHull::WorldHull(const Shape& shape, const Pose& pose) : shape_(shape) {
-  if (!is_in_place(shape, pose)) moved_ = make_hull(moved_hull(shape, pose));
+WorldHull::WorldHull(const Shape& shape, const Pose& pose) {
+  if (is_in_place(shape, pose)) {
+    in_place_ = &with_faces(shape);
+  } else {
+    moved_ = make_hull(moved_hull(shape, pose));
+  }
 }
 
 Polytope WorldHull::polytope() const {

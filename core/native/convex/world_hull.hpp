@@ -7,26 +7,26 @@
 
 namespace satcheck {
 
-// Whether a shape is a hull with faces that is not moved. It is then its own world hull.
+// Whether a shape is a polytope that is not moved. It is then its own world hull.
 bool is_in_place(const Shape& shape, const Pose& pose);
 
 // The hull of the world vertices, each rounded by the pose. For polytopes, spheres (their centre) and capsules (their
-// axis). A hull in place is not copied, so the shape must outlive this.
+// axis). A polytope in place is not copied, so the shape must outlive this.
 class WorldHull {
  public:
   WorldHull(const Shape& shape, const Pose& pose);
   WorldHull(const WorldHull&) = delete;
   WorldHull& operator=(const WorldHull&) = delete;
 
-  // A hull in place.
-  const Shape& shape() const { return moved_ ? *moved_ : shape_; }
+  // A hull in place, with faces.
+  const Shape& shape() const { return moved_ ? *moved_ : *in_place_; }
   // In the world, not rounded.
   Vec3 vertex(std::size_t i) const { return shape().polytope.vertices[i] + shape().origin; }
   // A copy with its vertices in the world.
   Polytope polytope() const;
 
  private:
-  const Shape& shape_;
+  const Shape* in_place_ = nullptr;
   std::optional<Shape> moved_;
 };
 

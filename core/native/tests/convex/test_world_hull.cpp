@@ -40,11 +40,12 @@ void test_cores() {
   CHECK(!is_in_place(make_capsule(2, 1), {}));
 }
 
-// The hull of a shape without faces is computed.
+// The faces are computed once, also for a copy.
 void test_without_faces() {
-  const Shape shape = make_hull_without_faces({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
-  CHECK(!is_in_place(shape, {}));
-  CHECK(WorldHull(shape, {}).shape().polytope.face_count() == 4);
+  const Shape shape = make_hull_without_faces({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}), copy = shape;
+  const WorldHull hull(shape, {});
+  CHECK(hull.shape().polytope.face_count() == 4);
+  CHECK(&WorldHull(copy, {}).shape() == &hull.shape());
 }
 
 }  // namespace
