@@ -7,6 +7,7 @@ An overlap has no gap, so it keeps no clearance.
 from __future__ import annotations
 
 import hashlib
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -29,6 +30,7 @@ from satcheck.report.contacts import Contacts
 from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 
 if TYPE_CHECKING:
+    from satcheck.audit.figures.thickness_ahead import Ahead
     from satcheck.core import Climb
 
 ID_DIGITS = 12
@@ -56,14 +58,15 @@ def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
     reason = _why_open(pair, verdict)
     if reason is not None:
         return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
-    if verdict.relation in OVERLAPS:
-        answer = _overlapping(pair, verdict, trace)
-    else:
-        answer = _apart(pair, verdict, trace)
-    if isinstance(answer, str):
-        reason = f"undecided: {answer}"
-        return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
-    answer = _with_extras(answer, pair, verdict, trace)
+    with _thickness_ahead(pair, verdict) as ahead:
+        if verdict.relation in OVERLAPS:
+            answer = _overlapping(pair, verdict, trace)
+        else:
+            answer = _apart(pair, verdict, trace)
+        if isinstance(answer, str):
+            reason = f"undecided: {answer}"
+            return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
+        answer = _with_extras(answer, pair, verdict, trace, ahead)
     contradiction = _contradiction(pair, verdict, trace)
     judgement = judged(answer, pair, overlaps=verdict.overlaps)
     if contradiction is not None:
@@ -110,11 +113,23 @@ def _why_open(pair: Pair, verdict: Verdict) -> str | None:
     return None
 
 
-def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
+def _thickness_ahead(pair: Pair, verdict: Verdict) -> AbstractContextManager[Ahead | None]:
+    """The search for the thickness of the only pair, if it runs beside that for the depth."""
+    both = pair.request.wants("depth") and pair.request.wants("thickness")
+    if not (pair.alone and both and verdict.relation in OVERLAPS):
+        return nullcontext()
+    from satcheck.audit.figures.thickness_ahead import thickness_ahead
+
+    return thickness_ahead(pair)
+
+
+def _with_extras(
+    answer: Answer, pair: Pair, verdict: Verdict, trace: Trace, ahead: Ahead | None
+) -> Answer:
     """Adds the figures that are computed only on request."""
     asked = pair.request.by
     if "thickness" in asked and verdict.relation in OVERLAPS:
-        answer = _with_thickness(answer, pair, trace)
+        answer = _with_thickness(answer, pair, trace, ahead)
     if pair.curved:
         from satcheck.audit.figures.curved import without_meshes
 
@@ -134,12 +149,12 @@ def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> 
     return answer
 
 
-def _with_thickness(answer: Answer, pair: Pair, trace: Trace) -> Answer:
+def _with_thickness(answer: Answer, pair: Pair, trace: Trace, ahead: Ahead | None) -> Answer:
     from satcheck.audit.figures.thickness import STAGE, measure_thickness, why_not_thick
 
     why_not = why_not_thick(pair)
     if why_not is None:
-        return replace(answer, thickness=measure_thickness(pair, answer.depth, trace))
+        return replace(answer, thickness=measure_thickness(pair, answer.depth, trace, ahead))
     trace.record(STAGE, "not known", why_not)
     return replace(answer, reason=answer.reason or f"no thickness: {why_not}")
 

@@ -1,25 +1,30 @@
 """The width of depth intervals against the time they take, on a file of real pairs.
 
     python bench/depth_interval.py PAIRS.json [--budgets 0.02 0.1 0.5 2] [--width 0.01] [--closed]
-                                    [--pairs]
+                                    [--pairs] [--thickness]
 
 PAIRS.json: {"pairs": [{"id", "a": {"mesh", "transform"}, "b": {...}}, ...]}, meshes relative to the
 file, transforms row-major 4x4; a lower bound above truth.best_known_length, where given, is wrong.
 Every pair that overlaps and is not wholly convex is searched from the way out of its hulls. Printed
 per budget, in seconds of `depth_budget`: how wide the intervals are, how much CPU time they took,
 and how many contradict the best known way out. --closed: only pairs of solids. --pairs: a line for
-each pair as well, with the last budget. bench/overlapping_pairs.py makes files of such pairs.
+each pair as well, with the last budget. --thickness: then, with the default budgets, the time of a
+depth, of a thickness, and of both, the least of three runs. bench/overlapping_pairs.py makes files
+of such pairs.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +42,8 @@ from satcheck.scene import load_scene
 
 # A best known way out was verified by others, with coordinates rounded once more.
 ROUNDING = 1e-9
+# Of each search whose time is compared.
+RUNS = 3
 
 
 @dataclass(frozen=True)
@@ -94,6 +101,34 @@ def measure(
     return Measured(name, found, time.process_time() - start, best_known)
 
 
+def least_seconds(search: Callable[[], object]) -> float:
+    seconds = math.inf
+    for _ in range(RUNS):
+        start = time.process_time()
+        search()
+        seconds = min(seconds, time.process_time() - start)
+    return seconds
+
+
+def compare_thickness(pairs: list[Pair], width: float) -> None:
+    """Of solids, on one core."""
+    settings = Settings()
+    depths, thicknesses = [], []
+    for pair in pairs:
+        a, b, upper = pair.a.surface(), pair.b.surface(), way_out_of_hulls(pair).upper
+        depth = partial(core.search_depth, a, b, upper=upper, lower=0.0, width=width)
+        depths.append(least_seconds(partial(depth, work=settings.work)))
+        thickness = partial(core.search_thickness, a, b, width=width)
+        thicknesses.append(least_seconds(partial(thickness, work=settings.thickness_work)))
+    say("| of pairs of solids | median ms | 95 % ms | longest ms |")
+    say("|---|---|---|---|")
+    both = [one + other for one, other in zip(depths, thicknesses, strict=True)]
+    for name, seconds in (("depth", depths), ("thickness", thicknesses), ("both", both)):
+        times = sorted(1e3 * one for one in seconds)
+        high = times[int(0.95 * (len(times) - 1))]
+        say(f"| {name} | {statistics.median(times):.1f} | {high:.0f} | {times[-1]:.0f} |")
+
+
 def say(line: str) -> None:
     sys.stdout.write(line + "\n")
     sys.stdout.flush()
@@ -108,6 +143,7 @@ def main() -> None:
     parser.add_argument("--width", type=float, default=0.01)
     parser.add_argument("--closed", action="store_true")
     parser.add_argument("--pairs", action="store_true")
+    parser.add_argument("--thickness", action="store_true")
     given = parser.parse_args()
     settings = Settings()
     entries = json.loads(given.pairs_file.read_text(encoding="utf-8"))["pairs"]
@@ -142,6 +178,10 @@ def main() -> None:
                 f"{1e3 * one.seconds:8.1f} ms {found.boxes:7} boxes {found.sets:5} sets "
                 f"{found.mesh_tests:6} tests {found.stop}"
             )
+    if given.thickness:
+        compare_thickness(
+            [pair for _, pair, _ in pairs if pair.a.solid and pair.b.solid], given.width
+        )
 
 
 if __name__ == "__main__":

@@ -8,39 +8,45 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+
+class _Step:
+    __slots__ = ("name",)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+
 # Of all threads, in the order in which the steps began. A list changes in one piece.
-_under_way: list[str] = []
+_under_way: list[_Step] = []
 
 
 @contextmanager
 def step(name: str) -> Iterator[None]:
     """`splitting kettle`, while it lasts."""
-    _under_way.append(name)
-    try:
+    with step_in_words() as say:
+        say(name)
         yield
-    finally:
-        _under_way.remove(name)
 
 
 @contextmanager
 def step_in_words() -> Iterator[Callable[[str], None]]:
     """A step that says how far it is. Its name is what the function was called with last; before
     that it has none, so that steps that turn out short are not shown."""
-    names: list[str] = []
+    this = _Step("")
 
     def say(name: str) -> None:
-        _under_way.append(name)
-        names.append(name)
-        if len(names) > 1:
-            _under_way.remove(names.pop(0))
+        if not this.name:
+            _under_way.append(this)
+        this.name = name
 
     try:
         yield say
     finally:
-        for name in names:
-            _under_way.remove(name)
+        if this.name:
+            _under_way.remove(this)
 
 
 def current() -> str:
-    """The step that began last; empty when there is none."""
-    return _under_way[-1] if _under_way else ""
+    """The name of the step that began last; empty when there is none."""
+    last = _under_way[-1:]
+    return last[0].name if last else ""

@@ -7,6 +7,7 @@ inside that holds a ball for certain, so that their overlaps have no thickness.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.figures.depth import Depth
+    from satcheck.audit.figures.thickness_ahead import Ahead
 
 STAGE = "thickness"
 
@@ -52,14 +54,18 @@ def _open(body: PlacedBody) -> str | None:
     return f"{body.id} has sheets" if body.shared.has_sheets() else None
 
 
-def measure_thickness(pair: Pair, depth: Depth | None, trace: Trace) -> Thickness:
-    """Of an overlap of closed bodies. depth: where it is known; no overlap is thicker than that."""
-    settings, limit = pair.settings, pair.request.max_thickness
-    work = settings.thickness_work
-    interval = search(pair, trace, settings.thickness_width, work)
+def measure_thickness(
+    pair: Pair, depth: Depth | None, trace: Trace, ahead: Ahead | None = None
+) -> Thickness:
+    """Of an overlap of closed bodies. depth: where it is known; no overlap is thicker than that.
+    ahead: the first search, if it has begun."""
+    work, limit = pair.settings.thickness_work, pair.request.max_thickness
+    interval = first_search(pair) if ahead is None else ahead.result()
+    _record(interval, trace)
     thickness = _thickness_of(interval)
     if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
-        closer = search(pair, trace, EXACT_WIDTH, work - interval.work, limit)
+        closer = _search(pair, EXACT_WIDTH, work - interval.work, limit)
+        _record(closer, trace)
         thickness = _narrower(thickness, _thickness_of(closer))
     if pair.closer:
         thickness = _of_curves(pair, thickness)
@@ -67,15 +73,29 @@ def measure_thickness(pair: Pair, depth: Depth | None, trace: Trace) -> Thicknes
     return replace(thickness, upper=min(thickness.upper, most))
 
 
-def search(
-    pair: Pair, trace: Trace, width: float, work: int, limit: float | None = None
+def first_search(pair: Pair, go_on: Callable[[], None] | None = None) -> core.ThicknessInterval:
+    """To the width of the settings. go_on: called now and then; what it raises ends the search."""
+    return _search(pair, pair.settings.thickness_width, pair.settings.thickness_work, None, go_on)
+
+
+def _search(
+    pair: Pair,
+    width: float,
+    work: int,
+    limit: float | None,
+    go_on: Callable[[], None] | None = None,
 ) -> core.ThicknessInterval:
     """limit: the search ends once the interval lies on one side of it."""
-    a, b = pair.a.surface(), pair.b.surface()
-    with shown(STAGE, pair) as progress:
-        interval = core.search_thickness(
-            a,
-            b,
+    with shown(STAGE, pair) as show:
+
+        def progress(lower: float, upper: float, share: float) -> None:
+            if go_on is not None:
+                go_on()
+            show(lower, upper, share)
+
+        return core.search_thickness(
+            pair.a.surface(),
+            pair.b.surface(),
             width=width,
             work=work,
             limit=limit,
@@ -84,12 +104,14 @@ def search(
             threads=pair.settings.jobs if pair.alone else 1,
             progress=progress,
         )
+
+
+def _record(interval: core.ThicknessInterval, trace: Trace) -> None:
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
     if interval.stop == "work spent":
         trace.record(STAGE, "budget spent", f"{by}; the budget ended the search")
     else:
         trace.record(STAGE, interval.stop, by)
-    return interval
 
 
 def across(pair: Pair, *, prove: bool) -> int:

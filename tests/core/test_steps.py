@@ -25,12 +25,15 @@ def test_a_step_in_words_is_shown_from_its_first_words_on() -> None:
     assert current() == ""
 
 
-def test_of_several_the_one_that_spoke_last_is_current() -> None:
+def test_of_several_the_one_that_began_last_is_current() -> None:
+    """So that two searches side by side do not take turns."""
     with step_in_words() as say, step_in_words() as say_too:
-        say("half")
         say_too("half")
-        say("done")
-        assert current() == "done"
+        say("half")
+        say_too("most")
+        assert current() == "half"
+        say("most")
+        assert current() == "most"
     assert current() == ""
 
 

@@ -204,6 +204,15 @@ def test_flush_waves_and_waves_pressed_together() -> None:
     assert pressed.upper <= 0.03
 
 
+@pytest.mark.parametrize("work", [10_000_000, 20_000_000, 30_000_000])
+def test_a_budget_is_kept_to_about_a_cell(work: int) -> None:
+    """Cells are divided 64 at a time, and fewer at the end. A cell and its halves are three."""
+    pair = waves(up=False), waves(up=True, shift=-0.01)
+    spent = search_thickness(*pair, width=1e-12, work=work)
+    assert spent.stop == "work spent"
+    assert work <= spent.work <= work + 3 * spent.work / spent.boxes
+
+
 def test_a_search_says_how_far_it_is() -> None:
     seen: list[tuple[float, float, float]] = []
     found = search_thickness(

@@ -30,6 +30,9 @@ constexpr double kSumRounding = 4.0 / 256;
 constexpr double kPlaneTolerance = 1e-3;
 // A cell is not refined further once this share of the way from its bound to what is enough is a gap that only splits close.
 constexpr double kHopeless = 0.5;
+// A gap below this share of the way from the bound to what is enough is not why the bound is too large: cells next to a
+// void became needles. Then the longest axis is split.
+constexpr double kWorthCut = 0.01;
 // A void is split off, leaving a layer of this share of what is enough.
 constexpr double kLayer = 0.25;
 // With more patches a cell is crowded; with fewer the void between them is looked at, if it may make the bound smaller
@@ -318,7 +321,7 @@ class CellBound {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
             open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer);
     }
-    if (!open_.cut) open_.cut = cut_at_gap(gap());
+    if (!open_.cut) open_.cut = cut_at_gap(gap(), kWorthCut * (open_.bound - enough_));
   }
 
   // What makes the bound larger than the depth of the game's point: columns that are not linear, those that the bound rests

@@ -22,11 +22,13 @@ class Chooser {
  public:
   explicit Chooser(const CellGap& gap) : gap_(gap), cell_(gap.cell), at_mean_(sum_at(gap.mean)) {}
 
-  std::optional<HalfSpace> choose() {
+  std::optional<HalfSpace> choose(double least) {
+    const double whole = gap_at_corners();
+    if (whole < least) return std::nullopt;
     for (const Vec3 axis : gap_.axes.row) take(gap_along(axis), [&] { return halving(axis); });
     const bool few_corners = cell_.corners.size() <= kManyCorners;
     if (few_corners) take_planes();
-    if (most_ >= kExplained * gap_at_corners()) return cut_;
+    if (most_ >= kExplained * whole) return cut_;
     cut_.reset();
     most_ = gap_.bodies.rounding();
     if (few_corners) take_edges();
@@ -134,7 +136,7 @@ class Chooser {
 
 }  // namespace
 
-std::optional<HalfSpace> cut_at_gap(const CellGap& gap) { return Chooser(gap).choose(); }
+std::optional<HalfSpace> cut_at_gap(const CellGap& gap, double least) { return Chooser(gap).choose(least); }
 
 std::optional<HalfSpace> cut_off_void(const Cell& cell, const ConvexPatches& patches, const PatchList& met, Vec3 point,
                                       double layer) {

@@ -24,8 +24,8 @@ struct CellGap {
 };
 
 // Across the axis, or at the plane of a patch, that explains the gap best; else along an edge of a patch. Nothing: none
-// explains it.
-std::optional<HalfSpace> cut_at_gap(const CellGap& gap);
+// explains it, or it is less than `least`.
+std::optional<HalfSpace> cut_at_gap(const CellGap& gap, double least);
 
 // Towards a point outside of the body, from the nearest one of the patches that meet the cell. layer: what is left of
 // the void on the side of the patch. Nothing where there are many patches or corners, or where the point is in that layer.

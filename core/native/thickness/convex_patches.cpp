@@ -173,23 +173,26 @@ class Merging {
 }  // namespace
 
 Vec3 ConvexPatches::nearest(const Patch& patch, Vec3 p) const {
-  const Vec3* outline = outlines.data() + patch.first;
-  const bool flat = norm_squared(patch.normal) == 0;
+  const std::span<const Vec3> outline{outlines.data() + patch.first, patch.count};
+  const auto edge = [&](std::size_t i) { return outline[i + 1 < outline.size() ? i + 1 : 0] - outline[i]; };
+  bool beside = norm_squared(patch.normal) == 0;
+  for (std::size_t i = 0; i < outline.size() && !beside; ++i) beside = dot(cross(patch.normal, edge(i)), p - outline[i]) < 0;
+  if (!beside) return p - patch.normal * dot(patch.normal, p - patch.origin);
+  // All edges, not only those that p is beyond: of two almost on one line, rounding may choose the far one.
   Vec3 best;
   double least = INFINITY;
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const Vec3 a = outline[i], edge = outline[i + 1 < patch.count ? i + 1 : 0] - a, w = p - a;
-    if (!flat && dot(cross(patch.normal, edge), w) >= 0) continue;
-    const double length_squared = norm_squared(edge), along = dot(w, edge);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3 e = edge(i), w = p - outline[i];
+    const double length_squared = norm_squared(e), along = dot(w, e);
     const double t = along <= 0 || !(length_squared > 0) ? 0 : along >= length_squared ? 1 : along / length_squared;
-    const Vec3 q = a + edge * t;
+    const Vec3 q = outline[i] + e * t;
     const double d = norm_squared(q - p);
     if (d < least) {
       least = d;
       best = q;
     }
   }
-  return least < INFINITY ? best : p - patch.normal * dot(patch.normal, p - patch.origin);
+  return best;
 }
 
 ConvexPatches convex_patches(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness) {

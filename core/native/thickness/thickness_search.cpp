@@ -35,7 +35,7 @@ constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
 
-// So many cells, those with the largest bounds, are divided at a time, on all cores. The number does not depend on the
+// So many cells, those with the largest bounds, are divided at a time at most, on all cores. The number does not depend on the
 // cores, so neither does the answer. With more, a deeper point that one of them has comes too late for more of the others;
 // with fewer, starting threads takes as long as the cells.
 constexpr std::size_t kBatch = 64;
@@ -143,9 +143,16 @@ class Search {
     std::uint64_t work = 0;
   };
 
+  // How many cells to divide: no more than the work that is left allows, at what cells took so far.
+  std::size_t batch() const {
+    const std::uint64_t of_both_halves = 2 * (work() / std::max<std::uint64_t>(result_.boxes, 1) + kCellWork);
+    return std::clamp<std::size_t>((most_work_ - work()) / of_both_halves, 1, kBatch);
+  }
+
   void divide_largest() {
     std::vector<Share> shares;
-    while (shares.size() < kBatch && !open_.empty() && (shares.empty() || open_.front()->bound > enough())) {
+    const std::size_t most = batch();
+    while (shares.size() < most && !open_.empty() && (shares.empty() || open_.front()->bound > enough())) {
       std::pop_heap(open_.begin(), open_.end(), smaller_bound);
       shares.push_back({std::move(open_.back()), {}, best_});
       open_.pop_back();
