@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.figures.escape import FREE
-from satcheck.audit.motion.limits import SLIDES
+from satcheck.audit.motion.limits import SLID, SLIDES
+from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import Vector
 
@@ -37,7 +38,7 @@ def safe_slide(pair: MovingPair, t: float, end: float) -> float:
     """The time after t for which the bodies overlap by no more than the touch band. end: in the
     same piece of steady motion. 0.0: not proven."""
     velocity = _velocity(pair, t)
-    if velocity is None:
+    if velocity is None or _is_impact(pair, t, end):
         return 0.0
     placed = pair.placed(t)
     a, b = placed.a, placed.b
@@ -47,6 +48,14 @@ def safe_slide(pair: MovingPair, t: float, end: float) -> float:
     margin = 0.5 * pair.tolerance - pair.pad
     span = _longest(end - t, lambda s: _sweeps_free(a, b, scaled(velocity, s), margin))
     return span or _longest(end - t, lambda s: _sweeps_free(b, a, scaled(velocity, -s), margin))
+
+
+def _is_impact(pair: MovingPair, t: float, end: float) -> bool:
+    """Whether the contact is so short that it counts as the start of an overlap. Most contacts are,
+    and a hull costs more than this test."""
+    speed = pair.fastest(t)
+    soon = min(t + SLID * pair.tolerance / speed, end) if speed > 0.0 else end
+    return overlaps(pair.found_at(soon))
 
 
 def _longest(time: float, is_safe: Callable[[float], bool]) -> float:

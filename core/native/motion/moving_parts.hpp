@@ -62,6 +62,7 @@ struct PlacedTriangle {
     for (const Vec3& p : corners) visit(p);
   }
   Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) * (1.0 / 3); }
+  Vec3 edge(int k) const { return corners[(k + 1) % 3] - corners[k]; }
   Vec3 normal() const { return cross(corners[1] - corners[0], corners[2] - corners[0]); }
 };
 
