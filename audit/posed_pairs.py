@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
+# Of the meshes around and within a curved body.
+_SEGMENTS = 16
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 Numbers = NDArray[np.float64]
@@ -163,9 +165,11 @@ def _posed(body: PlacedBody) -> core.PosedBody:
     if body.curved is None or shape is None:
         return core.PosedBody(body.shared.geometry)
     from satcheck.core.shape_bounds import shape_bounds
+    from satcheck.core.shape_mesh import meshes_beside
 
-    around = shape_bounds(shape)
-    return core.PosedBody(around.corners, around.margin, around.inner)
+    simple = shape_bounds(shape)
+    around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
+    return core.PosedBody(simple.corners, simple.margin, simple.inner, around, within)
 
 
 def _moved(body: Body, rows: Numbers) -> Body:

@@ -38,13 +38,21 @@ double least_distance(std::vector<Vec3> points) {
 
 }  // namespace
 
-PosedBody::PosedBody(std::shared_ptr<Geometry> geometry) : geometry_(std::move(geometry)) {
+PosedBody::PosedBody(std::shared_ptr<Geometry> geometry) : geometry_(std::move(geometry)), within_(geometry_) {
   enclose(geometry_->hull_points()->points);
 }
 
-PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner)
-    : margin_(margin), inner_(std::move(inner)) {
+PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner,
+                     std::shared_ptr<Geometry> around, std::shared_ptr<Geometry> within)
+    : geometry_(std::move(around)), within_(std::move(within)), margin_(margin), inner_(std::move(inner)) {
+  include(geometry_->bounds().min);
+  include(geometry_->bounds().max);
   enclose(corners);
+}
+
+void PosedBody::include(Vec3 p) {
+  largest_ = {std::max(largest_.x, std::fabs(p.x)), std::max(largest_.y, std::fabs(p.y)),
+              std::max(largest_.z, std::fabs(p.z))};
 }
 
 void PosedBody::enclose(const std::vector<Vec3>& corners) {
@@ -52,8 +60,7 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
   Aabb box;
   for (const Vec3& p : corners) {
     box.include(p);
-    largest_ = {std::max(largest_.x, std::fabs(p.x)), std::max(largest_.y, std::fabs(p.y)),
-                std::max(largest_.z, std::fabs(p.z))};
+    include(p);
   }
   around_.centre = box.min * 0.5 + box.max * 0.5;
   for (const Vec3& p : corners) around_.radius = std::max(around_.radius, norm(p - around_.centre));
@@ -63,6 +70,13 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
 const Surface& PosedBody::surface() {
   std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
   return *surface_;
+}
+
+const Surface* PosedBody::material() {
+  std::call_once(has_material_, [&] {
+    if (within_->solid()) material_ = within_->surface();
+  });
+  return material_.get();
 }
 
 const Surface& PosedBody::walls() {
@@ -81,7 +95,9 @@ bool PosedBody::may_hold(Vec3 point) {
 }
 
 const std::vector<Ball>& PosedBody::inner() {
-  if (geometry_ && geometry_->solid()) std::call_once(has_inner_, [&] { inner_ = balls_inside(surface()); });
+  std::call_once(has_inner_, [&] {
+    if (inner_.empty() && material()) inner_ = balls_inside(*material());
+  });
   return inner_;
 }
 
