@@ -52,8 +52,9 @@ class PosedPair(Struct, frozen=True):
 
 
 class PosedPairs:
-    """The pairs of a scene that are checked and can be compared, sorted. names: their ids. bodies:
-    as placed in any of the poses; all those of the scene can be used."""
+    """The pairs of a scene that are checked and can be compared, sorted. names: their ids.
+    deep_fails: whether a deep overlap of each is a failure. bodies: as placed in any of the poses;
+    all those of the scene can be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         self._settings = planner.settings
@@ -70,6 +71,11 @@ class PosedPairs:
         self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
         self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
         self._places = [(place[i], place[j]) for i, j in checked]
+        self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
+
+    def _deep_fails(self, request: Request) -> bool:
+        severity = by_rule(Judgement("error"), request).severity
+        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
     @property
     def places(self) -> list[tuple[int, int]]:
@@ -93,11 +99,6 @@ class PosedPairs:
     def sizes(self) -> list[float]:
         """The size of the smaller body of each pair."""
         return [min(self._bodies[k].diagonal for k in pair) for pair in self._places]
-
-    def deep_fails(self, number: int) -> bool:
-        """Whether a deep overlap of the pair is a failure."""
-        severity = by_rule(Judgement("error"), self.pairs[number].request).severity
-        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
     def sift(
         self,

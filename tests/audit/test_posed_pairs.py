@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit import samples as many
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.request.planner import Planner
@@ -188,32 +187,6 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
     (batch,) = pose_batches(scene, [pose], 1)
     assert pairs.sift(batch.matrices(scene)).tolist() == [[OPEN]]
-
-
-def test_a_report_of_many_poses_counts_all_and_lists_the_first(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene = spider(tmp_path, [*meshes(tmp_path)[:3], *SHAPES[:2], *open_cups(tmp_path)])
-    poses = RandomPoses([robot.robot for robot in scene.robots], 60, 3)
-    whole = check_poses(scene, poses, QUICK)
-    monkeypatch.setattr("satcheck.audit.sampled.LISTED_NOTED", 5)
-    monkeypatch.setattr(many, "LISTED_NOTED", 5)
-    monkeypatch.setattr(many, "LISTED_SAMPLES", 50)
-    monkeypatch.setattr(many, "BATCH", 16)
-    short = check_poses(scene, poses, QUICK)
-    noted = [sample for sample in whole.samples if sample.findings]
-    assert len(noted) > 5
-    assert [s.number for s in short.samples] == [s.number for s in noted[:5]]
-    assert [list(map(plain, s.findings)) for s in short.samples] == [
-        list(map(plain, s.findings)) for s in noted[:5]
-    ]
-    assert short.by_verdict == whole.by_verdict
-    assert short.pairs == whole.pairs
-    assert any(pair.undecided > 1 for pair in short.pairs)
-    left_out = short.report().truncated
-    assert left_out is not None
-    assert left_out.samples == 55
-    assert whole.report().truncated is None
 
 
 def test_matrices_have_the_bits_of_single_poses() -> None:
