@@ -108,10 +108,10 @@ const FilledHoles& PosedBody::filled() {
   return filled_;
 }
 
-bool PosedBody::encloses(Vec3 point) {
+std::optional<bool> PosedBody::encloses(Vec3 point) {
   const Surface& own = surface();
-  if (own.solid) return winding_number(own, point).value_or(1) != 0;
-  return winding_number(*closing_of(own, OpenParts::sheets)->surface, point).value_or(1) != 0;
+  const auto winding = winding_number(own.solid ? own : *closing_of(own, OpenParts::sheets)->surface, point);
+  return winding ? std::optional(*winding != 0) : std::nullopt;
 }
 
 PosedPlace place_at(const PosedBody& body, const double* m) {

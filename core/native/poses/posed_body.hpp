@@ -46,8 +46,8 @@ class PosedBody {
   const Surface& walls();
   // Whether a point on none of the walls is in the material, or may be in the fill of a hole.
   bool may_hold(Vec3 point);
-  // Whether a point that is not on the surface is in the material without any fill.
-  bool encloses(Vec3 point);
+  // Whether a point is in the material without any fill; empty for a point on the surface.
+  std::optional<bool> encloses(Vec3 point);
   // Of an open surface. Made by the first call.
   const FilledHoles& filled();
   // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.

@@ -207,7 +207,7 @@ class Walk {
       const BvhNode &of_a = a_.bvh.nodes[i], &of_b = b_.bvh.nodes[j];
       if (boxes_.apart(of_a.box, of_b.box)) continue;
       if (of_a.is_leaf() && of_b.is_leaf()) {
-        if (compare_leaves(of_a, of_b)) return Meeting::crossing;
+        if (compare_leaves(of_a, of_b)) return Meeting::deep;
         if (unclear_ >= most_unclear_ || (std::isinf(depth_) && common_)) return Meeting::unclear;
       } else if (of_b.is_leaf() || (!of_a.is_leaf() && longest(of_a.box) > longest(of_b.box))) {
         open.insert(open.end(), {{of_a.first + 1, j}, {of_a.first, j}});
@@ -270,9 +270,10 @@ bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
   return any_part(inner.walls(), place, [&](Vec3 p) { return outer.may_hold(p); });
 }
 
-// The same without the fills of holes.
-bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
-  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p); });
+// Whether a part of the inner body lies in the material of the outer one for any fill. unknown: the answer at a point
+// without a winding number.
+bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place, bool unknown) {
+  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p).value_or(unknown); });
 }
 
 Vec3 largest_of(const Surface& surface) {
@@ -308,8 +309,9 @@ SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, co
   const bool walls_apart =
       closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() == Meeting::apart;
   if (walls_apart && !may_reach_into(a, b, b_in_a) && !may_reach_into(b, a, a_in_b)) return {Meeting::apart, {}};
-  const bool by_fill = !closed && !reaches_into(a, b, b_in_a) && !reaches_into(b, a, a_in_b);
-  return {by_fill ? Meeting::by_fill : Meeting::unclear, {}};
+  const auto nested = [&](bool unknown) { return reaches_into(a, b, b_in_a, unknown) || reaches_into(b, a, a_in_b, unknown); };
+  if (depth <= gap && nested(false)) return {Meeting::deep, {}};
+  return {closed || nested(true) ? Meeting::unclear : Meeting::by_fill, {}};
 }
 
 }  // namespace satcheck

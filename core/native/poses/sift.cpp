@@ -131,10 +131,10 @@ class PoseSifter {
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     const bool have_meshes = a.has_mesh() && b.has_mesh();
-    // A crossing of a mesh around a body proves nothing.
+    // A crossing of a mesh around a body proves no overlap.
     const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY);
     if (meeting == Meeting::apart) return Sifted::apart;
-    if (meeting == Meeting::crossing) return Sifted::deep;
+    if (meeting == Meeting::deep) return Sifted::deep;
     if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
     const Surface *in_a = a.material(), *in_b = b.material();
     if (!in_a || !in_b) return Sifted::open;
