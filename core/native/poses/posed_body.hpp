@@ -19,7 +19,7 @@ struct Stretch {
   double least = 0, most = 0;
 };
 
-// An open surface with its holes filled. closing: null for other surfaces. distance: of any two vertices, a lower bound.
+// An open surface with its holes filled. distance: a lower bound of that of any two vertices.
 struct FilledHoles {
   std::shared_ptr<const Closing> closing;
   double distance = 0;
@@ -40,22 +40,22 @@ class PosedBody {
   bool has_mesh() const { return geometry_ == within_; }
   // Of the mesh, or of that around a curved body, in file coordinates. Made by the first call, like those below.
   const Surface& surface();
-  // A closed surface that holds only material; null if the body is open.
-  const Surface* material();
   // The same with the hulls of all holes. Points that it does not separate are in the body, or none is, for any fill.
   const Surface& walls();
+  // A closed surface that holds only material: of a solid mesh, or within a curved body. Null for an open mesh.
+  const Surface* material();
   // Whether a point on none of the walls is in the material, or may be in the fill of a hole.
   bool may_hold(Vec3 point);
   // Whether a point is in the material without any fill; empty for a point on the surface.
   std::optional<bool> encloses(Vec3 point);
-  // Of an open surface. Made by the first call.
+  // Of an open mesh.
   const FilledHoles& filled();
-  // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
+  // Balls in the material, the largest first; empty for an open mesh.
   const std::vector<Ball>& inner();
 
  private:
   void enclose(const std::vector<Vec3>& corners);
-  void include(Vec3 p);  // in largest()
+  void widen(Vec3 p);  // largest()
 
   std::shared_ptr<Geometry> geometry_, within_;
   VertexLanes corners_;
