@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
+# Of the meshes around and within a curved body.
+_SEGMENTS = 16
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 Numbers = NDArray[np.float64]
@@ -50,8 +52,9 @@ class PosedPair(Struct, frozen=True):
 
 
 class PosedPairs:
-    """The pairs of a scene that are checked and can be compared, sorted. names: their ids. bodies:
-    as placed in any of the poses; all those of the scene can be used."""
+    """The pairs of a scene that are checked and can be compared, sorted. names: their ids.
+    deep_fails: whether a deep overlap of each is a failure. bodies: as placed in any of the poses;
+    all those of the scene can be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         self._settings = planner.settings
@@ -68,6 +71,11 @@ class PosedPairs:
         self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
         self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
         self._places = [(place[i], place[j]) for i, j in checked]
+        self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
+
+    def _deep_fails(self, request: Request) -> bool:
+        severity = by_rule(Judgement("error"), request).severity
+        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
     @property
     def places(self) -> list[tuple[int, int]]:
@@ -91,11 +99,6 @@ class PosedPairs:
     def sizes(self) -> list[float]:
         """The size of the smaller body of each pair."""
         return [min(self._bodies[k].diagonal for k in pair) for pair in self._places]
-
-    def deep_fails(self, number: int) -> bool:
-        """Whether a deep overlap of the pair is a failure."""
-        severity = by_rule(Judgement("error"), self.pairs[number].request).severity
-        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
     def sift(
         self,
@@ -163,9 +166,11 @@ def _posed(body: PlacedBody) -> core.PosedBody:
     if body.curved is None or shape is None:
         return core.PosedBody(body.shared.geometry)
     from satcheck.core.shape_bounds import shape_bounds
+    from satcheck.core.shape_mesh import meshes_beside
 
-    around = shape_bounds(shape)
-    return core.PosedBody(around.corners, around.margin, around.inner)
+    simple = shape_bounds(shape)
+    around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
+    return core.PosedBody(simple.corners, simple.margin, simple.inner, around, within)
 
 
 def _moved(body: Body, rows: Numbers) -> Body:

@@ -97,7 +97,7 @@ class PairTally(Struct):
             self.first_undecided = number
             self.reason = finding.reason or swept or "undecided"
         if finding.relation in OVERLAPS:
-            self.count_overlap(number, fails=failed)
+            self.count_overlaps(1, number, fails=failed)
             return
         self.fails += failed
         if finding.relation == "touching":
@@ -107,15 +107,11 @@ class PairTally(Struct):
         elif finding.undecided is not None:
             self.undecided += 1
 
-    def count_overlap(self, number: int, *, fails: bool) -> None:
-        self.overlaps += 1
-        self.fails += fails
-        if self.first_overlap is None:
-            self.first_overlap = number
-
-    def count_undecided(self) -> None:
-        """A sample after `first_undecided`."""
-        self.undecided += 1
+    def count_overlaps(self, count: int, first: int, *, fails: bool) -> None:
+        """In so many samples. first: the number of the first of them."""
+        self.overlaps += count
+        self.fails += count if fails else 0
+        self.first_overlap = min(first, self.first_overlap or first)
 
     def stated(self) -> SampledPair:
         counts = (self.overlaps, self.touches, self.near, self.undecided)

@@ -22,6 +22,8 @@ from satcheck.core.shapes import (
 DEFAULT_SEGMENTS = 64
 # Covers the rounding of face normals, supports and scaled corners.
 _ROUNDED_UP = 1 + 2.0**-40
+# Factors far beyond any rounding.
+_LARGER, _SMALLER = 1 + 1e-9, 1 - 1e-9
 
 
 def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
@@ -71,6 +73,17 @@ def mesh_around(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
     reaches = np.array([support(shape, tuple(normal)) for normal in normals.tolist()])
     growth = float((reaches / offsets).max()) * _ROUNDED_UP
     return Mesh(vertices * growth, inner.triangles)
+
+
+def meshes_beside(shape: Primitive, segments: int) -> tuple[Mesh, Mesh]:
+    """One around the shape and one within it, that rounding does not bring to its surface."""
+    import numpy as np
+
+    outer, inner = mesh_around(shape, segments), mesh_of(shape, segments)
+    return (
+        Mesh(np.asarray(outer.vertices) * _LARGER, outer.triangles),
+        Mesh(np.asarray(inner.vertices) * _SMALLER, inner.triangles),
+    )
 
 
 def _surface_points(shape: Primitive, segments: int) -> Iterator[Vector]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit import samples as many
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.request.planner import Planner
@@ -127,28 +127,44 @@ def test_flags(tmp_path: Path) -> None:
     compare(scene, Settings(depth=False, tolerance=0.1, surface_tolerance=0.02), 15)
 
 
-def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
-    """What a report does not list is counted by these codes alone."""
-    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES, *open_cups(tmp_path)])
+def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int, str]]:
+    """How many pairs the core sorts so, and a check of the pose decides so."""
     bodies = place(scene, QUICK)
     pairs = PosedPairs(scene, bodies, Planner(QUICK, bodies.book, scene.composed))
-    poses = RandomPoses([robot.robot for robot in scene.robots], 25, 7)
-    seen = set()
+    poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
+    seen: Counter[tuple[int, str]] = Counter()
     for batch in pose_batches(scene, poses, 10):
         codes = pairs.sift(batch.matrices(scene))
         for row in range(batch.count):
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
             for code, names in zip(codes[row], pairs.names, strict=True):
-                relation = relations.get(names, "separated")
-                seen.add(int(code))
-                if code == APART:
-                    assert relation == "separated"
-                if code == DEEP:
-                    assert relation in OVERLAPS
-                if code == UNDECIDED:
-                    assert relation == "indeterminate"
-    assert seen == {OPEN, APART, DEEP, UNDECIDED}
+                seen[int(code), relations.get(names, "separated")] += 1
+    return seen
+
+
+def require_proofs(seen: Counter[tuple[int, str]]) -> None:
+    assert {relation for code, relation in seen if code == APART} <= {"separated"}
+    assert {relation for code, relation in seen if code == DEEP} <= set(OVERLAPS)
+    assert {relation for code, relation in seen if code == UNDECIDED} <= {"indeterminate"}
+
+
+def test_the_core_sorts_as_the_ladder_decides(tmp_path: Path) -> None:
+    """What a report does not list is counted by these codes alone."""
+    scene = spider(tmp_path, [*meshes(tmp_path), *SHAPES, *open_cups(tmp_path)])
+    seen = sorted_and_decided(scene, 25, 7)
+    require_proofs(seen)
+    assert {code for code, _ in seen} == {OPEN, APART, DEEP, UNDECIDED}
+
+
+def test_few_curved_bodies_climb(tmp_path: Path) -> None:
+    """Discs and rods, which hold no large balls, among concave meshes."""
+    discs = ['<cylinder radius="0.6" length="0.05"/>', '<cylinder radius="0.05" length="1.6"/>']
+    scene = spider(tmp_path, [*discs, *SHAPES[:2], *meshes(tmp_path)[:2], *discs])
+    seen = sorted_and_decided(scene, 25, 8)
+    require_proofs(seen)
+    climbing = sum(number for (code, _), number in seen.items() if code == OPEN)
+    assert climbing < 0.1 * seen[DEEP, "penetrating"]
 
 
 def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
@@ -171,32 +187,6 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
     (batch,) = pose_batches(scene, [pose], 1)
     assert pairs.sift(batch.matrices(scene)).tolist() == [[OPEN]]
-
-
-def test_a_report_of_many_poses_counts_all_and_lists_the_first(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene = spider(tmp_path, [*meshes(tmp_path)[:3], *SHAPES[:2], *open_cups(tmp_path)])
-    poses = RandomPoses([robot.robot for robot in scene.robots], 60, 3)
-    whole = check_poses(scene, poses, QUICK)
-    monkeypatch.setattr("satcheck.audit.sampled.LISTED_NOTED", 5)
-    monkeypatch.setattr(many, "LISTED_NOTED", 5)
-    monkeypatch.setattr(many, "LISTED_SAMPLES", 50)
-    monkeypatch.setattr(many, "BATCH", 16)
-    short = check_poses(scene, poses, QUICK)
-    noted = [sample for sample in whole.samples if sample.findings]
-    assert len(noted) > 5
-    assert [s.number for s in short.samples] == [s.number for s in noted[:5]]
-    assert [list(map(plain, s.findings)) for s in short.samples] == [
-        list(map(plain, s.findings)) for s in noted[:5]
-    ]
-    assert short.by_verdict == whole.by_verdict
-    assert short.pairs == whole.pairs
-    assert any(pair.undecided > 1 for pair in short.pairs)
-    left_out = short.report().truncated
-    assert left_out is not None
-    assert left_out.samples == 55
-    assert whole.report().truncated is None
 
 
 def test_matrices_have_the_bits_of_single_poses() -> None:

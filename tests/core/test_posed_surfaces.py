@@ -138,8 +138,12 @@ def test_a_body_in_the_material_is_not_apart_and_one_in_the_cavity_is() -> None:
     tenth = tuple(0.1 * c if k % 5 == 0 and k < 12 else c for k, c in enumerate(STILL))
     in_wall, in_cavity = moved_by(tenth, 2.0, 2.0, 0.45), moved_by(tenth, 2.0, 2.0, 2.0)
     through = moved_by(tenth, 2.03, 2.04, 0.95)
-    assert sort(HOLLOW, STILL, CUBE, in_wall, 0.0, 0.0) == OPEN
-    assert sort(CUBE, in_wall, HOLLOW, STILL, 0.0, 0.0) == OPEN
+    for inner in (CUBE, opened(CUBE)):  # 0.45 from the surface
+        assert sort(HOLLOW, STILL, inner, in_wall, 0.4, 0.4) == DEEP
+        assert sort(inner, in_wall, HOLLOW, STILL, 0.4, 0.4) == DEEP
+        assert sort(HOLLOW, STILL, inner, in_wall, 0.5, 0.5) == OPEN
+        assert sort(HOLLOW, STILL, inner, in_wall, 0.0, 0.1) == OPEN
+        assert sort(HOLLOW, STILL, inner, in_wall, 0.0, math.inf) == OPEN
     assert sort(HOLLOW, STILL, CUBE, in_cavity, 0.5, 0.0) == APART
     assert sort(CUBE, in_cavity, HOLLOW, STILL, 0.5, 0.0) == APART
     assert sort(HOLLOW, STILL, CUBE, through, 0.0, 0.0) != APART

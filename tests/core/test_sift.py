@@ -10,6 +10,7 @@ import pytest
 
 from satcheck import core
 from satcheck.core.shape_bounds import shape_bounds
+from satcheck.core.shape_mesh import meshes_beside
 from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere, support
 from satcheck.core.transform import Transform, about_fixed_axes, placed
 
@@ -89,6 +90,9 @@ def placed_vertices(matrix: Transform) -> list[tuple[float, float, float]]:
 )
 def test_simple_bodies_around_and_inside_a_shape(shape: Primitive) -> None:
     draw, around = random.Random(2), shape_bounds(shape)
+    beside = meshes_beside(shape, 16)
+    outer, inner = (np.asarray(mesh.vertices) for mesh in beside)
+    assert all(mesh.topology().solid for mesh in beside)
     for _ in range(500):
         n = [draw.gauss(0, 1) for _ in range(3)]
         x, y, z = (c / math.hypot(*n) for c in n)
@@ -96,6 +100,7 @@ def test_simple_bodies_around_and_inside_a_shape(shape: Primitive) -> None:
         assert max(x * p + y * q + z * r for p, q, r in around.corners) + around.margin > reach
         for (p, q, r), radius in around.inner:
             assert x * p + y * q + z * r + radius < reach
+        assert (inner @ (x, y, z)).max() < reach < (outer @ (x, y, z)).max()
 
 
 def test_a_body_in_a_shell_is_not_apart() -> None:

@@ -24,27 +24,36 @@ Stretch stretch_of(const Mat3& m) {
   return {std::sqrt(std::max(least, 0.0)), std::sqrt(most)};
 }
 
-// A lower bound of the distance of any two of the points: of their largest difference in a coordinate.
-double least_distance(std::vector<Vec3> points) {
-  std::sort(points.begin(), points.end(), coordinates_less);
+// Shorter than 1, and along no line or plane of a usual mesh.
+constexpr Vec3 kOblique{0.4812118, 0.5772157, 0.6597};
+
+// A lower bound of the distance of any two of the points: the least difference of their heights in one direction.
+double least_distance(const std::vector<Vec3>& points, double largest) {
+  std::vector<double> heights;
+  for (const Vec3& p : points) heights.push_back(dot(kOblique, p));
+  std::sort(heights.begin(), heights.end());
   double least = INFINITY;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size() && points[j].x - points[i].x < least; ++j) {
-      least = std::min(least, max_abs(points[j] - points[i]));
-    }
-  }
-  return least;
+  for (std::size_t i = 1; i < heights.size(); ++i) least = std::min(least, heights[i] - heights[i - 1]);
+  return least - chain_rounding(largest);
 }
 
 }  // namespace
 
-PosedBody::PosedBody(std::shared_ptr<Geometry> geometry) : geometry_(std::move(geometry)) {
+PosedBody::PosedBody(std::shared_ptr<Geometry> geometry) : geometry_(std::move(geometry)), within_(geometry_) {
   enclose(geometry_->hull_points()->points);
 }
 
-PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner)
-    : margin_(margin), inner_(std::move(inner)) {
+PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner,
+                     std::shared_ptr<Geometry> around, std::shared_ptr<Geometry> within)
+    : geometry_(std::move(around)), within_(std::move(within)), margin_(margin), inner_(std::move(inner)) {
+  widen(geometry_->bounds().min);
+  widen(geometry_->bounds().max);
   enclose(corners);
+}
+
+void PosedBody::widen(Vec3 p) {
+  largest_ = {std::max(largest_.x, std::fabs(p.x)), std::max(largest_.y, std::fabs(p.y)),
+              std::max(largest_.z, std::fabs(p.z))};
 }
 
 void PosedBody::enclose(const std::vector<Vec3>& corners) {
@@ -52,8 +61,7 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
   Aabb box;
   for (const Vec3& p : corners) {
     box.include(p);
-    largest_ = {std::max(largest_.x, std::fabs(p.x)), std::max(largest_.y, std::fabs(p.y)),
-                std::max(largest_.z, std::fabs(p.z))};
+    widen(p);
   }
   around_.centre = box.min * 0.5 + box.max * 0.5;
   for (const Vec3& p : corners) around_.radius = std::max(around_.radius, norm(p - around_.centre));
@@ -63,6 +71,13 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
 const Surface& PosedBody::surface() {
   std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
   return *surface_;
+}
+
+const Surface* PosedBody::material() {
+  std::call_once(has_material_, [&] {
+    if (within_->solid()) material_ = within_->surface();
+  });
+  return material_.get();
 }
 
 const Surface& PosedBody::walls() {
@@ -81,21 +96,23 @@ bool PosedBody::may_hold(Vec3 point) {
 }
 
 const std::vector<Ball>& PosedBody::inner() {
-  if (geometry_ && geometry_->solid()) std::call_once(has_inner_, [&] { inner_ = balls_inside(surface()); });
+  std::call_once(has_inner_, [&] {
+    if (inner_.empty() && material()) inner_ = balls_inside(*material());
+  });
   return inner_;
 }
 
 const FilledHoles& PosedBody::filled() {
   std::call_once(has_filled_, [&] {
-    filled_ = {closing_of(surface(), OpenParts::filled), least_distance(surface().mesh.vertices)};
+    filled_ = {closing_of(surface(), OpenParts::filled), least_distance(surface().mesh.vertices, max_abs(largest_))};
   });
   return filled_;
 }
 
-bool PosedBody::encloses(Vec3 point) {
+std::optional<bool> PosedBody::encloses(Vec3 point) {
   const Surface& own = surface();
-  if (own.solid) return winding_number(own, point).value_or(1) != 0;
-  return winding_number(*closing_of(own, OpenParts::sheets)->surface, point).value_or(1) != 0;
+  const auto winding = winding_number(own.solid ? own : *closing_of(own, OpenParts::sheets)->surface, point);
+  return winding ? std::optional(*winding != 0) : std::nullopt;
 }
 
 PosedPlace place_at(const PosedBody& body, const double* m) {

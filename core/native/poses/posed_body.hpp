@@ -19,7 +19,7 @@ struct Stretch {
   double least = 0, most = 0;
 };
 
-// An open surface with its holes filled. closing: null for other surfaces. distance: of any two vertices, a lower bound.
+// An open surface with its holes filled. distance: a lower bound of that of any two vertices.
 struct FilledHoles {
   std::shared_ptr<const Closing> closing;
   double distance = 0;
@@ -29,37 +29,41 @@ class PosedBody {
  public:
   // A body with a mesh.
   explicit PosedBody(std::shared_ptr<Geometry> geometry);
-  // Another body: it lies in the hull of `corners`, grown by `margin`, and these balls lie in it.
-  PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner);
+  // A curved body: it lies in the hull of `corners`, grown by `margin`, and between two closed meshes. The balls lie in it.
+  PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner, std::shared_ptr<Geometry> around,
+            std::shared_ptr<Geometry> within);
 
   const VertexLanes& corners() const { return corners_; }
   double margin() const { return margin_; }
   const Ball& around() const { return around_; }          // holds the body
-  Vec3 largest() const { return largest_; }               // |coordinate| of all corners
-  bool has_mesh() const { return geometry_ != nullptr; }
-  // Of the mesh, in file coordinates. Made by the first call, like the two below.
+  Vec3 largest() const { return largest_; }               // |coordinate| of all corners and vertices
+  bool has_mesh() const { return geometry_ == within_; }
+  // Of the mesh, or of that around a curved body, in file coordinates. Made by the first call, like those below.
   const Surface& surface();
   // The same with the hulls of all holes. Points that it does not separate are in the body, or none is, for any fill.
   const Surface& walls();
+  // A closed surface that holds only material: of a solid mesh, or within a curved body. Null for an open mesh.
+  const Surface* material();
   // Whether a point on none of the walls is in the material, or may be in the fill of a hole.
   bool may_hold(Vec3 point);
-  // Whether a point that is not on the surface is in the material without any fill.
-  bool encloses(Vec3 point);
-  // Of an open surface. Made by the first call.
+  // Whether a point is in the material without any fill; empty for a point on the surface.
+  std::optional<bool> encloses(Vec3 point);
+  // Of an open mesh.
   const FilledHoles& filled();
-  // Balls in the material, the largest first. Made by the first call; empty for a mesh that is not solid.
+  // Balls in the material, the largest first; empty for an open mesh.
   const std::vector<Ball>& inner();
 
  private:
   void enclose(const std::vector<Vec3>& corners);
+  void widen(Vec3 p);  // largest()
 
-  std::shared_ptr<Geometry> geometry_;
+  std::shared_ptr<Geometry> geometry_, within_;
   VertexLanes corners_;
   double margin_ = 0;
   Ball around_;
   Vec3 largest_;
-  std::once_flag has_surface_, has_walls_, has_inner_, has_filled_;
-  std::shared_ptr<Surface> surface_;
+  std::once_flag has_surface_, has_material_, has_walls_, has_inner_, has_filled_;
+  std::shared_ptr<Surface> surface_, material_;
   std::shared_ptr<const Surface> walls_;
   std::vector<Ball> inner_;
   FilledHoles filled_;

@@ -5,66 +5,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/rounding.hpp"
 #include "exact/triangle_pair.hpp"
+#include "poses/relative_place.hpp"
 
 namespace satcheck {
 namespace {
 
-// A coordinate, a height or a width that is computed in the frame of A from coordinates of at most `size` is off by at
-// most this times `size`: fewer than 64 roundings.
-constexpr double kFrameRounding = 64 * kUnitRoundoff;
-// An entry of a product of 3x3 matrices, compared with another matrix: 6 roundings of its terms, rounded up.
-constexpr double kProductRounding = 8 * kUnitRoundoff;
 // After so many pairs of triangles that prove nothing, the walk ends: for a crossing, and for a proof that bodies are apart.
 constexpr int kMostUnclear = 64, kNoneUnclear = 1;
 
-Mat3 inverse_of(const Mat3& m) {
-  const Vec3 x = cross(m.row[1], m.row[2]), y = cross(m.row[2], m.row[0]), z = cross(m.row[0], m.row[1]);
-  const double by = 1 / dot(m.row[0], x);
-  return {{Vec3{x.x, y.x, z.x} * by, Vec3{x.y, y.y, z.y} * by, Vec3{x.z, y.z, z.z} * by}};
-}
-
-Mat3 product(const Mat3& m, const Mat3& n) {
-  const auto row = [&](Vec3 r) { return transpose_times(n, r); };
-  return {{row(m.row[0]), row(m.row[1]), row(m.row[2])}};
-}
-
-Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-Mat3 absolute(const Mat3& m) { return {{absolute(m.row[0]), absolute(m.row[1]), absolute(m.row[2])}}; }
-double sum(Vec3 v) { return v.x + v.y + v.z; }
-
-// Takes points of B into the frame of A.
-struct Relative {
-  Mat3 linear;
-  Vec3 offset;
-  double size = 0;   // bounds the sum of |terms| of the three coordinates of any vertex of A or B
-  double slack = 0;  // bounds how far all rounding, that of the world included, moves a vertex of A towards one of B
-
-  Vec3 operator*(Vec3 p) const { return linear * p + offset; }
-};
-
 CommonSegment in_world(const PosedPlace& at, const CommonSegment& segment) {
   return {at.linear * segment.middle + at.offset, at.linear * segment.inward};
-}
-
-Relative relative_place(const PosedPlace& at_a, Vec3 largest_a, const PosedPlace& at_b, Vec3 largest_b) {
-  const Mat3 inverse = inverse_of(at_a.linear);
-  Relative place{product(inverse, at_b.linear), inverse * (at_b.offset - at_a.offset)};
-  place.size = sum(absolute(place.linear) * largest_b + absolute(place.offset)) + sum(largest_a);
-  // How far the placement of A takes such a point from where the placement of B has it.
-  const Mat3 back = product(at_a.linear, place.linear), terms = product(absolute(at_a.linear), absolute(place.linear));
-  const Vec3 shift = at_a.linear * place.offset + at_a.offset - at_b.offset;
-  const Vec3 shift_terms = absolute(at_a.linear) * absolute(place.offset) + absolute(at_a.offset) + absolute(at_b.offset);
-  double error = sum(absolute(shift)) + kProductRounding * sum(shift_terms);
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 wrong = absolute(back.row[i] - at_b.linear.row[i]);
-    error += dot(wrong + (terms.row[i] + absolute(at_b.linear.row[i])) * kProductRounding, largest_b);
-  }
-  // Each coordinate in the world is rounded once.
-  error += 2 * kUnitRoundoff * (at_a.reach + at_b.reach);
-  place.slack = error / at_a.stretch.least * (1 + kProductRounding);
-  return place;
 }
 
 struct Interval {
@@ -207,7 +158,7 @@ class Walk {
       const BvhNode &of_a = a_.bvh.nodes[i], &of_b = b_.bvh.nodes[j];
       if (boxes_.apart(of_a.box, of_b.box)) continue;
       if (of_a.is_leaf() && of_b.is_leaf()) {
-        if (compare_leaves(of_a, of_b)) return Meeting::crossing;
+        if (compare_leaves(of_a, of_b)) return Meeting::deep;
         if (unclear_ >= most_unclear_ || (std::isinf(depth_) && common_)) return Meeting::unclear;
       } else if (of_b.is_leaf() || (!of_a.is_leaf() && longest(of_a.box) > longest(of_b.box))) {
         open.insert(open.end(), {{of_a.first + 1, j}, {of_a.first, j}});
@@ -270,9 +221,10 @@ bool may_reach_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
   return any_part(inner.walls(), place, [&](Vec3 p) { return outer.may_hold(p); });
 }
 
-// The same without the fills of holes.
-bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place) {
-  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p); });
+// Whether a part of the inner body lies in the material of the outer one for any fill. unknown: the answer at a point
+// without a winding number.
+bool reaches_into(PosedBody& outer, PosedBody& inner, const Relative& place, bool unknown) {
+  return any_part(inner.surface(), place, [&](Vec3 p) { return outer.encloses(p).value_or(unknown); });
 }
 
 Vec3 largest_of(const Surface& surface) {
@@ -308,8 +260,9 @@ SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, co
   const bool walls_apart =
       closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() == Meeting::apart;
   if (walls_apart && !may_reach_into(a, b, b_in_a) && !may_reach_into(b, a, a_in_b)) return {Meeting::apart, {}};
-  const bool by_fill = !closed && !reaches_into(a, b, b_in_a) && !reaches_into(b, a, a_in_b);
-  return {by_fill ? Meeting::by_fill : Meeting::unclear, {}};
+  const auto nested = [&](bool unknown) { return reaches_into(a, b, b_in_a, unknown) || reaches_into(b, a, a_in_b, unknown); };
+  if (depth <= gap && nested(false)) return {Meeting::deep, {}};
+  return {closed || nested(true) ? Meeting::unclear : Meeting::by_fill, {}};
 }
 
 }  // namespace satcheck

@@ -7,7 +7,7 @@
 
 namespace satcheck {
 
-enum class Meeting : std::uint8_t { unclear, apart, crossing, by_fill };
+enum class Meeting : std::uint8_t { unclear, apart, deep, by_fill };
 
 // The middle of the segment that two triangles have in common, rounded, and the way from there into both bodies, as long
 // as the segment. World units.
@@ -23,10 +23,11 @@ struct SurfaceMeeting {
 // Where two surfaces in file coordinates cross; empty if they do not, or if it was not found.
 std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b);
 
-// apart: the bodies are farther apart than `gap`. crossing: two triangles cross, and no translation up to `depth` ends
-// that. Each triangle bounds material, is within it or is a sheet, so the bodies overlap. Both hold for any fill of
-// holes within the hull of their rim. by_fill: the surfaces are farther apart than `gap`, and neither body encloses a part
-// of the other without the fill of a hole. gap, depth: world units. The bodies have meshes.
+// apart: the bodies are farther apart than `gap`. deep: two triangles cross, and no translation up to `depth` ends that,
+// or the surfaces are that far apart and a part of one is in the material of the other. Each triangle bounds material, is
+// within it or is a sheet, so the bodies overlap. All this holds for any fill of holes within the hull of their rim.
+// by_fill: the surfaces are farther apart than `gap`, and neither body encloses a part of the other without the fill of a
+// hole. gap, depth: world units. The bodies have meshes.
 SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap,
                           double depth);
 

@@ -130,15 +130,17 @@ class PoseSifter {
     if (search.apart) return Sifted::apart;
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
-    if (!a.has_mesh() || !b.has_mesh()) return Sifted::open;
-    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, pair.crossing);
+    const bool have_meshes = a.has_mesh() && b.has_mesh();
+    // A crossing of a mesh around a body proves no overlap.
+    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY);
     if (meeting == Meeting::apart) return Sifted::apart;
-    if (meeting == Meeting::crossing) return Sifted::deep;
-    if (meeting == Meeting::by_fill && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
-    if (!a.surface().solid || !b.surface().solid) return Sifted::open;
-    const auto deep_at = [&](Vec3 point) { return ball_in_both(a.surface(), at_a, b.surface(), at_b, point, depth); };
-    if (search.common && deep_at(*search.common)) return Sifted::deep;
-    const bool deep = segment && ball_beside(*segment, a.surface(), at_a, b.surface(), at_b, depth);
+    if (meeting == Meeting::deep) return Sifted::deep;
+    if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
+    const Surface *in_a = a.material(), *in_b = b.material();
+    if (!in_a || !in_b) return Sifted::open;
+    if (search.common && ball_in_both(*in_a, at_a, *in_b, at_b, *search.common, depth)) return Sifted::deep;
+    const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b);
+    const bool deep = crossing && ball_beside(*crossing, *in_a, at_a, *in_b, at_b, depth);
     return deep ? Sifted::deep : Sifted::open;
   }
 

@@ -1,0 +1,106 @@
+"""What the samples of a check of robots in many poses add up to, and checks of single ones."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.check import check
+from satcheck.audit.request.settings import FailOn, Settings
+from satcheck.audit.sampled import LISTED_NOTED, VERDICTS, PairTally, Sample, Samples, StatedPose
+from satcheck.report.report import Finding, Issue, Report, Verdict
+from satcheck.scene.robot.assembly import posed
+from satcheck.scene.robot.pose_batches import PoseBatch
+
+if TYPE_CHECKING:
+    from satcheck.scene import Scene
+
+
+class SampleResults:
+    """What the samples so far have added up to."""
+
+    def __init__(self, fail_on: FailOn, *, lists_all: bool) -> None:
+        self.fail_on, self.lists_all = fail_on, lists_all
+        self.by_verdict: Counter[Verdict] = Counter()
+        self.listed: list[Sample] = []
+        self.issues: dict[Issue, None] = {}
+        self._tallies: dict[tuple[str, str], PairTally] = {}
+
+    @property
+    def room(self) -> int:
+        """How many more samples with a finding are listed."""
+        return LISTED_NOTED - len(self.listed)
+
+    def tally(self, a: str, b: str) -> PairTally:
+        return self._tallies.setdefault((a, b), PairTally(a, b))
+
+    def add(self, sample: Sample) -> None:
+        self.count(sample.number, sample.verdict, sample.findings)
+        if self.lists_all or (sample.findings and self.room > 0):
+            self.listed.append(sample)
+
+    def count(self, number: int, verdict: Verdict, findings: Sequence[Finding]) -> None:
+        self.by_verdict[verdict] += 1
+        for finding in findings:
+            self.tally(finding.a, finding.b).count(finding, number, self.fail_on)
+
+    def keep_first_poses(self, scene: Scene, batch: PoseBatch) -> None:
+        """States the poses of this batch in which a pair overlaps first."""
+        poses: dict[int, StatedPose] = {}
+        for tally in self._tallies.values():
+            number = tally.first_overlap
+            if number is not None and tally.first_pose is None:
+                if number not in poses:
+                    poses[number] = batch.posture(scene, number - batch.first).pose()
+                tally.first_pose = poses[number]
+
+    def samples(self, checks: SingleChecks, number: int) -> Samples:
+        report = checks.first
+        assert report is not None
+        assert checks.cache.book is not None
+        ids = [body.id for body in report.bodies]
+        return Samples(
+            tool=report.tool,
+            units=report.units,
+            settings=report.settings,
+            bodies=report.bodies,
+            exempt=report.exempt,
+            rules=report.rules,
+            number=number,
+            by_verdict={verdict: self.by_verdict[verdict] for verdict in VERDICTS},
+            samples=tuple(self.listed),
+            pairs=tuple(self.tally(ids[i], ids[j]) for i, j in checks.cache.book.checked_pairs()),
+            counts=report.summary.pairs,
+            issues=tuple(self.issues),
+        )
+
+
+class SingleChecks:
+    """Checks of single poses. first: the report of the first one."""
+
+    def __init__(
+        self, scene: Scene, settings: Settings, cache: BodyCache, results: SampleResults
+    ) -> None:
+        self.scene, self.settings, self.cache, self.results = scene, settings, cache, results
+        self.first: Report | None = None
+
+    def sample(self, batch: PoseBatch, row: int) -> Sample:
+        scene = posed(self.scene, batch.pose(row))
+        report = check(scene, self.settings, cache=self.cache)
+        self.first = self.first or report
+        posture = scene.posture
+        assert posture is not None
+        own = {(issue.code, issue.message) for issue in posture.issues}
+        of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
+        others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
+        self.results.issues |= dict.fromkeys(others)
+        findings = tuple(finding for finding in report.findings if not is_plain(finding))
+        verdict = report.summary.verdict
+        return Sample(batch.first + row, posture, verdict, findings, tuple(of_pose))
+
+
+def is_plain(finding: Finding) -> bool:
+    """Separated at rest and in motion, without a remark."""
+    return finding.relation == "separated" and finding.severity == "none"
