@@ -54,22 +54,22 @@ def sorted_and_counted(
 
 
 class _Row(Struct):
-    """One pose. climbs: the pairs that climb the ladder, by their numbers; found: the findings of
+    """One pose. climbs: the pairs that climb the ladder, by their numbers; by_pair: the findings of
     those that have climbed. others: whether other pairs overlap or are undecided. alone: the pose
     needs a check of its own."""
 
     row: int
     climbs: list[int]
     others: bool
-    found: dict[int, Finding] = {}
+    by_pair: dict[int, Finding] = {}
     alone: bool = False
 
     @property
     def is_noted(self) -> bool:
-        return self.others or self.alone or not all(map(is_plain, self.found.values()))
+        return self.others or self.alone or not all(map(is_plain, self.by_pair.values()))
 
     def findings(self) -> tuple[Finding, ...]:
-        return tuple(f for _, f in sorted(self.found.items()) if not is_plain(f))
+        return tuple(f for _, f in sorted(self.by_pair.items()) if not is_plain(f))
 
 
 class _SortedBatch:
@@ -124,7 +124,7 @@ class _SortedBatch:
         for number in numbers:
             row = rows.get(number) or self._row(number)
             others = np.flatnonzero(self._sorted[number] != APART).tolist()
-            listed[number] = replace(row, climbs=[k for k in others if k not in row.found])
+            listed[number] = replace(row, climbs=[k for k in others if k not in row.by_pair])
         return listed
 
     def _climb(self, rows: Iterable[_Row]) -> None:
@@ -146,7 +146,7 @@ class _SortedBatch:
         queue = PairQueue(self._checks.settings.jobs)
         checked = examine_pairs([pair for *_, pair in climbing], queue)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
-            row.found[number] = pair.finding
+            row.by_pair[number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)
 
     def _sample(self, row: _Row) -> Sample:
@@ -165,8 +165,8 @@ class _SortedBatch:
             self._results.tally(a, b).count(finding, number, self._results.fail_on)
         self._count_sorted([row.row], self._verdict(findings))
 
-    def _count_sorted(self, rows: Sequence[int], found: Verdict = "pass") -> None:
-        """Poses as the core has sorted their pairs. found: their verdict without these pairs."""
+    def _count_sorted(self, rows: Sequence[int], rest: Verdict = "pass") -> None:
+        """Poses as the core has sorted their pairs. rest: their verdict without these pairs."""
         codes, names, failing = self._sorted[rows], self._pairs.names, self._pairs.deep_fails
         deep, undecided = codes == DEEP, codes == UNDECIDED
         for k in np.flatnonzero(deep.any(axis=0)).tolist():
@@ -175,8 +175,8 @@ class _SortedBatch:
             self._results.tally(*names[k]).count_overlaps(len(met), first, fails=bool(failing[k]))
         for k in np.flatnonzero(undecided.any(axis=0)).tolist():
             self._results.tally(*names[k]).undecided += int(undecided[:, k].sum())
-        failed = (deep & failing).any(axis=1) | (found == "fail")
-        incomplete = ~failed & (undecided.any(axis=1) | (found == "incomplete"))
+        failed = (deep & failing).any(axis=1) | (rest == "fail")
+        incomplete = ~failed & (undecided.any(axis=1) | (rest == "incomplete"))
         counts = self._results.by_verdict
         counts["fail"] += int(failed.sum())
         counts["incomplete"] += int(incomplete.sum())
