@@ -38,7 +38,7 @@ def safe_slide(pair: MovingPair, t: float, end: float) -> float:
     """The time after t for which the bodies overlap by no more than the touch band. end: in the
     same piece of steady motion. 0.0: not proven."""
     velocity = _velocity(pair, t)
-    if velocity is None or _is_impact(pair, t, end):
+    if velocity is None or (not pair.convex and _is_impact(pair, t, end)):
         return 0.0
     placed = pair.placed(t)
     a, b = placed.a, placed.b
