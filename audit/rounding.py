@@ -1,5 +1,5 @@
-"""How rounded figures compare with limits, and the constants of that. `core/rounding.py` bounds the
-rounding of float64 arithmetic."""
+"""Constants for the rounding of figures, each with its derivation, and how rounded figures compare
+with limits. `core/rounding.py` bounds the rounding of float64 arithmetic."""
 
 from __future__ import annotations
 

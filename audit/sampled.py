@@ -108,7 +108,7 @@ class PairTally(Struct):
             self.undecided += 1
 
     def count_overlaps(self, count: int, first: int, *, fails: bool) -> None:
-        """In so many samples. first: the number of the first of them."""
+        """Adds overlaps in `count` samples; `first` is the number of the first of them."""
         self.overlaps += count
         self.fails += count if fails else 0
         self.first_overlap = min(first, self.first_overlap or first)

@@ -37,8 +37,8 @@ def sorted_and_counted(
     pairs: PosedPairs,
     meter: VolumeMeter | None,
 ) -> Iterator[PoseBatch]:
-    """The core sorts the pairs of the next batch while those of one are counted, unless one job is
-    to do all."""
+    """While one batch is counted, the core sorts the pairs of the next one in a second thread. With
+    one job it does not."""
     waiting: _SortedBatch | None = None
     with ThreadPoolExecutor(1) as beside:
         for batch in batches:
@@ -190,7 +190,8 @@ class _SortedBatch:
 
 
 def _with_reasons(codes: Codes) -> Codes:
-    """Each undecided pair climbs in the first of these poses, for its reason."""
+    """Opens each undecided pair in the first of these poses where it is undecided, so that the
+    ladder gives the reason."""
     undecided = codes == UNDECIDED
     pairs = np.flatnonzero(undecided.any(axis=0))
     opened = codes.copy()

@@ -20,15 +20,16 @@ import math
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import fcl
 import trimesh
 from msgspec import Struct
 
+from bench.impact_judges import Answer, judge, judge_time
 from bench.impact_pairs import ONE, ImpactPair, Pieces, impact_pairs
-from bench.motions import ADVANCES, OFF, Answer, Case, by_fcl
-from bench.swept_truth import Meeting, Point
+from bench.motions import ADVANCES, Case, by_fcl
+from bench.swept_truth import Point
 from satcheck.audit.motion.sweep import sweep
 from satcheck.report.sweep import Sweep
 from satcheck.scene.motion import Translation
@@ -36,36 +37,8 @@ from tests.audit.motion.pairs import pair_of
 from tests.audit.shapes import Mesh
 
 REPEATS = 3
-# How far the overlap of a proven interval may lie before the end of the band, as a share of t.
-BAND = 1e-6
 KINDS = ("missed", "false", "undecided", "off")
-
-
-def judge(pair: ImpactPair, truth: Meeting, found: Sweep) -> str:
-    """The kind of a wrong answer of satcheck; "" if it is right."""
-    if found.relation == "indeterminate":
-        return "undecided"
-    if found.relation == "penetrating":
-        if truth.overlap is None:
-            return "false"
-        lower, upper = found.time_of_impact or (math.nan, math.nan)
-        is_right = lower - BAND <= truth.overlap <= upper <= truth.overlap + OFF
-        return "" if is_right or pair.slight else "off"
-    if found.relation == "touching":
-        is_right = pair.slight or (truth.overlap is None and truth.touch is not None)
-        return "" if is_right else "missed" if truth.overlap is not None else "false"
-    return "" if truth.touch is None else "missed"
-
-
-def judge_time(pair: ImpactPair, truth: Meeting, answer: Answer) -> str:
-    """The same for FCL, which has no touches."""
-    if pair.slight or (truth.overlap is None and truth.touch is not None):
-        return ""
-    if truth.overlap is None:
-        return "" if answer is None else "false"
-    if answer is None:
-        return "missed"
-    return "off" if abs(answer - truth.overlap) > OFF else ""
+PEER_KINDS = ("missed", "false", "off")  # FCL always gives an answer
 
 
 class Row(Struct):
@@ -81,8 +54,8 @@ class Row(Struct):
         if kind:
             self.wrong[kind] = self.wrong.get(kind, 0) + 1
 
-    def cells(self) -> str:
-        counts = " / ".join(str(self.wrong.get(kind, 0)) for kind in KINDS)
+    def cells(self, kinds: Sequence[str]) -> str:
+        counts = " / ".join(str(self.wrong.get(kind, 0)) for kind in kinds)
         return f"{1e3 * self.seconds / self.pairs:.2f} | {counts}"
 
 
@@ -139,10 +112,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--rounds", type=int, default=20, help="random variants of each situation")
     rows = measure(parser.parse_args().rounds)
-    head = f"ms | {' / '.join(KINDS)}"
-    sys.stdout.write(f"| | pairs | satcheck, {head} | FCL, {head} |\n|---|{'---|' * 5}\n")
+    ours_head, peer_head = (f"ms | {' / '.join(kinds)}" for kinds in (KINDS, PEER_KINDS))
+    sys.stdout.write(f"| | pairs | satcheck, {ours_head} | FCL, {peer_head} |\n|---|{'---|' * 5}\n")
     for family, (ours, peer) in rows.items():
-        sys.stdout.write(f"| {family} | {ours.pairs} | {ours.cells()} | {peer.cells()} |\n")
+        cells = f"{ours.cells(KINDS)} | {peer.cells(PEER_KINDS)}"
+        sys.stdout.write(f"| {family} | {ours.pairs} | {cells} |\n")
 
 
 if __name__ == "__main__":

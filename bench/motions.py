@@ -32,6 +32,7 @@ import trimesh
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from bench.impact_judges import OFF, Answer
 from satcheck.audit import Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
@@ -43,11 +44,9 @@ from satcheck.scene.motion import Path as MotionPath
 from satcheck.scene.motion import Rotation, Translation
 
 Mesh = trimesh.Trimesh
-OFF = 1e-3
 SIZES = (1_000, 20_000)
 # Of FCL: the error of a time, and the steps of its advancement.
 TIME_ERROR, ADVANCES = 1e-6, 10_000
-Answer = float | None  # the time of impact; None: free
 
 
 class Case(Struct, frozen=True):

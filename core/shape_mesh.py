@@ -76,7 +76,7 @@ def mesh_around(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
 
 
 def meshes_beside(shape: Primitive, segments: int) -> tuple[Mesh, Mesh]:
-    """One around the shape and one within it, that rounding does not bring to its surface."""
+    """A mesh around the shape and one within it. No rounding brings either to its surface."""
     import numpy as np
 
     outer, inner = mesh_around(shape, segments), mesh_of(shape, segments)

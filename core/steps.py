@@ -16,7 +16,8 @@ class _Step:
         self.name = name
 
 
-# Of all threads, in the order in which the steps began. A list changes in one piece.
+# Of all threads, in the order in which the steps began. Appending and removing are atomic, so no
+# lock is needed.
 _under_way: list[_Step] = []
 
 

@@ -57,7 +57,7 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
         if component.resolved and ball.upper - ball.lower > width * ball.upper:
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
-            with shown(f"component {place + 1} of {len(components)}", pair) as progress:
+            with shown(f"component {place + 1} of {len(components)}, thickness", pair) as progress:
                 search = core.search_thickness(
                     a, b, width=width, work=share, within=component, progress=progress
                 )

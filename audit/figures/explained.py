@@ -115,7 +115,7 @@ def _search(
     *,
     prove: bool,
 ) -> core.ThicknessInterval:
-    with shown("surface tolerance", pair) as progress:
+    with shown("thickness beyond the surface tolerances", pair) as progress:
         return core.search_thickness(
             a.surface(),
             b.surface(),

@@ -60,12 +60,16 @@ def measure_thickness(
     """Of an overlap of closed bodies. depth: where it is known; no overlap is thicker than that.
     ahead: the first search, if it has begun."""
     work, limit = pair.settings.thickness_work, pair.request.max_thickness
-    interval = first_search(pair) if ahead is None else ahead.result()
-    _record(interval, trace)
+    if ahead is None:
+        interval = first_search(pair)
+        trace.record(STAGE, *_outcome_of(interval))
+    else:
+        interval = ahead.result()
+        trace.add(STAGE, *_outcome_of(interval), ahead.nanoseconds)
     thickness = _thickness_of(interval)
     if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
         closer = _search(pair, EXACT_WIDTH, work - interval.work, limit)
-        _record(closer, trace)
+        trace.record(STAGE, *_outcome_of(closer))
         thickness = _narrower(thickness, _thickness_of(closer))
     if pair.closer:
         thickness = _of_curves(pair, thickness)
@@ -106,12 +110,12 @@ def _search(
         )
 
 
-def _record(interval: core.ThicknessInterval, trace: Trace) -> None:
+def _outcome_of(interval: core.ThicknessInterval) -> tuple[str, str]:
+    """The result and the details of a search, for the trace."""
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
     if interval.stop == "work spent":
-        trace.record(STAGE, "budget spent", f"{by}; the budget ended the search")
-    else:
-        trace.record(STAGE, interval.stop, by)
+        return "budget spent", f"{by}; the budget ended the search"
+    return interval.stop, by
 
 
 def across(pair: Pair, *, prove: bool) -> int:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Thread
+from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
 from satcheck.audit.figures.thickness import first_search, why_not_thick
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     from satcheck.audit.bodies.pair import Pair
 
 
-# Both searches hold what they prepare for each triangle. Of larger bodies, only one at a time.
+# Both searches need memory for each triangle. If the bodies have more triangles, one search runs
+# after the other.
 MOST_TRIANGLES = 1_000_000
 
 
@@ -24,8 +26,12 @@ class StoppedError(Exception):
 
 
 class Ahead:
+    """The first search for the thickness of a pair, in a thread of its own. nanoseconds: how long
+    it took, once it has ended."""
+
     def __init__(self, pair: Pair) -> None:
         self._pair = pair
+        self.nanoseconds = 0
         self._stopped = False
         self._outcome: core.ThicknessInterval | BaseException | None = None
         self._thread = Thread(target=self._run, daemon=True)
@@ -37,7 +43,7 @@ class Ahead:
         if isinstance(self._outcome, BaseException):
             raise self._outcome
         if self._outcome is None:
-            raise AssertionError("the thread has ended")
+            raise AssertionError("the search ended without a result")
         return self._outcome
 
     def stop(self) -> None:
@@ -45,10 +51,12 @@ class Ahead:
         self._thread.join()
 
     def _run(self) -> None:
+        began = perf_counter_ns()
         try:
             self._outcome = first_search(self._pair, self._go_on)
         except BaseException as error:  # noqa: BLE001 result() raises it
             self._outcome = error
+        self.nanoseconds = perf_counter_ns() - began
 
     def _go_on(self) -> None:
         if self._stopped:

@@ -118,8 +118,8 @@ class Search:
             intervals, active = _kept(intervals, active)
 
     def impact_point(self, k: int, lower: float, hit: float) -> Vector | None:
-        """A point of both bodies of a pair at their first overlap; before `lower` they have none.
-        Of their way it counts only the piece of the path that ends with the hit."""
+        """A point of both bodies of a pair at `hit`. Before `lower` they do not overlap. Only the
+        piece of the path that ends with the hit counts as their way."""
         piece = max(int(np.searchsorted(self._path.times, hit)) - 1, 0)
         start, end = np.array([max(lower, self._path.times[piece])]), np.array([hit])
         at, way = (self._travel.middle(Interval(since, end)) for since in (end, start))

@@ -156,7 +156,7 @@ class _Scan:
         return Impact(self.met, upper, self.t, contact)
 
     def _advance(self, step: float, end: float) -> bool:
-        """Goes on by the step. Whether it is long enough to be one."""
+        """Moves t on by the step, which is proven. Returns whether it is a long one (`is_step`)."""
         is_long = is_step(step, self.t, end)
         later = math.nextafter(self.t + step, 0.0)
         self.t = end if self.t + step >= end else max(self.t, later)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # The point is the centre of a ball in both bodies. The search ends once the thickest ball is at
 # most twice as thick, so that it is a ball of the impact, not of a contact before it. Or it ends
-# after this work: less than a tenth of a second.
+# after this work, less than a tenth of a second after its preparation.
 COARSE = 0.5
 WORK = 10_000_000
 
@@ -22,8 +22,9 @@ WORK = 10_000_000
 def impact_point(placed: Pair, moved: float) -> Vector | None:
     """A world point of both bodies, which overlap as they are placed.
 
-    Of closed meshes the point is proven to lie in both; of others it is a common point of the
-    surfaces, rounded. Of curved shapes it is at most the tolerance and `moved` away from both.
+    Of closed meshes it is the centre of a ball that is proven to lie in both, if a short search
+    finds one. Else, and of other meshes, it is a common point of the bodies, rounded. Of curved
+    shapes it is at most the tolerance and `moved` away from both.
     moved: how far the bodies moved since they did not overlap. None: no point is known.
     """
     if placed.curved:

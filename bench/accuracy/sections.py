@@ -220,8 +220,8 @@ def of_the_truth(records: Sequence[Record]) -> str:
     ]
     if widths is not None:
         lines.append(
-            "The error of the exact rung is 0 by definition. It leaves open only how wide its "
-            f"interval is. Of the {widths.count} depths the median width is "
+            "The error of the exact rung is 0 by definition; only its interval has a width. "
+            f"Of the {widths.count} depths the median width is "
             f"{words.percent(widths.median)} of the depth, three quarters are at most "
             f"{words.percent(widths.third)} wide, and the widest is "
             f"{words.percent(widths.high)} wide."

@@ -108,9 +108,9 @@ def _picture(
 def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> str | None:
     """Why the files are not those of the check."""
     for file in stored.inputs:
-        digest = now(os.path.join(root, file.path))  # noqa: PTH118  keeps a `/` at the end
-        if digest != file.sha256:
-            return f"{file.path} {'is not there' if digest is None else 'has changed'}"
+        sha256 = now(os.path.join(root, file.path))  # noqa: PTH118  keeps a `/` at the end
+        if sha256 != file.sha256:
+            return f"{file.path} {'is not there' if sha256 is None else 'has changed'}"
     return None
 
 

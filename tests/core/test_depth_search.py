@@ -376,7 +376,7 @@ def test_ctrl_c_ends_a_search() -> None:
 
 
 class EnoughError(Exception):
-    """Raised by who has seen enough of a search."""
+    """Raised by a caller that has seen enough of a search."""
 
 
 def test_a_search_says_how_far_it_is() -> None:

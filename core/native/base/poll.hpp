@@ -1,4 +1,4 @@
-// How far a search that takes long has come.
+// The progress of a long search.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct SearchState {
 
 using Poll = std::function<void(const SearchState&)>;
 
-// Calls a function that may be empty once in so many steps: about every twentieth of a second. What it throws ends the
-// search.
+// Calls a function every 50,000,000 steps, about twenty times a second. The function may be empty. An exception that it
+// throws ends the search.
 class Poller {
  public:
   explicit Poller(Poll poll) : poll_(std::move(poll)) {}

@@ -1,5 +1,5 @@
-// Every tolerance of the convex narrow phase, with its derivation. All are multiples of the unit
-// roundoff times `scale`, the largest coordinate that can appear in the pair: no absolute epsilons.
+// Bounds of rounding errors, and the thresholds of the convex narrow phase, each with its derivation. Lengths are
+// fractions of `scale`, the largest coordinate that can appear in the pair: no absolute epsilons.
 #pragma once
 
 #include <limits>

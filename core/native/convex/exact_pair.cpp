@@ -1,5 +1,5 @@
-// A vertex of one hull inside of the other one proves an overlap, as do common vertices that span a solid, and two
-// triangles of the surfaces that cross: a plane that separates the hulls weakly would contain both triangles. If the
+// Three things prove an overlap: a vertex of one hull inside the other one, common vertices that span a solid, and two
+// triangles of the surfaces that cross, because a plane that separates the hulls weakly would contain both. If the
 // surfaces have no common point, the hulls are apart or nested. Otherwise the origin lies in A - B. It lies on the
 // boundary exactly if a facet that contains it separates weakly. Such a facet is a face of A, a face of -B, or spanned by
 // two edges that meet, one of each. This is a finite number of signs of determinants of coordinate differences. Float64

@@ -215,7 +215,7 @@ void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
   result.method = Method::exact;
 }
 
-// The verdict on flush neighbours that are not moved and have their faces, which takes less time than another stage in
+// The verdict on flush neighbours that are not moved and whose faces are known. It takes less time than another stage in
 // float64.
 std::optional<Outcome> outcome_in_place(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Vec3 axis) {
   if (!a.has_faces || !b.has_faces || !is_in_place(a, pose_a) || !is_in_place(b, pose_b)) return std::nullopt;

@@ -22,7 +22,7 @@ struct DepthGoal {
 
 enum class DepthStop : std::uint8_t {
   narrow,      // the interval is as narrow as requested
-  decided,     // it is not, but its lower end is at least the limit
+  decided,     // it is not, but its lower end is at least the limit, up to rounding
   work_spent,  // the work was spent first
 };
 

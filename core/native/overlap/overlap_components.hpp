@@ -36,7 +36,7 @@ struct OverlapComponents {
   std::vector<OverlapComponent> components;  // by the least corner of their bounds
 };
 
-// What is asked of an overlap that is not resolved.
+// What is returned of an overlap that is not resolved: its components as far as they are known, or none, which is faster.
 enum class Unresolved : std::uint8_t { described, left_out };
 
 // Swapping a and b only swaps the fields of a and b. max_pairs: limit on pairs of triangles that meet; more are not

@@ -1,4 +1,4 @@
-// The ball about a point that a closed surface does not enter. It is inside or outside like the point.
+// A ball that a closed surface does not enter, so that it lies inside or outside as a whole.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct ClearBall {
   bool inside;
 };
 
-// About the point that the placement takes near `point`. Empty if its radius is at most `room`, or if rounding hides where
+// The centre is the point that the placement takes near `point`. Empty if its radius is at most `room`, or if rounding hides where
 // it lies. closed: in file coordinates. point, room: in the world.
 std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at, Vec3 point, double room);
 
@@ -24,7 +24,7 @@ bool ball_in_both(const Surface& a, const PosedPlace& at_a, const Surface& b, co
 bool ball_beside(const CommonSegment& crossing, const Surface& a, const PosedPlace& at_a, const Surface& b,
                  const PosedPlace& at_b, double depth);
 
-// Whether the point is inside, or outside, and the surface farther away than `room`.
+// Whether the point is inside (`inside`: true) or outside (false), and farther than `room` from the surface.
 bool is_clear(const Surface& closed, const PosedPlace& at, Vec3 point, double room, bool inside);
 
 }  // namespace satcheck

@@ -1,4 +1,5 @@
-// Whether the fill of a hole decides if two bodies overlap, of which at least one is open (mesh_pair/open_surfaces.hpp).
+// Two bodies, at least one of them open: whether it depends on the fill of a hole that they overlap
+// (mesh_pair/open_surfaces.hpp).
 #pragma once
 
 #include "poses/posed_body.hpp"

@@ -40,7 +40,8 @@ class PosedBody {
   bool has_mesh() const { return geometry_ == within_; }
   // Of the mesh, or of that around a curved body, in file coordinates. Made by the first call, like those below.
   const Surface& surface();
-  // The same with the hulls of all holes. Points that it does not separate are in the body, or none is, for any fill.
+  // The same with the hulls of all holes. Two points that it does not separate are both in the body or both outside, for
+  // any fill.
   const Surface& walls();
   // A closed surface that holds only material: of a solid mesh, or within a curved body. Null for an open mesh.
   const Surface* material();

@@ -55,7 +55,7 @@ struct Piercing {
 
 // The ends of the segment are above and below the plane, and it meets the plane at a point whose distance to the edges a
 // translation can change by its length over the sine of the angle of segment and plane.
-std::optional<Piercing> piercing(Vec3 p, Vec3 q, const Corners& t, double size) {
+std::optional<Piercing> piercing_of(Vec3 p, Vec3 q, const Corners& t, double size) {
   const Vec3 e = t[1] - t[0], f = t[2] - t[0], n = cross(e, f);
   const double area = norm(n);
   if (!(area > 0)) return {};
@@ -84,16 +84,16 @@ struct TriangleCrossing {
   TriangleCrossing(const Corners& a, const Corners& b, double size) {
     for (int i = 0; i < 3; ++i) {
       const int next = (i + 1) % 3;
-      add(piercing(a[i], a[next], b, size));
-      add(piercing(b[i], b[next], a, size));
+      add(piercing_of(a[i], a[next], b, size));
+      add(piercing_of(b[i], b[next], a, size));
     }
   }
 
  private:
-  void add(const std::optional<Piercing>& found) {
-    if (!found) return;
-    depth = larger(depth, found->depth);
-    if (points < 2) ends[points++] = found->at;
+  void add(const std::optional<Piercing>& piercing) {
+    if (!piercing) return;
+    depth = larger(depth, piercing->depth);
+    if (points < 2) ends[points++] = piercing->at;
   }
 };
 

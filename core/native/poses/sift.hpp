@@ -1,5 +1,6 @@
 // Sorts the pairs of many poses: those that are proven apart, those that are proven to overlap deeply, those that the
-// fill of a hole decides, and the others, which climb the ladder. Bodies are not placed: directions, or the other body, are taken into their frames.
+// fill of a hole decides, and the others, which climb the ladder. No body is placed: directions, or the other body, are
+// taken into its frame.
 //
 // Every proof holds for the vertices in the world after each coordinate is rounded once, because it exceeds a bound of
 // all rounding (kPosedRounding).

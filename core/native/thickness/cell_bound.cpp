@@ -319,7 +319,7 @@ class CellBound {
   void choose_cut() {
     if (outside_ >= 0) {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
-            open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer);
+      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer);
     }
     if (!open_.cut) open_.cut = cut_at_gap(gap(), kWorthCut * (open_.bound - enough_));
   }

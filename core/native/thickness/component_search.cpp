@@ -42,7 +42,7 @@ ThicknessInterval ComponentSearch::bound(const ThicknessInterval& known) {
 bool ComponentSearch::are_thick(const ThicknessInterval& known) const {
   const auto is_thick = [&](double upper) { return upper > kThicker * known.upper; };
   const auto thick = static_cast<std::uint64_t>(std::count_if(upper_.begin(), upper_.end(), is_thick));
-  return thick * known.work > goal_.work - known.work;
+  return thick * known.work > goal_.work - std::min(goal_.work, known.work);
 }
 
 ThicknessInterval ComponentSearch::search(const ThicknessInterval& known, const SearchWithin& within) {

@@ -325,8 +325,9 @@ ThicknessInterval search_thickness(const Surface& a, const Surface& b, const Thi
   if (stop_of(interval, goal) == ThicknessStop::work_spent) {
     const bool is_thick = components.are_thick(known);
     known = whole.run(is_thick ? goal.work : std::min(goal.work, patience + patience / 2));
-    if (is_thick || known.stop != ThicknessStop::work_spent) return known;
-    interval = components.search(known, [&](const ThicknessGoal& of_one) { return OrderedSearch(a, b, of_one).run(of_one.work); });
+    if (known.stop != ThicknessStop::work_spent) return known;
+    const auto within = [&](const ThicknessGoal& of_one) { return OrderedSearch(a, b, of_one).run(of_one.work); };
+    interval = is_thick ? components.bound(known) : components.search(known, within);
   }
   interval.stop = stop_of(interval, goal);
   return interval;

@@ -24,8 +24,8 @@ struct BoxAlong {
 
 struct ThicknessGoal {
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
-  // Steps that may be spent (base/work.hpp). The search ends with the cells that it has begun, so it may spend about
-  // as much more as a cell takes, and no less than its preparation takes.
+  // Steps that may be spent (base/work.hpp). The search may spend more: it finishes the cells that it has begun, and its
+  // preparation has no budget.
   std::uint64_t work = 0;
   double less_a = 0, less_b = 0;  // e_A and e_B, world units
   std::optional<double> limit = {};  // the search ends as soon as the interval lies on one side of this length

@@ -82,7 +82,7 @@ void test_integer_polytopes() {
   CHECK(outcomes[3] >= outcomes[1] * 9 / 10);
 }
 
-// Rounding bends the faces of turned polytopes, so that those of flush ones cross. The exact depth knows it too.
+// Rounding bends the faces of turned polytopes, so that those of flush ones cross. The exact depth decides the same independently.
 void test_turned_polytopes() {
   std::mt19937 engine(6);
   testing::Source source(6);
