@@ -22,9 +22,10 @@ WORK = 10_000_000
 def impact_point(placed: Pair, moved: float) -> Vector | None:
     """A world point of both bodies, which overlap as they are placed.
 
-    Of closed meshes the point is proven to lie in both; of others it is a common point of the
-    surfaces, rounded. Of curved shapes it is at most the tolerance and `moved` away from both.
-    moved: how far the bodies moved since they did not overlap. None: no point is known.
+    Of closed meshes the point is proven to lie in both; of others it is a common point, rounded: of
+    their surfaces, or of one surface and the inside of the other body. Of curved shapes it is at
+    most the tolerance and `moved` away from both. moved: how far the bodies moved since they did
+    not overlap. None: no point is known.
     """
     if placed.curved:
         return _between_witnesses(placed, moved)
