@@ -23,9 +23,10 @@ def impact_point(placed: Pair, moved: float) -> Vector | None:
     """A world point of both bodies, which overlap as they are placed.
 
     Of closed meshes it is the centre of a ball that is proven to lie in both, if a short search
-    finds one. Else, and of other meshes, it is a common point of the bodies, rounded. Of curved
-    shapes it is at most the tolerance and `moved` away from both.
-    moved: how far the bodies moved since they did not overlap. None: no point is known.
+    finds one. Else, and of other meshes, it is a common point, rounded: of the surfaces, or of one
+    surface and the inside of the other body. Of curved shapes it is at most the tolerance and
+    `moved` away from both. moved: how far the bodies moved since they did not overlap. None: no
+    point is known.
     """
     if placed.curved:
         return _between_witnesses(placed, moved)

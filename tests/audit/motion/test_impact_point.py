@@ -75,6 +75,16 @@ def test_a_corner_through_a_sheet():
     assert math.dist((x, y), (1.0, 1.0)) <= sunk
 
 
+def test_a_box_within_an_open_one():
+    """The surfaces do not meet, and no fill of the hole at the far corner reaches the small box."""
+    corners, sides = box((0, 0, 0), (8, 8, 8))
+    cup = corners, [*sides[:-1], sides[-1][:3]]
+    found = hit_of(box((2, 5, 2), (3, 6, 3)), Translation((1.0, 0.0, 0.0)), cup)
+    assert found.time_of_impact == (0.0, 0.0)
+    for c, low in zip(found.point, (2.0, 5.0, 2.0), strict=True):
+        assert low <= c <= low + 1.0
+
+
 @pytest.mark.parametrize("other", ["box", "bracket"])
 def test_a_ball(tmp_path: Path, other: str) -> None:
     """At most as far from both as they have moved since the interval began, and the tolerance."""
