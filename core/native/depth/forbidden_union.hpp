@@ -23,8 +23,7 @@ class ForbiddenUnion {
   std::size_t size() const { return sets_.size(); }
 
   // A length up to which a single set contains all translations in the box; -infinite if it is less than `least`. The
-  // search for a longer one ends at `most`. Stores in box.sets which sets may contain a part of the
-  // box.
+  // search for a longer one ends at `most`. Stores in box.sets which sets may contain a part of the box.
   double covered_by_one(TranslationBox& box, double least, double most) const;
 
   // The same by one set and, for each part of the box beyond a facet of that set, one more set. With this, two sets

@@ -13,8 +13,8 @@ struct ClearBall {
   bool inside;
 };
 
-// The centre is the point that the placement takes near `point`. Empty if its radius is at most `room`, or if rounding hides where
-// it lies. closed: in file coordinates. point, room: in the world.
+// The centre is the point that the placement takes near `point`. Empty if its radius is at most `room`, or if rounding
+// hides where it lies. closed: in file coordinates. point, room: in the world.
 std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at, Vec3 point, double room);
 
 // Whether two such balls, inside of both surfaces, have a ball with a radius of more than `depth` in common.
