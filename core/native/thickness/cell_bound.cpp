@@ -28,10 +28,11 @@ constexpr std::size_t kMostColumns = 14, kMostPlanes = 200;
 constexpr double kSumRounding = 4.0 / 256;
 // A body may reach beyond a plane by this share of the bound.
 constexpr double kPlaneTolerance = 1e-3;
-// A cell is not refined further once this share of the way from its bound to what is enough is a gap that only splits close.
+// A cell is not refined further once a gap that only splits close makes up this share of the way from its bound to what
+// is enough.
 constexpr double kHopeless = 0.5;
-// A gap below this share of the way from the bound to what is enough is not why the bound is too large: cells next to a
-// void became needles. Then the longest axis is split.
+// A gap below this share of the way from the bound to what is enough is not why the bound is too large. Then the longest
+// axis is split, because cuts at such gaps make needles of the cells next to a void.
 constexpr double kWorthCut = 0.01;
 // A void is split off, leaving a layer of this share of what is enough.
 constexpr double kLayer = 0.25;

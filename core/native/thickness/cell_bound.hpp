@@ -28,9 +28,9 @@ struct OpenCell {
 // Called with a point whose distance from all triangles looks promising. Which body it is outside of: 0, 1, or -1.
 using Consider = std::function<int(Vec3 p)>;
 
-// Sets the bound of the cell, and where to split it if that is larger than `enough`. `bound`, `near`, `met`,
-// `columns` and `inside` are those of the cell it comes from. best: points that are no deeper are not considered. record: why the bound holds is written
-// there, if it is not null.
+// Sets the bound of the cell, and where to split it if that is larger than `enough`. `bound`, `near`, `met`, `columns` and
+// `inside` are those of the cell it comes from. best: points that are no deeper are not considered. record: why the bound
+// holds is written there, if it is not null.
 void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
                 ThicknessRecord* record);
 

@@ -35,9 +35,9 @@ constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
 
-// So many cells, those with the largest bounds, are divided at a time at most, on all cores. The number does not depend on the
-// cores, so neither does the answer. With more, a deeper point that one of them has comes too late for more of the others;
-// with fewer, starting threads takes as long as the cells.
+// So many cells, those with the largest bounds, are divided at a time at most, on all cores. The number does not depend
+// on the cores, so neither does the answer. With more, a deeper point that one of them has comes too late for more of the
+// others; with fewer, starting threads takes as long as the cells.
 constexpr std::size_t kBatch = 64;
 // Fewer cells are not worth a thread.
 constexpr std::size_t kWorthThreads = 8;
