@@ -11,7 +11,7 @@ from bench.accuracy import words
 from bench.accuracy.reasons import reasons
 from bench.accuracy.rungs import EXACT, PARTS, RungSummary, depth_widths, labels, step
 from bench.accuracy.stages import process, settled_by, stage_times
-from bench.accuracy.verdicts import Outcome, agreement
+from bench.accuracy.verdicts import agreement
 from bench.drawing import embedded
 from satcheck.cli.formats.numbers import mebibytes
 from satcheck.cli.formats.words import counted
@@ -87,8 +87,6 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
 
 
 def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
-    kinds: tuple[Outcome, ...] = ("right", "false hit", "miss")
-    rows = [[rung.label, *(str(rung.outcomes[kind]) for kind in kinds)] for rung in found.values()]
     sound = [found[label] for label in SOUND if label in found]
     misses, judged = sum(one.outcomes["miss"] for one in sound), sum(one.judged for one in sound)
     proofs = sum(rung.false_proofs for rung in found.values())
@@ -101,9 +99,7 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
             f"Boxes and hulls may only report false hits: "
             f"{counted(misses, 'miss', 'misses')} in {judged} verdicts. "
             "Convex parts may err either way, and call an unproven verdict possible. "
-            f"Verdicts that a rung called proven and that are wrong: {proofs}. The plot "
-            "also counts the pairs without a verdict, or without a known truth.",
-            words.table(["rung", *kinds], rows),
+            f"Verdicts that a rung called proven and that are wrong: {proofs}.",
         ]
     )
 
@@ -140,13 +136,10 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
 
 
 def of_silence(records: Sequence[Record]) -> str:
-    rows = [[state, why, str(count)] for (state, why), count in reasons(records).items()]
-    lines = ["## What gave no answer"]
-    if rows:
-        lines.append(words.table(["", "why", "how often"], rows))
-    else:
-        lines.append("Every rung has answered on every pair.")
-    return "\n\n".join(lines)
+    told = [f"- {state}: {why} ({count})" for (state, why), count in reasons(records).items()]
+    return "\n\n".join(
+        ["## What gave no answer", "\n".join(told) or "Every rung has answered on every pair."]
+    )
 
 
 def of_the_truth(records: Sequence[Record]) -> str:
