@@ -108,8 +108,6 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
                 *_of_parts(concave),
             ]
         ),
-        "So a check tests boxes, then hulls, then triangles. It builds convex parts only on "
-        "request (`--accuracy parts`).",
         "Compare ratios, not absolute times: other work ran on the machine. An error is the "
         "difference between the signed distance of a rung (a gap, or minus the depth) and the "
         "nearest value of the proven interval. The size of a body is the diagonal of its box.",

@@ -78,9 +78,8 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "meshes in memory to the answer, with building hulls, trees and parts, and with the "
             "start of the child process in which manifold3d computes the common volume. Cached: "
             "parts are on disk, and the child process runs. Memory: of the child process, or the "
-            "growth of the calling process if that is larger. Errors are in sizes of the smaller "
-            "body; the Boolean gives no distance. Volume error: of the shapes that replace a body, "
-            "without its sign.",
+            "growth of the calling process if that is larger. The Boolean gives no distance. "
+            "Volume error: of the shapes that replace a body, without its sign.",
             words.table(head, rows),
         ]
     )
@@ -112,8 +111,8 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
     wall, cpu, memory = (process(records, what) for what in ("wall", "cpu", "megabytes"))
     lines = [
         "## What the default does",
-        "A check climbs the ladder until a rung proves the answer. Each rung decided this many "
-        "pairs: "
+        "A check climbs the ladder until a rung proves the answer, without convex parts. Each rung "
+        "decided this many pairs: "
         f"{said} (of {sum(settled.values())}; `exact`: triangles).",
         embedded(folder, "stages", "Where the time of a plain check goes"),
         "The plot shows the mean share of each stage in the time of a pair, in a running process. "
