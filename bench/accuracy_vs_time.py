@@ -63,8 +63,9 @@ def write_page(options: argparse.Namespace, results: Path, said: list[str]) -> N
 
     header, records = runs.load(results)
     folder = options.page.with_suffix("")
-    kept = [one for one in sys.argv[1:] if one != str(options.results)]
-    command = shlex.join(["python", "-m", "bench.accuracy_vs_time", *kept])
+    told = {str(options.results): "", options.about: "..."}  # the page has the sentence already
+    kept = [told.get(one, one) for one in sys.argv[1:]]
+    command = shlex.join(["python", "-m", "bench.accuracy_vs_time", *filter(None, kept)])
     made = page(
         Run(
             header=header,

@@ -108,10 +108,8 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
                 *_of_parts(concave),
             ]
         ),
-        "So a check tests boxes, then hulls, then triangles. It builds convex parts only on "
-        "request (`--accuracy parts`).",
-        "The machine was shared with other work: compare ratios, not absolute times. An error is "
-        "the difference between the signed distance of a rung (a gap, or minus the depth) and the "
+        "Compare ratios, not absolute times: other work ran on the machine. An error is the "
+        "difference between the signed distance of a rung (a gap, or minus the depth) and the "
         "nearest value of the proven interval. The size of a body is the diagonal of its box.",
     ]
     return "\n\n".join(lines)
@@ -150,25 +148,21 @@ def _making(run: Run, records: Sequence[Record], found: dict[str, RungSummary]) 
     versions = ", ".join(f"{name} {version}" for name, version in made["versions"].items())
     failed = [one for one in run.records if "pair" not in one]
     spent = sum(one["seconds"] for one in run.records)
-    steady = ", ".join(
-        f"{rung.label} {rung.steadiness.median:.1f}"
-        for rung in found.values()
-        if rung.steadiness is not None
-    )
+    steady = [one.steadiness.median for one in found.values() if one.steadiness is not None]
+    spans = f"{min(steady):.1f} to {max(steady):.1f}" if steady else "no rung was repeated"
     lines = [
         "## How this was made",
         f"```\n{run.command}\n```",
         f"On {made['date']}, in {spent / 60:.0f} minutes, with {versions}. Machine: "
-        f"{made['machine']}, shared with other work.",
+        f"{made['machine']}.",
         f"Corpus: {'; '.join(run.corpora)}. Each pair has a process of its own, in which the rungs "
         f"take turns, up to {effort['repeat']} rounds; for each pair the median counts. The "
-        "slowest round over the fastest, as a median of the pairs: "
-        f"{steady or 'no rung was repeated'}.",
+        "slowest round over the fastest, as a median of the pairs, by rung: "
+        f"{spans}.",
         f"Budget, wall time: {effort['rung_seconds']:g} s for all runs of a rung on a pair, "
         f"{effort['pair_seconds']:g} s for all rungs of a pair. Pairs of more than "
-        f"{effort['part_triangles']:,} triangles together are not split into convex parts. Runs "
-        "beyond the budget count above as out of budget. The figures of convex parts are "
-        "therefore those of the smaller meshes, which favours them.",
+        f"{effort['part_triangles']:,} triangles together are not split into convex parts. So the "
+        "figures of convex parts are those of the smaller meshes, which favours them.",
     ]
     if failed:
         why = "; ".join(f"{one['case']['id']}: {one['failure']}" for one in failed)

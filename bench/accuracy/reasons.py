@@ -24,18 +24,14 @@ _OF_A_PAIR = re.compile(
 _WORDS = {"failed": "refused", "not run": "not run", "answered": "undecided"}
 
 
-def reasons(records: Sequence[dict[str, Any]]) -> dict[tuple[str, str], dict[str, int]]:
-    """By what became of it and why: the rungs that gave no answer, and on how many pairs."""
-    found: dict[tuple[str, str], dict[str, int]] = {}
-    for label in labels(records):
-        counted = Counter(
-            (_WORDS[row["state"]], why(row["reason"]))
-            for record, row in rows_of(records, label)
-            if row["state"] != "answered" or _is_undecided(record, row)
-        )
-        for key, count in counted.items():
-            found.setdefault(key, {})[label] = count
-    return found
+def reasons(records: Sequence[dict[str, Any]]) -> dict[tuple[str, str], int]:
+    """By what became of it and why: how often a rung gave no answer."""
+    return Counter(
+        (_WORDS[row["state"]], why(row["reason"]))
+        for label in labels(records)
+        for record, row in rows_of(records, label)
+        if row["state"] != "answered" or _is_undecided(record, row)
+    )
 
 
 def _is_undecided(record: dict[str, Any], row: dict[str, Any]) -> bool:

@@ -20,12 +20,10 @@ _ROUNDING = 1e-9  # of a volume: a difference that sums of products may make
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Of the signed distance, without its sign, in sizes of the smaller body; `exact`: are 0."""
+    """Of the signed distance, without its sign, in sizes of the smaller body."""
 
     apart: Spread | None
     overlapping: Spread | None
-    exact_apart: int
-    exact_overlapping: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +38,6 @@ class RungSummary:
     pairs: int
     cold: Spread | None
     cached: Spread | None
-    cpu: Spread | None
     steadiness: Spread | None
     megabytes: Spread | None
     excess: Spread | None
@@ -111,7 +108,6 @@ def summary(records: Sequence[Record], label: str) -> RungSummary:
         pairs=len(mine),
         cold=_times(mine, "cold"),
         cached=_times(mine, "cached"),
-        cpu=_times(mine, "cpu"),
         steadiness=spread(
             row["cold"]["high"] / row["cold"]["low"] for _, row in mine if _repeated(row)
         ),
@@ -222,12 +218,7 @@ def _errors(rows: Sequence[tuple[Record, Row]]) -> Errors:
         error, together = relative_error(record, row), overlaps(record)
         if error is not None:
             sides[bool(together)].append(error)
-    return Errors(
-        spread(sides[False]),
-        spread(sides[True]),
-        sides[False].count(0.0),
-        sides[True].count(0.0),
-    )
+    return Errors(spread(sides[False]), spread(sides[True]))
 
 
 def depth_widths(records: Sequence[Record]) -> Spread | None:

@@ -16,10 +16,8 @@ def time(seconds: float) -> str:
 
 
 def times(one: Spread | None) -> list[str]:
-    """Median, quartiles, most."""
-    if one is None:
-        return [NONE] * 3
-    return [time(one.median), f"{time(one.first)} .. {time(one.third)}", time(one.high)]
+    """Median, most."""
+    return [NONE] * 2 if one is None else [time(one.median), time(one.high)]
 
 
 def percent(share: float) -> str:
@@ -28,10 +26,8 @@ def percent(share: float) -> str:
 
 
 def shares(one: Spread | None) -> list[str]:
-    """Median, third quartile, most."""
-    if one is None:
-        return [NONE] * 3
-    return [percent(value) for value in (one.median, one.third, one.high)]
+    """Median, most."""
+    return [NONE] * 2 if one is None else [percent(one.median), percent(one.high)]
 
 
 def factor(value: float) -> str:
@@ -44,13 +40,6 @@ def times_as_long(value: float) -> str:
     return f"{factor(value).removesuffix(' x')} times"
 
 
-def factors(one: Spread | None) -> str:
-    """The median, and the quartiles in brackets."""
-    if one is None:
-        return NONE
-    return f"{factor(one.median)} ({factor(one.first)} .. {factor(one.third)})"
-
-
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+    first, *others = [f"| {' | '.join(cells)} |" for cells in (head, *rows)]
+    return "\n".join([first, f"|{'---|' * len(head)}", *others])

@@ -74,15 +74,10 @@ def test_every_figure_is_shown_light_and_dark_and_can_be_drawn(whole: Page) -> N
 def test_tables_are_rectangles_with_every_rung(whole: Page) -> None:
     for rows in tables(whole.text):
         assert len({len(cells) for cells in rows}) == 1, rows[0]
-    assert list(table(whole.text, "false hit")) == LABELS
     assert list(table(whole.text, "memory")) == LABELS
 
 
 def test_verdicts_are_counted(whole: Page) -> None:
-    # right, false hit, miss, undecided, not judged, refused, out of budget, proven and wrong
-    counted = table(whole.text, "false hit")
-    assert counted["hull"] == ["2", "1", "0", "0", "1", "0", "0", "0"]
-    assert counted["parts 0.01"] == ["2", "0", "0", "0", "1", "0", "1", "0"]
     assert "0 misses in 9 verdicts" in whole.text
     assert "wrong: 0." in whole.text
 
@@ -101,9 +96,7 @@ def test_the_opening_says_what_the_steps_cost(whole: Page) -> None:
 
 def test_what_was_lost_and_left_out_is_told(whole: Page) -> None:
     assert "could not be measured: 1 (lost: exit code -6)" in whole.text
-    assert table(whole.text, "why") == {
-        "not run": ["the budget of the pair was spent, or too little left", "parts 0.01: 1"]
-    }
+    assert "- not run: the budget of the pair was spent, or too little left (1)" in whole.text
     assert "on 2001-02-03" in whole.text.lower()
     assert "an abacus, 2 cores" in whole.text
 
@@ -112,7 +105,6 @@ def test_a_miss_and_a_false_proof_of_a_sound_rung_are_not_hidden() -> None:
     text = made([*RECORDS, record("missed", rows={"hull": row("hull", overlap=False)})]).text
     assert "1 miss in 12 verdicts" in text
     assert "that are wrong: 1." in text
-    assert table(text, "false hit")["hull"][2] == "1"
 
 
 def test_a_proof_against_the_corpus_is_told() -> None:

@@ -29,8 +29,8 @@ def test_a_summary_counts_every_pair_and_measures_where_the_rung_worked() -> Non
     assert hull.judged == hull.pairs == sum(hull.outcomes.values()) == 3
     assert hull.errors.apart is not None
     assert hull.errors.apart.median == 0.25  # 0.5 of a body of size 2
-    assert hull.errors.exact_apart == 0
-    assert hull.errors.exact_overlapping == 2
+    assert hull.errors.overlapping is not None
+    assert hull.errors.overlapping.high == 0.0
     assert hull.steadiness is not None
     assert hull.steadiness.median == pytest.approx(4.0)
     assert parts.outcomes["not run"] == 1
