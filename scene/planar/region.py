@@ -32,12 +32,6 @@ def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
     return _of_corners(points, turned[signs != 0])
 
 
-def drawn_region(mesh: Mesh) -> Region:
-    """The region of a sheet in the plane z = 0. Its triangles keep their signs."""
-    points, triangles = _merged(np.asarray(mesh.vertices)[:, :2], mesh.triangles)
-    return _of_corners(points, triangles[turns(points, triangles) != 0])
-
-
 def _of_corners(points: Floats, triangles: Indices) -> Region:
     """Without the points of no triangle, as the end of a spike that has no area."""
     corners, index = np.unique(triangles, return_inverse=True)
