@@ -11,8 +11,8 @@ from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
 class Region(Struct, frozen=True):
-    """All points where the sum of the signs of the triangles is not 0. points: (n, 2), each once,
-    and each a corner; triangles: (m, 3), none of area 0."""
+    """All points that triangles cover. points: (n, 2), each once, and each a corner; triangles:
+    (m, 3), counter-clockwise."""
 
     points: Floats
     triangles: Indices
