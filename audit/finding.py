@@ -199,13 +199,10 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
     if pair.excuses and relation in OVERLAPS:
         reason = reason or _unexcused(pair, band)
     if pair.closer:
-        from satcheck.audit.figures import curve_error
+        from satcheck.audit.figures.curve_error import depth_of_curves, overlap_of_curves
 
-        depth = depth and curve_error.depth_of_curves(pair, verdict, depth, trace)
-        shown = proven and curve_error.overlap_of_curves(pair, verdict)
-        in_band = relation == "touching" and pair.tolerance >= pair.closer
-        if not (shown or in_band) and curve_error.is_hidden(pair, verdict, depth):
-            proven, reason = False, reason or _within_curves(pair)
+        depth = depth and depth_of_curves(pair, verdict, depth, trace)
+        shown = proven and overlap_of_curves(pair, verdict)
     return Answer(
         relation,
         verdict.relation if shown else None,

@@ -23,6 +23,7 @@ from satcheck.audit.request.planner import Planner, Request
 from satcheck.audit.severity import Judgement, by_rule
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
+from satcheck.core.shapes import is_curved
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
 
@@ -163,7 +164,7 @@ class PosedPairs:
 
 def _posed(body: PlacedBody) -> core.PosedBody:
     shape = body.body.shape
-    if body.curved is None or shape is None:
+    if body.curved is None or not is_curved(shape):
         return core.PosedBody(body.shared.geometry)
     from satcheck.core.shape_bounds import shape_bounds
     from satcheck.core.shape_mesh import meshes_beside

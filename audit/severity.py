@@ -78,7 +78,7 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
         is_proven = verified or not judgement.passes
         return judgement if is_proven else _warned(judgement, "relation")
     if answer.relation in OVERLAPS:  # or a gap that may keep no clearance
-        close = clearance_judgement(pair.request, 0.0, pair.farther)
+        close = clearance_judgement(pair.request, 0.0, 0.0)
         if close is not None and close.severity == "error":
             return _warned(by_rule(close, pair.request), "relation")
         return _warned(replace(judgement, severity="warning"), "relation")
@@ -128,7 +128,7 @@ def _judged(answer: Answer, pair: Pair) -> Judgement:
     if answer.relation == "near":
         return Judgement("error", request.rule("clearance") or CLEARANCE_RULE)
     if gap is None:  # an overlap within the touch band
-        close = clearance_judgement(request, 0.0, pair.farther)
+        close = clearance_judgement(request, 0.0, 0.0)
     else:
         close = clearance_judgement(request, gap.lower, gap.upper, gap.kept)
     return close or (_TOUCH if answer.relation == "touching" else _NOTHING)

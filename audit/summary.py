@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from msgspec import convert, to_builtins
+from msgspec import Struct, convert, to_builtins
 
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
@@ -39,7 +39,6 @@ from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import FailOn
-    from satcheck.core.shapes import Primitive
     from satcheck.decompose import Decomposition
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
@@ -217,7 +216,7 @@ def _part_error(parts: Decomposition, exponent: int) -> PartError:
     return PartError(math.ldexp(parts.outside, exponent), math.ldexp(parts.missing, exponent))
 
 
-def stated_shape(shape: Primitive | None) -> StatedShape | None:
+def stated_shape(shape: Struct | None) -> StatedShape | None:
     return None if shape is None else convert(values_of(shape), StatedShape)
 
 

@@ -35,7 +35,6 @@ NODES = frozenset((".glb", ".gltf", ".3mf"))
 MESHES = frozenset(
     (".obj", ".stl", ".stla", ".stlb", ".ply", ".off", ".dae", ".zae", ".amf", ".3dxml", *NODES)
 )
-DRAWINGS = frozenset((".svg", ".dxf"))
 ROBOTS = frozenset((".urdf",))
 LARGEST = 20_000_000
 SECONDS = 120.0
@@ -46,7 +45,7 @@ DEPTH = "overlap"
 
 def files_of(source: Path) -> list[Path]:
     """All files with a known ending below the folder, or those that a list names; by path."""
-    known = MESHES | DRAWINGS | ROBOTS
+    known = MESHES | ROBOTS
     paths = (
         source.rglob("*")
         if source.is_dir()
@@ -81,11 +80,10 @@ def ask(command: Sequence[str], arguments: Sequence[str]) -> Record:
 
 
 def alone(command: Sequence[str], file: Path) -> Record:
-    """The file as a scene: nodes, links, connected components, or shapes of a drawing."""
+    """The file as a scene: nodes, links or connected components."""
     ending = file.suffix.lower()
-    how = ["--planar", "xy"] if ending in DRAWINGS else ["--no-depth"]
-    how += [] if ending in NODES | ROBOTS | DRAWINGS else ["--split", "components"]
-    answer = ask(command, [*how, str(file)])
+    how = [] if ending in NODES | ROBOTS else ["--split", "components"]
+    answer = ask(command, ["--no-depth", *how, str(file)])
     report = answer.pop("report", None)
     if report is not None:
         answer["bodies"] = len(report["bodies"])

@@ -192,7 +192,7 @@ def _compare_boxes(
 
 
 def _bounds(body: Body) -> Bounds:
-    if body.shape is not None and is_curved(body.shape):
+    if is_curved(body.shape):
         return curved_shape(body.shape, body.transform).bounds()
     return body.world_mesh().bounds
 

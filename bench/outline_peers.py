@@ -14,13 +14,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, Literal
 
+import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
 from bench.outline_pairs import PolygonPair, loops_of
 from satcheck import core
-from satcheck.scene.drawing.contour import Contour, DrawnShape
-from satcheck.scene.drawing.sheet import sheet_of
 from satcheck.scene.planar.prism import prism
 
 Query = Literal["overlap", "depth", "distance"]
@@ -91,11 +90,9 @@ def satcheck(pairs: list[PolygonPair]) -> Ask:
 
 def prisms(pairs: list[tuple[Any, Any]]) -> Ask:
     def made(outline: Any, height: float) -> core.Surface:
-        loops = tuple(
-            Contour(tuple((x, y) for x, y in loop.tolist())) for loop in loops_of(outline)
-        )
-        sheet = sheet_of(DrawnShape("outline", loops, "evenodd"))
-        return core.Surface(prism(sheet.points, sheet.triangles, height), solid=True)
+        loops = loops_of(outline)
+        triangles = np.asarray(manifold3d.triangulate(loops), dtype=np.int64)
+        return core.Surface(prism(np.concatenate(loops), triangles, height), solid=True)
 
     # As flat_scene does: taller than wide, of different heights.
     widest = max(float(np.abs(loop).max()) for pair in pairs for o in pair for loop in loops_of(o))

@@ -11,19 +11,18 @@ from satcheck.cli.output import talk
 from satcheck.cli.standard_input import standard_input
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
-from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.loader import has_only_rules
 
 STANDARD_INPUT = "-"
 
 
-def asset_names(inputs: Inputs, *, planar: bool) -> list[str]:
+def asset_names(inputs: Inputs) -> list[str]:
     """Folders and patterns are expanded, and - stands for the names on standard input. A file of
     rules is no asset. click.UsageError if there is none."""
     names: list[str] = []
     for name in inputs.paths:
         names += standard_input() if name == STANDARD_INPUT else [name]
-    files = asset_files(filter(None, names), drawings=DRAWINGS if planar else ())
+    files = asset_files(filter(None, names))
     rules = {os.path.realpath(path) for path in inputs.rules}
     assets = [
         file for file in files if os.path.realpath(file) not in rules and not _is_skipped(file)

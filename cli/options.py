@@ -120,7 +120,7 @@ planar_option = click.option(
     type=click.Choice(PLANES),
     metavar="PLANE",
     default=DEFAULTS.planar,
-    help="Check outlines in this plane (xy, yz or xz): flat layouts, SVG and DXF drawings.",
+    help="Check outlines in this plane (xy, yz or xz): flat layouts.",
 )
 tolerance_option = click.option(
     "--tolerance",

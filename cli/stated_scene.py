@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from msgspec import to_builtins
 
-from satcheck.core.shapes import primitive_of
 from satcheck.report.report import Issue
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.nodes import CORNER
 from satcheck.scene.mesh_units import placing_mesh
+from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.shape_file import shape_file
 
@@ -58,7 +58,7 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Me
     location = root / entry.file
     if entry.shape is not None:
         try:
-            return shape_file(primitive_of(to_builtins(entry.shape)), entry.file)
+            return shape_file(shape_from(to_builtins(entry.shape)), entry.file)
         except MeshFileError as error:
             return error
     if entry.path is None:

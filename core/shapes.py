@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import TypeGuard
 
 from msgspec import Struct, to_builtins
 from msgspec.structs import force_setattr
@@ -73,7 +74,8 @@ class Ellipsoid(Sized, frozen=True):
     radii: Vector
 
 
-Primitive = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid
+Curved = Sphere | Capsule | Cylinder | Cone | Ellipsoid
+Primitive = Box | Curved
 PRIMITIVES: dict[str, type[Primitive]] = {
     "box": Box,
     "sphere": Sphere,
@@ -84,12 +86,12 @@ PRIMITIVES: dict[str, type[Primitive]] = {
 }
 
 
-def is_curved(shape: Primitive) -> bool:
-    """Whether a mesh only approximates it."""
-    return not isinstance(shape, Box)
+def is_curved(shape: object) -> TypeGuard[Curved]:
+    """Whether a mesh only approximates the shape."""
+    return isinstance(shape, Curved)
 
 
-def values_of(shape: Primitive) -> Values:
+def values_of(shape: Struct) -> Values:
     """The shape as a scene file states it, for example {"type": "box", "size": (x, y, z)}."""
     return to_builtins(shape)  # type: ignore[no-any-return]
 

@@ -36,7 +36,13 @@ class Ellipsoid(Value, frozen=True, tag_field="type", tag="ellipsoid"):
     radii: Sizes
 
 
-StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid
+class Outline(Value, frozen=True, tag_field="type", tag="outline"):
+    """A polygon. points: its corners, counter-clockwise from the least one."""
+
+    points: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3)]
+
+
+StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | Outline
 
 
 class Health(Value, frozen=True, kw_only=True):
@@ -95,7 +101,7 @@ class BodyReport(Value, frozen=True, kw_only=True):
     decomposed. `resolution` is the precision of the world coordinates, and `surface_tolerance` how
     far the surface may be off, both in world units. `transform` places it, row-major 4x4, world =
     transform * (x, y, z, 1); None: as in the file. `groups`, `static`: from the scene. `shape`: the
-    primitive that the file states, in its own frame; None: a mesh file. `units`: of its lengths
+    shape that the file states, in its own frame; None: a mesh file. `units`: of its lengths
     here; None: no input states any. `unit_scale`: the factor of unit conversion in `transform`;
     None: no conversion. `stated_at`: the line of the scene file or the robot that states the body,
     if a finding about it is an error, a warning or a note; else None.

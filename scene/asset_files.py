@@ -12,7 +12,7 @@ from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.path_kind import exists, is_folder
 
-_ALWAYS = ROBOT_SUFFIXES.union(FORMATS)
+_ENDINGS = ROBOT_SUFFIXES.union(FORMATS)
 # Most files with these endings are something else, unless they hold one of these texts.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
 _SDF_MARKS = (b"<sdf", b"<gazebo")
@@ -24,20 +24,18 @@ _MARKS = {
 _PATTERN = frozenset("*?[")
 
 
-def asset_files(given: Iterable[str], *, drawings: Iterable[str] = ()) -> list[str]:
+def asset_files(given: Iterable[str]) -> list[str]:
     """Expands the given names into a list of asset files, each once. A file stands for itself. A
     folder stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`)
     stands for its matches.
 
-    drawings: endings of further files that are assets. In folders, names that begin with a dot are
-    left out, and links to folders are followed. A folder that cannot be listed stays in the list,
-    and its reader reports why. Raises SatcheckError: `no-assets` if a folder or a pattern has no
-    asset, `bad-pattern`.
+    In folders, names that begin with a dot are left out, and links to folders are followed. A
+    folder that cannot be listed stays in the list, and its reader reports why. Raises
+    SatcheckError: `no-assets` if a folder or a pattern has no asset, `bad-pattern`.
     """
-    endings = _ALWAYS.union(drawings)
     files: dict[str, None] = {}
     for name in given:
-        files |= dict.fromkeys(_meant_by(name, endings))
+        files |= dict.fromkeys(_meant_by(name))
     return list(files)
 
 
@@ -50,9 +48,9 @@ def content_of(path: Path) -> bytes | None:
         return None
 
 
-def _meant_by(name: str, endings: frozenset[str]) -> list[str]:
+def _meant_by(name: str) -> list[str]:
     if is_folder(name):
-        assets = sorted(_below(name, endings))
+        assets = sorted(_below(name))
     elif _PATTERN.intersection(name) and not exists(name):
         _refuse_pattern(name)
         root = Path(name).anchor
@@ -83,7 +81,7 @@ def _refuse_pattern(name: str) -> None:
             )
 
 
-def _below(folder: str, endings: frozenset[str]) -> Iterator[str]:
+def _below(folder: str) -> Iterator[str]:
     """Each folder once, even if links form a cycle."""
     unlisted: list[str] = []
     visited = set()
@@ -95,16 +93,16 @@ def _below(folder: str, endings: frozenset[str]) -> Iterator[str]:
         if place not in visited:
             visited.add(place)
             paths = (Path(parent) / name for name in names if not name.startswith("."))
-            yield from (path.as_posix() for path in paths if _is_asset(path, endings))
+            yield from (path.as_posix() for path in paths if _is_asset(path))
     yield from (Path(name).as_posix() for name in unlisted)
 
 
-def _is_asset(path: Path, endings: frozenset[str]) -> bool:
+def _is_asset(path: Path) -> bool:
     ending = path.suffix.lower()
     if ending == _XML:  # reports of tests and much else
         return is_model(path)
     if ending not in _MARKS:
-        return ending in endings
+        return ending in _ENDINGS
     content = content_of(path)
     # JSON may write a slash with a backslash.
     plain = None if content is None else content.replace(b"\\/", b"/")

@@ -11,16 +11,15 @@ from msgspec import Struct
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
 from satcheck.core.transform import Transform
-from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
+from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
-    from satcheck.core.shapes import Primitive
     from satcheck.scene.robot import Posture, SceneRobot
     from satcheck.scene.robot.joint_path import JointPath
     from satcheck.scene.statics import BodyRule, StaticsTerms
@@ -40,9 +39,8 @@ class MeshFile(Struct, frozen=True):
     mesh in the file, which then has its own coordinates; None: the whole file, placed as it says.
     outline: the corners, counter-clockwise, of the convex polygon over which the mesh is a prism,
     in a check in a plane. placement_step: the relative precision of its placement in the world, as
-    a share of the world coordinates. deviation: the largest distance between a curve and the
-    polygon that replaces it, in file units; the resolution includes it. inscribed: these polygons
-    lie within the curves; else they may reach beyond them by the deviation. exponent: mesh,
+    a share of the world coordinates. deviation: in a check in a plane, the largest distance between
+    a curve and the polygon within it that replaces it; the resolution includes it. exponent: mesh,
     resolution, deviation and surface_tolerance times 2**exponent are in file units; 0 unless the
     numbers of the file are beyond the range of the core. surface_tolerance: how far its facets may
     be off the curved surfaces of the file, because the reader made them; 0: the file has facets.
@@ -61,7 +59,6 @@ class MeshFile(Struct, frozen=True):
     outline: tuple[tuple[float, float], ...] | None = None
     placement_step: float = FLOAT64_ROUNDING
     deviation: float = 0.0
-    inscribed: bool = False
     exponent: int = 0
     surface_tolerance: float = 0.0
 
@@ -86,7 +83,7 @@ class Body(Struct, frozen=True):
     transform: Transform | None = None
     groups: tuple[str, ...] = ()
     static: bool = False
-    shape: Primitive | None = None
+    shape: Shape | None = None
     path: str | None = None
     pinned: bool = False
     units: str | None = None
@@ -195,11 +192,12 @@ class Scene(Struct, frozen=True):
             raise SatcheckError(UNITS_UNKNOWN, said.message)
 
     def require_in_space(self, instead: str) -> None:
-        """Raises SatcheckError (`planar-only`) if a body is a drawing. instead: the end of the
-        message, which says what to do, or why a command cannot check drawings."""
-        drawn = (body.file.path for body in self.bodies if body.file.format in DRAWINGS.values())
-        if (path := next(drawn, None)) is not None:
-            raise SatcheckError("planar-only", f"{path}: a drawing is flat: {instead}")
+        """Raises SatcheckError (`planar-only`) if the shape of a body is an outline. instead: the
+        end of the message, which says what to do, or why a command cannot check outlines."""
+        flat = next((body for body in self.bodies if isinstance(body.shape, Outline)), None)
+        if flat is not None:
+            message = f"{flat.file.path}: {flat.id} is an outline, which is flat: {instead}"
+            raise SatcheckError("planar-only", message)
 
     def in_order(self) -> list[Body | Unreadable]:
         """All bodies, readable or not. Bodies that `order` does not name come last."""

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Literal
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.loading.formats import DOCUMENTS, FORMATS
 from satcheck.scene.loading.regular_file import size_of
 
@@ -17,7 +16,7 @@ SDF_SUFFIXES = frozenset((".sdf", ".world"))
 ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
 _KINDS: dict[str, InputKind] = {
     **dict.fromkeys(SCENE_SUFFIXES, "scene"),
-    **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),
+    **dict.fromkeys(FORMATS, "mesh"),
     **dict.fromkeys((ending for ending in FORMATS if FORMATS[ending] in DOCUMENTS), "document"),
     **dict.fromkeys(ROBOT_SUFFIXES, "robot"),
     ".srdf": "srdf",

@@ -108,7 +108,7 @@ _ALL = (
     # Flat bodies.
     Code("no-outline", "error", "The body has no extent in the plane of the check."),
     Code("open-outline", "error", "The outline of the body depends on how its holes are filled."),
-    Code("planar-only", "error", "A drawing is flat: it is checked in a plane only."),
+    Code("planar-only", "error", "An outline is flat: it is checked in a plane only."),
     Code("planar-volume", "error", "A rule with a max_volume is not checked in a plane."),
     Code("planar-motion", "error", "A scene with motions is not checked in a plane."),
     # The scene file.

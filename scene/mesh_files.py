@@ -13,9 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
-from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.loading import ReadLimits, load_mesh_file
@@ -32,6 +30,7 @@ from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
     from satcheck.scene.known_meshes import KnownMeshes
+    from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
@@ -66,7 +65,7 @@ class MeshFiles:
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
         self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
         self._hulls: dict[tuple[Path, str], Node | MeshFileError] = {}
-        self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
+        self._shapes: dict[tuple[Shape, str], MeshFile | MeshFileError] = {}
 
     def _absolute(self, location: Path) -> Path:
         """The absolute path; cached, because many bodies may share a path."""
@@ -126,11 +125,8 @@ class MeshFiles:
         return self._known.recall((*key, self._limits), load)
 
     def _load_whole(self, path: str, location: Path) -> MeshFile:
-        load = load_mesh_file
-        if is_drawing(location):
-            from satcheck.scene.drawing.bodies import load_drawing as load
         with _reading(path, location):
-            return load(path, location, self._limits, self._children)
+            return load_mesh_file(path, location, self._limits, self._children)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file split into nodes."""
@@ -147,10 +143,6 @@ class MeshFiles:
 
     def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
         with _reading(path, location):
-            if is_drawing(location):
-                from satcheck.scene.drawing.bodies import load_shapes
-
-                return load_shapes(path, location, self._limits, self._children)
             if location.suffix.lower() == MODEL_SUFFIX:
                 from satcheck.scene.robot.mjcf.asking import read_own_meshes
 
@@ -191,7 +183,7 @@ class MeshFiles:
         with _reading(path, Path(path)):
             return read_model(path, packages, self._limits, self._children)
 
-    def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
+    def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
         key = shape, path
         loaded = self._shapes.get(key)

@@ -11,7 +11,7 @@ from satcheck.core.power_of_two import (
     limit_times_power,
     times_power,
 )
-from satcheck.core.shapes import sizes_of, times_power_of_two
+from satcheck.core.shapes import Primitive, sizes_of, times_power_of_two
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.issue import issue
@@ -61,7 +61,7 @@ def _span(body: Body) -> tuple[int, int] | None:
     sides = [h - c for c, h in zip(low, high, strict=True)]
     if not any(sides):
         return None
-    least = min(sizes_of(body.shape)) if body.shape is not None else max(sides)
+    least = min(sizes_of(body.shape)) if isinstance(body.shape, Primitive) else max(sides)
     largest = max(map(abs, (*low, *high)))
     stretch = max(map(abs, (*rows[0:3], *rows[4:7], *rows[8:11])))
     offset = max(map(abs, rows[3:12:4]))
@@ -92,7 +92,7 @@ def _scaled_placement(body: Body, exponent: int) -> Body | None:
 
 def _scaled_shape(body: Body, exponent: int) -> Body | None:
     """Scales the sizes of a primitive, so that its transform stays rigid."""
-    if body.shape is None:
+    if not isinstance(body.shape, Primitive):
         return None
     own = body.file.exponent + exponent
     shape = times_power_of_two(body.shape, own)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Literal
 
 from msgspec.structs import replace
 
-from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import (
@@ -29,6 +28,7 @@ from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
+from satcheck.scene.planar.outline import Shape
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
@@ -275,7 +275,7 @@ class SceneBuilder:
         transform: Transform | None,
         groups: tuple[str, ...] = (),
         static: bool = False,
-        shape: Primitive | None = None,
+        shape: Shape | None = None,
         node: str | None = None,
         pinned: bool = False,
         units: str | None = None,

@@ -10,16 +10,17 @@ from msgspec.structs import replace
 from satcheck.core import Mesh
 from satcheck.core.power_of_two import exponent_into_range, exponent_of
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
-from satcheck.core.shapes import Primitive, sizes_of, times_power_of_two, values_of
+from satcheck.core.shapes import sizes_of, times_power_of_two, values_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
+from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 SHAPE_FORMAT = "shape"
 
 
-def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
+def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
     """The mesh of the shape. path: the scene file that states it.
 
     sha256: of the values of the shape and the number of segments. The sizes are exact float64
@@ -29,8 +30,13 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
     exponent = 0
     try:
         try:
-            examined = examine(mesh_of(shape, segments))
+            if isinstance(shape, Outline):
+                examined = examine(shape.mesh(), orient=False)
+            else:
+                examined = examine(mesh_of(shape, segments))
         except OverflowError:
+            if isinstance(shape, Outline):
+                raise
             sizes = sizes_of(shape)
             exponent = -exponent_into_range(exponent_of(min(sizes)), exponent_of(max(sizes)))
             scaled = times_power_of_two(shape, -exponent) or shape

@@ -58,7 +58,7 @@ def root(tmp_path: Path) -> Path:
     """A copy of what the pages name, so that reports can be written beside it."""
     shutil.copytree(ROOT / "sample_meshes", tmp_path / "sample_meshes")
     (tmp_path / "docs").mkdir()
-    for name in ("rig.step", "bench.usda", "room.toml"):
+    for name in ("rig.step", "bench.usda", "room.toml", "squares.toml"):
         shutil.copy(ROOT / "docs" / name, tmp_path / "docs")
     return tmp_path
 
@@ -92,6 +92,11 @@ def test_a_command_prints_what_the_page_shows(block: str, root: Path) -> None:
         assert name == "satcheck"
         printed = without_times(run(["-m", "satcheck.cli", *arguments], root).stdout)
         assert re.fullmatch(as_pattern(shown), printed), f"$ {command}\n{printed}"
+
+
+def test_the_five_lines_of_the_squares_are_their_file() -> None:
+    (shown,) = blocks(ROOT / "docs" / "planar.md", "toml")
+    assert shown == (ROOT / "docs" / "squares.toml").read_text("utf-8")
 
 
 @pytest.mark.parametrize("page", WITH_CALLS, ids=lambda page: page.name)

@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.core.shapes import Primitive, image_of, is_curved, primitive_of
+from satcheck.core.shapes import Primitive, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.planar.flat_scene import flat_scene
+from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify.curved import Curved
@@ -62,8 +63,8 @@ class Placed:
     resolution: world units, recomputed. convex: also of every curved shape. holed: the mesh has
     holes with unknown fills. pieces: as in `Shape`. missing: the file that does not exist, as the
     report names it. deviation: with --planar, the largest distance of the boundary from its
-    polygon. inscribed: the polygon lies within the boundary. surface_tolerance: how far its surface
-    may be off, world units, as the report says.
+    polygon, which lies within it. surface_tolerance: how far its surface may be off, world units,
+    as the report says.
     """
 
     id: str
@@ -79,7 +80,6 @@ class Placed:
     curved: Curved | None = None
     missing: str | None = None
     deviation: float = 0.0
-    inscribed: bool = False
     surface_tolerance: float = 0.0
 
     @property
@@ -153,7 +153,7 @@ class Bodies:
             return replace(unread, reason=f"{file} has changed: its SHA-256 is another")
         primitive = None
         if entry.shape is not None:
-            primitive = shape_of_mesh(shape.file, primitive_of(to_builtins(entry.shape)))
+            primitive = shape_of_mesh(shape.file, shape_from(to_builtins(entry.shape)))
         pose = placing_mesh(shape.file, entry.transform)
         body = Body(
             name, name, shape.file, pose, entry.groups, static=entry.static, shape=primitive
@@ -180,12 +180,11 @@ class Bodies:
         key = (file, None, json.dumps(values))
         if key not in self._shapes:
             try:
-                primitive = primitive_of(values)
-                made = shape_file(primitive, file)
-                primitive = shape_of_mesh(made, primitive) or primitive
-                curved = is_curved(primitive)
+                shape = shape_from(values)
+                made = shape_file(shape, file)
+                shape = shape_of_mesh(made, shape) or shape
                 self._shapes[key] = (
-                    curved_of(made, primitive) if curved else _checked_shape(made, False)
+                    curved_of(made, shape) if is_curved(shape) else _checked_shape(made, False)
                 )
             except (MeshFileError, ValueError) as error:
                 self._shapes[key] = f"{file}: not a shape: {error}"
@@ -286,5 +285,4 @@ def place_shape(
         resolution,
         curved=curved,
         deviation=shape.file.deviation,
-        inscribed=shape.file.inscribed,
     )

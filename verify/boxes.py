@@ -20,7 +20,7 @@ def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:
     widest = max((low_b - high_a).max(), (low_a - high_b).max())
     if widest <= 0:
         return False
-    closer = curve_error(a, b).closer
+    closer = curve_error(a, b)
     if widest > max(most, (request.clearance or 0.0) + float(closer)) * CERTAINLY:
         return True
     tolerance = request.tolerance

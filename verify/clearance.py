@@ -13,11 +13,8 @@ from satcheck.verify.evidence import gap_along, given
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.holes import check_holes
-from satcheck.verify.in_plane import CurveError
 from satcheck.verify.relations import Pair
 from satcheck.verify.rules import Request
-
-NO_ERROR = CurveError(Fraction(0), Fraction(0))
 
 
 def least_gap(finding: Finding, request: Request) -> Fraction:
@@ -33,19 +30,19 @@ def keeps_clearance(
     clearance: Fraction,
     squared: Callable[[], Fraction],
     prove_apart: Callable[[Fraction], None],
-    error: CurveError = NO_ERROR,
+    closer: Fraction = Fraction(0),
 ) -> bool | None:
     """Whether the gap keeps the clearance, independent of the touch band; None: not proven either
-    way. squared: of the gap between two points. prove_apart: rejects a narrower gap. error: of the
-    polygons that replace curves."""
+    way. squared: of the gap between two points. prove_apart: rejects a narrower gap. closer: by how
+    much curves may be closer than their polygons."""
     if finding.exact_relation != "separated":
         return False
     if finding.relation == "separated":  # then that is a part of what was proven
         return None if finding.undecided == "limit" else True
-    if squared() < max(clearance - error.farther, Fraction(0)) ** 2:
+    if squared() < clearance**2:
         return False
     try:
-        prove_apart(clearance * (1 - EXACT_WIDTH) + error.closer)
+        prove_apart(clearance * (1 - EXACT_WIDTH) + closer)
     except Rejected:
         return None
     return True

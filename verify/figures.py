@@ -245,10 +245,9 @@ def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rou
         raise Rejected("bounds come with the distance of polygons that stand for curves")
     if bounds is None or distance is None:
         return
-    farther = sum((Fraction(body.deviation) for body in (a, b) if not body.inscribed), Fraction(0))
     low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
     slack = rounding.of(length)
-    if low > max(length - closer + slack, Fraction(0)) or high < length + farther - slack:
+    if low > max(length - closer + slack, Fraction(0)) or high < length - slack:
         raise Rejected("the bounds of the distance leave out how far the curves may be off")
 
 

@@ -28,8 +28,8 @@ from satcheck.verify.figures import (
 )
 from satcheck.verify.holes import check_holes, check_pieces
 from satcheck.verify.in_plane import (
-    CurveError,
     check_in_plane,
+    check_overlap_of_curves,
     check_proof_in_plane,
     curve_error,
     reaching,
@@ -59,11 +59,11 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     assert b.world is not None
     pair = pair_of(a, b, a.world, b.world)
     relation, exact = finding.relation, finding.exact_relation
-    error = curve_error(a, b)
+    closer = curve_error(a, b)
     hulls_apart = _prove_relation(finding, certificate, pair, a, b, request, tolerance)
     mtv = check_mtv(finding, certificate, a, b)
-    depth = _check_depth(finding, certificate, pair, error)
-    covered = _check_cover(finding, certificate, pair) and not error.farther
+    depth = _check_depth(finding, certificate, pair, closer)
+    covered = _check_cover(finding, certificate, pair)
     rounding = rounding_of(a, b)
     if pair.convex:
         distance = directed = spanned(finding, rounding, hulls_are_apart(pair))
@@ -71,16 +71,15 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
         distance = _check_distance(finding, certificate, pair, rounding)
         distance = distance and not (a.holed or b.holed)
         directed = mtv or shows_direction(finding, a, b)
-    distance = distance and not error.closer
+    distance = distance and not closer
     proven = ProvenFields(
         depth or (covered and mtv), mtv, distance or exact == "touching", directed or mtv
     )
     most = proven_depth(finding, replace(proven, depth=depth))
-    thickest = _check_thickness(finding, certificate, pair, error, most)
-    proven = _with_thickness(proven, finding, error, thickest, rounding)
+    thickest = _check_thickness(finding, certificate, pair, closer, most)
+    proven = _with_thickness(proven, finding, closer, thickest, rounding)
     if relation != exact:
-        near = max(clearance - error.farther, Fraction(0))
-        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
+        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
     if exact not in OVERLAPS and not hulls_apart:
         check_holes(a, b, max(tolerance, clearance))
         check_pieces(a, b)
@@ -91,7 +90,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
             length,
             lambda: squared_gap(given(certificate.gap, "gap"), pair),
             lambda least: prove_apart(certificate, pair, (a, b), least),
-            error,
+            closer,
         )
 
     slack = rounding.of(tolerance)
@@ -106,14 +105,14 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
 def _with_thickness(
     proven: ProvenFields,
     finding: Finding,
-    error: CurveError,
+    closer: Fraction,
     thickest: Fraction | None,
     rounding: Rounding,
 ) -> ProvenFields:
     """thickest: a proven upper bound of the thickness; None: there is none."""
     return replace(
         proven,
-        ball=finding.thickness_bounds is not None and not error.closer,
+        ball=finding.thickness_bounds is not None and not closer,
         thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
     )
 
@@ -130,16 +129,16 @@ def _prove_relation(
     """Returns whether the relation also holds for the hulls; then neither body can lie inside the
     other."""
     relation, proof, ends = finding.exact_relation, certificate.relation, pair
-    error = curve_error(a, b)
+    closer = curve_error(a, b)
     if request.across is not None:
         check_in_plane(finding, certificate, request.across)
         ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, request.across))
         check_proof_in_plane(proof, ends, request.across)
         if relation != "separated":
-            error.check_overlap(relation, proof, ends, request.across)
+            check_overlap_of_curves(relation, closer, ends, request.across)
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
-    least = least_gap(finding, request) + error.closer
-    return prove(relation, proof, ends, max(beyond, error.closer), least)
+    least = least_gap(finding, request) + closer
+    return prove(relation, proof, ends, max(beyond, closer), least)
 
 
 def _check_distance(
@@ -151,7 +150,7 @@ def _check_distance(
     return True
 
 
-def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, error: CurveError) -> bool:
+def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, closer: Fraction) -> bool:
     """Checks the interval of the depth: a ball in the Minkowski difference proves the lower bound,
     an axis the upper bound."""
     bounds, proof = finding.depth_bounds, certificate.depth
@@ -160,8 +159,8 @@ def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, error: 
     low, high = map(Fraction, bounds)
     if not pair.convex:
         raise Rejected("a depth is certified for convex bodies only")
-    inner_radius_exceeds(proof.lower, pair.a, pair.b, low + error.farther)
-    if not depth_at_most(axis(proof.upper), pair, high - error.closer):
+    inner_radius_exceeds(proof.lower, pair.a, pair.b, low)
+    if not depth_at_most(axis(proof.upper), pair, high - closer):
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
 
@@ -181,7 +180,7 @@ def _check_thickness(
     finding: Finding,
     certificate: Certificate,
     pair: Pair,
-    error: CurveError,
+    closer: Fraction,
     depth: Fraction | None,
 ) -> Fraction | None:
     """An upper bound of the thickness, as far as one is proven. Rejects a ball that is not in both
@@ -189,7 +188,7 @@ def _check_thickness(
     check in a plane are higher than wide: the largest ball in both has the diameter of the largest
     disc. Of curves nothing is proven."""
     cells = certificate.thickness
-    if finding.thickness is None or error.closer:
+    if finding.thickness is None or closer:
         if not isinstance(cells, UnsetType):
             raise Rejected("cells, and no thickness of polyhedra")
         return depth
@@ -257,7 +256,7 @@ def _is_in_band(
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
     if not isinstance(proof.excuse, UnsetType):
-        if curve_error(*bodies).closer:
+        if curve_error(*bodies):
             raise Rejected("an excuse of polygons, and not of their curves")
         is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
         return True

@@ -6,13 +6,12 @@ depth. Only containment depends on the heights, which outlines do not have. So a
 claimed to contain the other one gets the greater height. Otherwise both get the same height, and
 only their walls may separate them.
 
-A polygon may replace a curve. A proof must then hold for every boundary whose distance from the
-polygon is at most the deviation of the body.
+A polygon may replace a curve, within which it lies. A proof must then hold for every boundary
+around the polygon whose distance from it is at most the deviation of the body.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -33,69 +32,57 @@ from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import nothing_nearer
 from satcheck.verify.evidence import exceeds, gap_along, on_body, vector
 from satcheck.verify.exact import Rejected
-from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 
 
-@dataclass(frozen=True, slots=True)
-class CurveError:
-    """How much closer (or deeper) and how much farther two bodies may be than their polygons. World
-    units; 0: the polygons are exact."""
-
-    closer: Fraction
-    farther: Fraction
-
-    def check_overlap(
-        self, relation: Relation | None, proof: Proof, pair: Pair, across: int
-    ) -> None:
-        """Rejects an exact relation of bodies that meet if it is proven of the polygons only.
-        pair: with heights that suit the relation.
-
-        A body lies within another if its polygon does, with more room than the deviation. Bodies
-        overlap if their inscribed polygons overlap, or if convex polygons overlap by more than
-        they may reach out of the curves. Neither body contains the other if the box of each
-        sticks out of the other by more than the deviation.
-        """
-        if not self.closer:
-            return
-        if relation in ("contains", "inside"):
-            nothing_nearer(pair.a, pair.b, self.closer)
-            return
-        if relation == "penetrating" and self.farther and isinstance(proof, PolytopeProof):
-            inner_radius_exceeds(proof, pair.a, pair.b, self.farther)
-        elif relation != "penetrating" or self.farther:
-            raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-        a, b = pair.a.world, pair.b.world
-        if not (self._sticks_out(a, b, across) and self._sticks_out(b, a, across)):
-            raise Rejected("one body may hold the other, by what its curve is off its polygon")
-
-    def _sticks_out(self, world: World, other: World, across: int) -> bool:
-        """By their boxes."""
-        (low, high), (least, most) = world.bounds, other.bounds
-        steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
-        return any(
-            max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > self.closer
-            for p, q, r, s in steps
-        )
-
-    def leaves_gap(self, proof: Proof, pair: Pair) -> bool:
-        """Whether the polygons are as far apart along the axis as the curves may be off them."""
-        if not self.closer:
-            return True
-        if not isinstance(proof, AxisProof):
-            return False
-        n = vector(proof.axis)
-        return any(n) and exceeds(gap_along(pair.a, pair.b, n), n, self.closer)
+def curve_error(a: Placed, b: Placed) -> Fraction:
+    """How much closer (or deeper) two bodies may be than their polygons, world units; 0: the
+    polygons are exact."""
+    return Fraction(a.deviation) + Fraction(b.deviation)
 
 
-def curve_error(a: Placed, b: Placed) -> CurveError:
-    bodies = (a, b)
-    closer = sum((Fraction(body.deviation) for body in bodies), Fraction(0))
-    outward = (Fraction(body.deviation) for body in bodies if not body.inscribed)
-    return CurveError(closer, sum(outward, Fraction(0)))
+def check_overlap_of_curves(
+    relation: Relation | None, closer: Fraction, pair: Pair, across: int
+) -> None:
+    """Rejects an exact relation of bodies that meet if it is proven of the polygons only. closer:
+    see `curve_error`. pair: with heights that suit the relation.
+
+    A body lies within another if its polygon does, with more room than the deviation. Bodies
+    overlap if their polygons do. Neither body contains the other if the box of each sticks out of
+    the other by more than the deviation.
+    """
+    if not closer:
+        return
+    if relation in ("contains", "inside"):
+        nothing_nearer(pair.a, pair.b, closer)
+        return
+    if relation != "penetrating":
+        raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
+    a, b = pair.a.world, pair.b.world
+    if not (_sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)):
+        raise Rejected("one body may hold the other, by what its curve is off its polygon")
+
+
+def _sticks_out(world: World, other: World, closer: Fraction, across: int) -> bool:
+    """By their boxes."""
+    (low, high), (least, most) = world.bounds, other.bounds
+    steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
+    return any(
+        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer for p, q, r, s in steps
+    )
+
+
+def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: Pair) -> bool:
+    """Whether the polygons are as far apart along the axis as the curves may be off them."""
+    if not closer:
+        return True
+    if not isinstance(proof, AxisProof):
+        return False
+    n = vector(proof.axis)
+    return any(n) and exceeds(gap_along(pair.a, pair.b, n), n, closer)
 
 
 def reaching(relation: Relation | None, a: World, b: World, across: int) -> tuple[World, World]:

@@ -15,7 +15,7 @@ from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.figures import EXACT_WIDTH, rounding_of
 from satcheck.verify.holes import check_holes
-from satcheck.verify.in_plane import curve_error
+from satcheck.verify.in_plane import curve_error, leaves_gap_of_curves
 from satcheck.verify.relations import pair_of, prove_free
 
 
@@ -36,7 +36,7 @@ def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) 
     if dot(move, move) > (depth + EXACT_WIDTH * (depth + rounding_of(a, b).largest)) ** 2:
         raise Rejected("the MTV is longer than the depth")
     if isinstance(certificate.mtv, UnsetType):
-        if curve_error(a, b).closer:
+        if curve_error(a, b):
             return False
         raise Rejected("the certificate has no 'mtv'")
     prove_way_out(move, certificate.mtv, a, b)
@@ -57,5 +57,5 @@ def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
         check_holes(moved, b, Fraction(0))
     pair = pair_of(a, b, moved.world, b.world)
     prove_free(proof, pair)
-    if not curve_error(a, b).leaves_gap(proof, pair):
+    if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
         raise Rejected("the way out is shown of polygons alone, not of the curves")

@@ -44,9 +44,9 @@ class Pair(Struct, frozen=True):
     By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
     that coarse coordinates far from the origin do not hide a whole body. It is at least the
     deviation of polygons from the curves that they replace. off: how far the surfaces of A and B
-    may be off: half the tolerance, or the surface tolerance of the body if that is more. closer,
-    farther: with --planar, how much closer (or deeper) and how much farther apart the bodies may be
-    than their polygons; else 0.0. paths: the relative motion of the bodies; None: they do not move.
+    may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
+    with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
+    within them; else 0.0. paths: the relative motion of the bodies; None: they do not move.
     alone: no other pair needs these bodies.
     """
 
@@ -62,7 +62,6 @@ class Pair(Struct, frozen=True):
     gap_limit: float = 0.0  # __post_init__ sets it
     off: tuple[float, float] = (0.0, 0.0)  # __post_init__ sets it
     closer: float = 0.0  # __post_init__ sets it
-    farther: float = 0.0  # __post_init__ sets it
 
     def __post_init__(self) -> None:
         tolerance = self.request.tolerance
@@ -73,10 +72,8 @@ class Pair(Struct, frozen=True):
         off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
         force_setattr(self, "off", (off_a, off_b))
         if self.settings.planar:
-            files = (self.a.body.file, self.b.body.file)
-            outer = [file.deviation for file in files if not file.inscribed]
-            force_setattr(self, "closer", sum(file.deviation for file in files))
-            force_setattr(self, "farther", sum(outer, 0.0))
+            closer = self.a.body.file.deviation + self.b.body.file.deviation
+            force_setattr(self, "closer", closer)
         gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
         force_setattr(self, "gap_limit", gap_limit)
 

@@ -142,7 +142,7 @@ def _surface_tolerance(body: Body, setting: float | None) -> float:
 
 def _curved(body: Body) -> CurvedShape | None:
     """ValueError if the transform does not give a shape of this kind."""
-    if body.shape is None or not is_curved(body.shape):
+    if not is_curved(body.shape):
         return None
     return curved_shape(body.shape, body.transform)
 
@@ -152,9 +152,7 @@ def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed
 
     from satcheck.verify.bodies import curved_of, place_shape
 
-    primitive = body.shape
-    curved = primitive is not None and is_curved(primitive)
-    shape = curved_of(body.file, primitive) if curved and primitive else shared.shape()
+    shape = curved_of(body.file, body.shape) if is_curved(body.shape) else shared.shape()
     placed = place_shape(body.id, body.groups, shape, body.transform)
     return replace(placed, surface_tolerance=surface_tolerance)
 

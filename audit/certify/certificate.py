@@ -106,7 +106,7 @@ class _Maker:
         self.worlds = a.world, b.world
         self.placed = self.ends = pair_of(a, b, a.world, b.world)
         plane = pair.settings.planar
-        self.error = curve_error(a, b)
+        self.closer = curve_error(a, b)
         self.across = None if plane is None else axis_across(plane)
         if self.across is not None:
             relation = self.finding.exact_relation
@@ -191,7 +191,7 @@ class _Maker:
         least = Fraction(0)
         if self.finding.relation == "separated":
             least = max(Fraction(self.pair.tolerance), Fraction(self.pair.request.clearance or 0.0))
-        least += self.error.closer
+        least += self.closer
         for axis in self._axes():
             if self._separates(axis, least):
                 return AxisProof(axis)
@@ -222,7 +222,7 @@ class _Maker:
         """For convex bodies that stick out of each other."""
         if not self.placed.convex:
             return None
-        inner = expanded(self.ends, self.error.farther)
+        inner = expanded(self.ends, Fraction(0))
         if inner is None or not inner.overlaps:
             return None
         leads = leading_axes(
@@ -242,10 +242,7 @@ class _Maker:
         bounds, normal = self.finding.depth_bounds, self.finding.normal
         if bounds is None or not self.placed.convex:
             return None
-        lower, limit = (
-            Fraction(bounds[0]) + self.error.farther,
-            Fraction(bounds[1]) - self.error.closer,
-        )
+        lower, limit = Fraction(bounds[0]), Fraction(bounds[1]) - self.closer
         inner = expanded(self.placed, lower)
         if inner is None or not inner.overlaps:
             return None
@@ -274,8 +271,8 @@ class _Maker:
     def _mtv(self) -> Proof | None:
         if not self.finding.mtv_verified or self.finding.mtv is None:
             return None
-        proof = self._free(self.finding.mtv, self.error.closer)
-        return None if self.error.closer and proof is SURFACES else proof
+        proof = self._free(self.finding.mtv, self.closer)
+        return None if self.closer and proof is SURFACES else proof
 
     def _free(self, move: Vector, least: Fraction = Fraction(0)) -> Proof:
         """That A, moved, has no common interior with B. least: of the gap along an axis."""
@@ -299,7 +296,7 @@ class _Maker:
 
     def _distance(self) -> Ends | None:
         """Points next to each other, where few triangles could be nearer than these."""
-        if not self.finding.distance or self.placed.convex or self.error.closer:
+        if not self.finding.distance or self.placed.convex or self.closer:
             return None
         ends = self._nearest()
         rounding = rounding_of(self.a, self.b)

@@ -18,6 +18,7 @@ from satcheck.core import Mesh
 from satcheck.core.curved.freeing import move_off
 from satcheck.core.rounding import rounding_pad
 from satcheck.core.shape_mesh import mesh_around
+from satcheck.core.shapes import is_curved
 from satcheck.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS, Vector
 from satcheck.scene.shape_file import remeshed
 
@@ -62,7 +63,7 @@ def _as_mesh(pair: Pair, body: PlacedBody, around: bool) -> PlacedBody:
     if curved is None:
         return body
     file, primitive = body.body.file, body.body.shape
-    if around and primitive is not None:
+    if around and is_curved(primitive):
         # Grown once more by what placing the shape may have rounded, relative to its size.
         grown = mesh_around(primitive)
         size = 1.0 + 4.0 * curved.slack / min(_extents(grown))

@@ -138,12 +138,6 @@ def _narrower(one: Thickness, other: Thickness) -> Thickness:
 
 
 def _of_curves(pair: Pair, thickness: Thickness) -> Thickness:
-    """In a check in a plane: of curves, from that of the polygons that stand for them. A point that
-    is deeper in a polygon than the curve may be off is in the body, and less deep by that much at
-    most; an inscribed polygon lies within its curve."""
-    files = [body.body.file for body in (pair.a, pair.b)]
-    less = max(0.0 if file.inscribed else file.deviation for file in files)
-    more = max(file.deviation for file in files)
-    lower = max(thickness.lower - 2 * less, 0.0)
-    ball = Ball(thickness.ball.centre, lower / 2) if thickness.ball and lower else None
-    return Thickness(lower, thickness.upper + 2 * more, ball)
+    """In a check in a plane: of curves, from that of the polygons within them."""
+    more = max(body.body.file.deviation for body in (pair.a, pair.b))
+    return Thickness(thickness.lower, thickness.upper + 2 * more, thickness.ball)

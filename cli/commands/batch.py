@@ -137,7 +137,7 @@ def command(
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
-    worlds = _worlds(inputs, manifest, shard, planar=options["planar"] is not None)
+    worlds = _worlds(inputs, manifest, shard)
     _refuse(worlds, inputs, output, baseline)
     config = stated_config(click.get_current_context())
     terms = check_options(inputs, options, baseline, config)
@@ -202,12 +202,12 @@ def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
         yield spool.path, spool.upload_part
 
 
-def _worlds(inputs: Inputs, manifest: str | None, shard: Shard, *, planar: bool) -> Sequence[World]:
+def _worlds(inputs: Inputs, manifest: str | None, shard: Shard) -> Sequence[World]:
     """Those of the shard, each once. click.UsageError if there is none in any shard."""
     remote = [name for name in inputs.paths if is_url(name)]
     near = replace(inputs, paths=tuple(name for name in inputs.paths if not is_url(name)))
     named: Iterator[World] = chain(
-        ((name,) for name in (asset_names(near, planar=planar) if near.paths else ())),
+        ((name,) for name in (asset_names(near) if near.paths else ())),
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )

@@ -96,7 +96,7 @@ def _write_glb(output: Path, scene: Scene, inputs: Inputs) -> Told:
         f"{output}: {counted(len(nodes), 'body', 'bodies')}; "
         f"32-bit numbers move a vertex by {error}"
     ]
-    curved = sum(body.shape is not None and is_curved(body.shape) for body in scene.bodies)
+    curved = sum(is_curved(body.shape) for body in scene.bodies)
     if curved:
         shapes = counted(curved, "curved shape is", "curved shapes are")
         lines.append(f"note: {shapes} written as facets that lie within")

@@ -182,7 +182,7 @@ def _refuse_outputs(inputs: Inputs, parts_out: Path | None, output: Path | None)
 def _split(
     body: Body, threshold: float, seed: int, seconds: float, cache: Cache | None
 ) -> Decomposition | SatcheckError:
-    if body.shape is not None and is_curved(body.shape):
+    if is_curved(body.shape):
         return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
     try:
         return decompose(

@@ -72,7 +72,7 @@ def command(
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
     config = stated_config(click.get_current_context())
-    files = asset_names(inputs, planar=options["planar"] is not None)
+    files = asset_names(inputs)
     refuse_early(Inputs(paths=tuple(files)), output)
     if changed_since is not None:
         shared = [*inputs.rules, *filter(None, [baseline])]

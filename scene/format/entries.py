@@ -13,9 +13,9 @@ from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.core.shapes import Primitive
     from satcheck.core.transform import Transform
     from satcheck.scene.motion import Motion
+    from satcheck.scene.planar.outline import Shape
     from satcheck.scene.rules import Rule
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
@@ -45,7 +45,7 @@ class BodyEntry(Struct, frozen=True):
     id: str
     mesh: MeshPath
     part: str | None = None
-    shape: Primitive | None = None
+    shape: Shape | None = None
     transform: Transform | None = None
     groups: tuple[str, ...] = ()
     static: bool = False

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from satcheck.core.shapes import PRIMITIVES, Primitive, primitive_of
+from satcheck.core.shapes import PRIMITIVES
 from satcheck.scene.format.entries import (
     NO_MESH,
     BodyEntry,
@@ -26,6 +26,7 @@ from satcheck.scene.format.table import Table, read_bodies
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.format.values import boolean, known_unit, list_of, shown, text
 from satcheck.scene.motion import Motion
+from satcheck.scene.planar.outline import OUTLINE, Shape, shape_from
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ _BODY_KEYS = PLACEMENT_KEYS | {
     *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
 }
 
+_SHAPES = (*PRIMITIVES, OUTLINE)
 _texts = list_of("texts", text)
 
 
@@ -189,13 +191,13 @@ class _Reader:
         return self._parsed.positions.line(table.keys)
 
 
-def _shape(value: Any) -> Primitive:
+def _shape(value: Any) -> Shape:
     if not isinstance(value, dict):
         raise Wrong(f"a type and its sizes expected, not {shown(value)}")
     kind = value.get("type")
-    if not isinstance(kind, str) or kind not in PRIMITIVES:
-        raise Wrong(f"one of {', '.join(PRIMITIVES)} expected, not {shown(kind)}", "type")
+    if kind not in _SHAPES:
+        raise Wrong(f"one of {', '.join(_SHAPES)} expected, not {shown(kind)}", "type")
     try:
-        return primitive_of(value)
+        return shape_from(value)
     except ValueError as error:
         raise Wrong(str(error)) from None

@@ -13,9 +13,8 @@ from satcheck.core import Mesh, Surface, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of, sag_of
-from satcheck.core.shapes import Primitive, is_curved
+from satcheck.core.shapes import Curved, is_curved
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
-from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
@@ -25,7 +24,6 @@ from satcheck.scene.planar.region import (
     Region,
     convex_corners,
     convex_region,
-    drawn_region,
     fan_of,
     region_of,
 )
@@ -111,35 +109,27 @@ def _covers_fills(body: Body, region: Region, plane: Plane) -> bool:
 
 
 def _outline(body: Body, plane: Plane) -> Region:
-    if body.shape is not None and is_curved(body.shape):
+    if is_curved(body.shape):
         fine = replace(body.file, mesh=_fine_mesh(body.shape))
         return convex_region(replace(body, file=fine).world_mesh(), plane)
-    if body.file.format in DRAWINGS.values():
-        return drawn_region(body.world_mesh())
     return region_of(body.world_mesh(), body.file.health.solid, plane)
 
 
 @lru_cache(maxsize=64)
-def _fine_mesh(shape: Primitive) -> Mesh:
+def _fine_mesh(shape: Curved) -> Mesh:
     return mesh_of(shape, _SEGMENTS)
 
 
 def _deviation(body: Body, region: Region) -> float:
     """The largest distance between the outline of the body and its polygon, world units; 0.0: the
     polygon is exact."""
-    stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
-    if body.shape is None:
-        exact = body.file.deviation * stretch
-    else:
-        exact = sag_of(body.shape, _SEGMENTS) * stretch
-    if exact == 0:
+    if not is_curved(body.shape):
         return 0.0
-    return exact * (1 + _ROUNDED) + float(np.abs(region.points).max()) * _STEPS_OFF
-
-
-def _is_inscribed(body: Body) -> bool:
-    """Whether the polygon lies within the outline, as for the mesh of a curved shape."""
-    return body.file.inscribed if body.shape is None else is_curved(body.shape)
+    stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
+    return (
+        sag_of(body.shape, _SEGMENTS) * stretch * (1 + _ROUNDED)
+        + float(np.abs(region.points).max()) * _STEPS_OFF
+    )
 
 
 def _lost(body: Body, error: MeshFileError) -> Unreadable:
@@ -178,9 +168,8 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
     file: MeshFile = replace(
         body.file,
         part=f"outline {plane} of {body.id}",
-        resolution=max(body.resolution_world + (deviation if body.shape else 0.0), deviation),
+        resolution=body.resolution_world + deviation,
         deviation=deviation,
-        inscribed=_is_inscribed(body),
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,

@@ -11,8 +11,8 @@ from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
 class Region(Struct, frozen=True):
-    """All points where the sum of the signs of the triangles is not 0. points: (n, 2), each once,
-    and each a corner; triangles: (m, 3), none of area 0."""
+    """All points that triangles cover. points: (n, 2), each once, and each a corner; triangles:
+    (m, 3), counter-clockwise."""
 
     points: Floats
     triangles: Indices
@@ -30,12 +30,6 @@ def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
         return _of_corners(points, triangles[signs > 0])
     turned = np.where(signs[:, None] < 0, triangles[:, ::-1], triangles)
     return _of_corners(points, turned[signs != 0])
-
-
-def drawn_region(mesh: Mesh) -> Region:
-    """The region of a sheet in the plane z = 0. Its triangles keep their signs."""
-    points, triangles = _merged(np.asarray(mesh.vertices)[:, :2], mesh.triangles)
-    return _of_corners(points, triangles[turns(points, triangles) != 0])
 
 
 def _of_corners(points: Floats, triangles: Indices) -> Region:

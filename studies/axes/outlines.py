@@ -34,10 +34,9 @@ def studied_outlines(pair: Pair, plane: Plane) -> Studied:
         index_b=np.concatenate((np.full(len(edges[0]), -1), np.arange(len(edges[1])))),
         counted=np.full(len(points) - 2, True),
     )
-    curved = pair.closer, pair.farther
-    axes = projected(candidates, points, ExactPoints(points), sides, curved)
+    axes = projected(candidates, points, ExactPoints(points), sides, pair.closer)
     outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
-    known = not any(curved) or axes.winner() is not None
+    known = not pair.closer or axes.winner() is not None
     directions = [
         direction_count(_along(points, some), tolerance)
         for some, tolerance in zip(edges, off, strict=True)

@@ -76,19 +76,19 @@ def projected(
     points: Floats,
     exact: ExactPoints,
     sides: tuple[Indices, Indices],
-    curved: tuple[float, float] = (0.0, 0.0),
+    closer: float = 0.0,
 ) -> ProjectedAxes:
-    """sides: the points of A and of B. curved: how much smaller and how much larger any gap may be
-    than that of the polygons, because they stand for curves."""
+    """sides: the points of A and of B. closer: how much smaller any gap may be than that of the
+    polygons, because they lie within curves."""
     result = shadows(*sides, Axes(points, candidates.corners), exact)
     first = first_parallel(result.direction, candidates.tolerance)
     leaders, group = np.unique(first, return_inverse=True)
     by_gap = np.lexsort((np.arange(len(group)), -result.gap, group))
     rows = by_gap[np.searchsorted(group[by_gap], np.arange(len(leaders)))]
     bounds = np.column_stack((result.gap - result.off, result.gap + result.off))[rows]
-    bounds += np.array([-curved[0], curved[1]])
+    bounds[:, 0] -= closer
     signs = result.sign[rows]
-    if any(curved):
+    if closer:
         undecided = (bounds[:, 0] <= 0) & (bounds[:, 1] >= 0)
         states = [_state(s, sure=not u) for s, u in zip(signs, undecided, strict=True)]
     else:

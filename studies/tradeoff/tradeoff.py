@@ -39,7 +39,7 @@ def tradeoff(
     method: of the convex hulls, see Settings.
     progress(done, total) counts runs.
     Raises SatcheckError (`no-pair`, `units-unknown`, `planar-only`) where no boxes meet, and for a
-    drawing.
+    scene with outlines.
     """
     scene.require_in_space("tradeoff compares meshes in space only")
     scene.require_one_unit()

@@ -78,10 +78,11 @@ def test_a_depth_within_the_tolerance_is_told(tmp_path: Path) -> None:
 
 
 def test_what_hangs_on_a_curve_is_incomplete(tmp_path: Path) -> None:
-    layout = tmp_path / "layout.svg"
+    layout = tmp_path / "layout.toml"
     layout.write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><rect width="2" height="2"/>'
-        '<circle cx="3" cy="1" r="1"/></svg>'
+        'schema = "satcheck.scene/1"\nbodies = [\n'
+        '{id = "a", shape = {type = "outline", points = [[0, 0], [2, 0], [2, 2], [0, 2]]}},\n'
+        '{id = "b", shape = {type = "sphere", radius = 1}, position = [3, 1, 0]}]\n'
     )
     ran = satcheck("axes", str(layout), "--planar", "xy", "--top", "1")
     assert ran.code == 3

@@ -1,106 +1,123 @@
-"""`--planar`: drawings and meshes as outlines, from the command line."""
+"""`--planar`: outlines of scenes and of meshes, from the command line."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.cli.process import satcheck
 
-LAYOUT = """<svg xmlns="http://www.w3.org/2000/svg"
- width="210mm" height="297mm" viewBox="0 0 210 297">
-<path id="frame" d="M0,0 h100 v100 h-100 z M20,20 v60 h60 v-60 z" fill-rule="evenodd"/>
-<circle id="in_hole" cx="50" cy="50" r="29"/>
-<rect id="beside" x="100" y="0" width="10" height="10"/>
-<rect id="over" x="105" y="5" width="10" height="10"/>
-<path id="crossing" fill-rule="evenodd" d="M150,0 h9 v9 h-9 z M155,5 h9 v9 h-9 z"/>
-</svg>"""
+SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
+L_SHAPE = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+TURNED = {"euler": [0, 0, 45]}
+SIDE = 2**0.5 / 2  # from the middle of a turned square to its corners
 
 
-@pytest.fixture
-def layout(tmp_path: Path) -> Path:
-    path = tmp_path / "layout.svg"
-    path.write_text(LAYOUT)
-    return path
+def layout(folder: Path, **shapes: tuple[Any, dict[str, Any]]) -> str:
+    """A scene of outlines, each with its placement."""
+    bodies = [
+        {"id": id_, "shape": {"type": "outline", "points": points}, **placement}
+        for id_, (points, placement) in shapes.items()
+    ]
+    path = folder / "layout.json"
+    path.write_text(json.dumps({"schema": "satcheck.scene/1", "bodies": bodies}), "utf-8")
+    return str(path)
 
 
-def relations(*arguments: object) -> dict[tuple[str, str], str]:
-    ran = satcheck(*map(str, arguments), "--format", "json")
-    report = json.loads(ran.out)
-    return {(f["a"], f["b"]): f["relation"] for f in report["findings"]}
+def at(x: float, y: float) -> dict[str, Any]:
+    return {"position": [x, y, 0]}
 
 
-def test_the_shapes_of_a_drawing_are_bodies(layout: Path) -> None:
-    ran = satcheck(str(layout), "--planar", "xy", "--format", "json")
-    report = json.loads(ran.out)
-    assert ran.code == 2  # one shape cannot be read
-    assert report["units"] == "mm"
-    assert report["settings"]["planar"] == "xy"
-    found = {(f["a"], f["b"]): f for f in report["findings"]}
-    assert found["frame", "in_hole"]["relation"] == "separated"
-    assert found["frame", "beside"]["relation"] == "touching"
-    assert found["beside", "over"]["relation"] == "penetrating"
-    # One shape that cannot be read does not stop the others.
-    assert found["frame", "crossing"]["relation"] == "indeterminate"
-    assert "unsupported-feature" in {issue["code"] for issue in report["issues"]}
+def finding(*arguments: str) -> dict[str, Any]:
+    ran = satcheck(*arguments, "--planar", "xy", "--format", "json")
+    (found,) = json.loads(ran.out)["findings"]
+    return {key: value for key, value in found.items() if key != "plan"}  # it has times
 
 
-def test_several_files_are_a_body_each(layout: Path, tmp_path: Path) -> None:
-    other = tmp_path / "other.svg"
-    other.write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg"><rect x="45" y="45" width="9" height="9"/>'
-        '<rect x="106" y="6" width="2" height="2"/></svg>'
-    )
-    layout.write_text(LAYOUT.replace('<path id="crossing"', '<path display="none" id="crossing"'))
-    plane = ("--planar", "xy", "--units", "mm")  # the second file states no unit
-    assert relations(layout, other, *plane) == {("layout", "other"): "contains"}
+def test_squares_overlap_by_a_half(tmp_path: Path) -> None:
+    found = finding(layout(tmp_path, a=(SQUARE, {}), b=(SQUARE, at(0.5, 0.25))), "--depth")
+    assert (found["relation"], found["depth"], found["quality"]) == ("penetrating", 0.5, "exact")
+    assert found["mtv"] == [-0.5, 0.0, 0.0]
 
 
-def test_a_drawing_needs_a_plane(layout: Path) -> None:
-    ran = satcheck(str(layout))
+@pytest.mark.parametrize(
+    ("a", "b", "placement", "relation"),
+    [
+        (SQUARE, SQUARE, at(1.0, 0.5), "touching"),
+        (SQUARE, SQUARE, at(1.0, 1.0), "touching"),
+        (SQUARE, SQUARE, at(1.0 + 2.0**-50, 0.5), "separated"),
+        (SQUARE, SQUARE, at(1.0 - 2.0**-50, 0.5), "penetrating"),
+        (L_SHAPE, SQUARE, at(1.0, 1.0), "touching"),  # in its notch
+        (L_SHAPE, SQUARE, at(1.25, 1.25), "separated"),
+        (L_SHAPE, SQUARE, at(0.75, 0.75), "penetrating"),
+        (L_SHAPE, [[0.25, 0.25], [1.75, 0.25], [0.25, 0.75]], {}, "contains"),
+        ([[0.25, 0.25], [0.5, 0.25], [0.25, 0.5]], SQUARE, {}, "inside"),
+        (SQUARE, SQUARE, {}, "coincident"),
+        (SQUARE, SQUARE, {**TURNED, **at(1.0 + SIDE - 0.01, 0.0)}, "penetrating"),
+        (SQUARE, SQUARE, {**TURNED, **at(1.0 + SIDE + 0.01, 0.0)}, "separated"),
+    ],
+)
+def test_outlines_relate_exactly(
+    a: Any, b: Any, placement: dict[str, Any], relation: str, tmp_path: Path
+) -> None:
+    given = layout(tmp_path, a=(a, {}), b=(b, placement))
+    assert finding(given, "--tolerance", "0")["exact_relation"] == relation
+
+
+def test_the_gap_of_outlines_and_their_clearance(tmp_path: Path) -> None:
+    given = layout(tmp_path, a=(SQUARE, {}), b=(L_SHAPE, at(1.25, -0.5)))
+    found = finding(given, "--clearance", "0.5")
+    assert (found["relation"], found["distance"], found["severity"]) == ("near", 0.25, "error")
+    assert finding(given, "--clearance", "0.25")["severity"] == "none"
+
+
+@pytest.mark.parametrize("first", range(6))
+@pytest.mark.parametrize("step", [1, -1])
+def test_the_order_of_points_changes_no_answer(first: int, step: int, tmp_path: Path) -> None:
+    given = {"a": (L_SHAPE, {}), "b": (SQUARE, at(0.75, 0.5))}
+    expected = finding(layout(tmp_path, **given), "--depth")
+    given["a"] = ((L_SHAPE[first:] + L_SHAPE[:first])[::step], {})
+    assert finding(layout(tmp_path, **given), "--depth") == expected
+
+
+def test_an_outline_beside_a_mesh(tmp_path: Path) -> None:
+    given = layout(tmp_path, plate=(SQUARE, at(100.0, 100.0)))
+    assert finding(given, "box.obj")["relation"] == "separated"
+
+
+@pytest.mark.parametrize("command", [[], ["suggest"], ["resolve"], ["tradeoff"]])
+def test_no_command_takes_an_outline_for_a_body_in_space(
+    command: list[str], tmp_path: Path
+) -> None:
+    given = layout(tmp_path, one=(SQUARE, {}), two=(SQUARE, at(0.5, 0.0)))
+    ran = satcheck(*command, given)
     assert ran.code == 2
-    assert "--planar xy" in ran.err
+    assert "[planar-only]" in ran.err
+    assert "one is an outline, which is flat" in ran.err
+    assert ("--planar" in ran.err) is (command in ([], ["suggest"]))
+
+
+def test_an_outline_has_no_extent_across_its_plane(tmp_path: Path) -> None:
+    given = layout(tmp_path, a=(SQUARE, {}), b=(SQUARE, at(0.5, 0.0)))
+    ran = satcheck(given, "--planar", "yz")
+    assert ran.code == 2
+    assert "seen edge on [no-outline]" in ran.err
 
 
 def test_meshes_are_seen_along_an_axis() -> None:
     pair = ("box.obj", "box_pushed.stl")
-    assert relations(*pair, "--planar", "xy") == {("box", "box_pushed"): "penetrating"}
+    assert finding(*pair)["relation"] == "penetrating"
     ran = satcheck(*pair, "--planar", "xy", "--volume")
     assert ran.code == 2
     assert "planar" in ran.err
 
 
-@pytest.mark.parametrize("backwards", [False, True])
-def test_shapes_of_a_file_that_run_different_ways_round_do_not_cancel(
-    tmp_path: Path, backwards: bool
-) -> None:
-    both, within = tmp_path / "both.svg", tmp_path / "within.svg"
-    head = '<svg xmlns="http://www.w3.org/2000/svg">'
-    both.write_text(f'{head}<path d="M0 0H4V4H0Z"/><path d="M2 0V4H6V0Z"/></svg>')
-    within.write_text(f'{head}<rect x="2.5" y="1" width="1" height="1"/></svg>')
-    files = (within, both) if backwards else (both, within)
-    found = set(relations(*files, "--planar", "xy").values())
-    assert found == {"inside" if backwards else "contains"}
-
-
-def test_what_a_drawing_leaves_out_is_said_once(layout: Path) -> None:
-    layout.write_text(LAYOUT.replace("</svg>", "<text>T</text></svg>"))
-    report = json.loads(satcheck(str(layout), "--planar", "xy", "--format", "json").out)
-    codes = [issue["code"] for issue in report["issues"]]
-    assert codes.count("ignored-geometry") == 1
-
-
-@pytest.mark.parametrize("command", [[], ["suggest"], ["resolve"], ["tradeoff"], ["stability"]])
-def test_no_command_takes_a_drawing_for_bodies_in_space(command: list[str], tmp_path: Path) -> None:
-    paths = []
-    for name, x in (("one", 0), ("two", 5)):
-        path = tmp_path / f"{name}.svg"
-        path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg"><circle cx="{x}" r="3"/></svg>')
-        paths.append(str(path))
-    ran = satcheck(*command, *paths)
+@pytest.mark.parametrize("name", ["a.svg", "a.dxf"])
+def test_drawings_are_no_known_format(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("<svg/>")
+    ran = satcheck(str(tmp_path / name), "box.obj", "--planar", "xy")
     assert ran.code == 2
-    assert "[planar-only]" in ran.err
-    assert "one.svg: a drawing is flat" in ran.err
-    assert ("--planar" in ran.err) is (command in ([], ["suggest"]))
+    assert "known are .3dxml" in ran.err

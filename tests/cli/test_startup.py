@@ -19,7 +19,6 @@ HEAVY = {
     "asyncio",
     "coacd",
     "collada",
-    "ezdxf",
     "fcl",
     "ifcopenshell",
     "jsonschema",

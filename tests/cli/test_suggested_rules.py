@@ -111,25 +111,17 @@ def robot(folder: Path) -> tuple[str, ...]:
     return ("r.urdf", "r.srdf")
 
 
-def svg(folder: Path) -> tuple[str, ...]:
-    shapes = "".join(
-        f'<rect id="shape {k}" x="{STEP * k}" y="0" width="1" height="1"/>' for k in range(4)
-    )
-    text = f'<svg xmlns="http://www.w3.org/2000/svg">{shapes}</svg>'
-    (folder / "nest.svg").write_text(text, encoding="utf-8")
-    return ("nest.svg", "--planar", "xy")
-
-
-def dxf(folder: Path) -> tuple[str, ...]:
-    circles = "".join(f"0\nCIRCLE\n8\n0\n10\n{STEP * k}\n20\n0\n30\n0\n40\n0.5\n" for k in range(4))
-    text = f"0\nSECTION\n2\nENTITIES\n{circles}0\nENDSEC\n0\nEOF\n"
-    (folder / "nest.dxf").write_text(text, encoding="ascii")
-    return ("nest.dxf", "--planar", "xy")
+def outlines(folder: Path) -> tuple[str, ...]:
+    square = {"type": "outline", "points": [[0, 0], [1, 0], [1, 1], [0, 1]]}
+    bodies = [{"id": f"shape {k}", "shape": square, "position": [STEP * k, 0, 0]} for k in range(4)]
+    scene = {"schema": "satcheck.scene/1", "bodies": bodies}
+    (folder / "nest.json").write_text(json.dumps(scene), encoding="utf-8")
+    return ("nest.json", "--planar", "xy")
 
 
 KINDS = (
     *(meshes, glb, threemf, components, split_glb, nodes_of_two, toml_scene, json_scene),
-    *(simple_scene, robot, svg, dxf),
+    *(simple_scene, robot, outlines),
 )
 
 

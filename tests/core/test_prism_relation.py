@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 
+import manifold3d
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.scene.drawing.contour import Contour, DrawnShape
-from satcheck.scene.drawing.sheet import sheet_of
 from satcheck.scene.planar.prism import prism
 
 Loop = list[tuple[float, float]]
@@ -18,11 +18,20 @@ HEIGHTS = (64.0, 96.0)
 
 
 def surface(loops: list[Loop], height: float, lift: float, axis: int = 2) -> core.Surface:
-    shape = DrawnShape("outline", tuple(Contour(tuple(loop)) for loop in loops), "evenodd")
-    sheet = sheet_of(shape)
-    mesh = prism(sheet.points, sheet.triangles, height)
+    """Of the region within the first loop and outside of the others."""
+    outer, *holes = (np.array(loop) for loop in loops)
+    rings = [_wound(outer, 1), *(_wound(hole, -1) for hole in holes)]
+    triangles = np.asarray(manifold3d.triangulate(rings), dtype=np.int64)
+    mesh = prism(np.concatenate(rings), triangles, height)
     vertices = np.roll(np.array(mesh.vertices) + np.array([0, 0, lift]), axis - 2, axis=1)
     return core.Surface(core.Mesh(np.ascontiguousarray(vertices), mesh.triangles), solid=True)
+
+
+def _wound(loop: NDArray[np.float64], sign: int) -> NDArray[np.float64]:
+    """Counter-clockwise for 1, clockwise for -1."""
+    x, y = loop.T
+    area = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
+    return loop if area * sign > 0 else loop[::-1]
 
 
 def relation(a: list[Loop], b: list[Loop], lift: float, axis: int = 2) -> str:

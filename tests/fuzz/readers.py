@@ -22,7 +22,6 @@ from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.robot.mjcf.reading import robot_of_model
 from satcheck.scene.robot.poses import read_poses
@@ -85,10 +84,6 @@ def read_states(path: Path) -> None:
     refuse_errors(load_scene([SAMPLES / "arm.urdf", path]))
 
 
-def read_drawing(path: Path) -> None:
-    refuse_errors(flat_scene(load_scene([path]), "xy"))
-
-
 def read_settings(path: Path) -> None:
     nearest_config(path.parent)
     read_config(path)
@@ -111,7 +106,6 @@ def view_report(path: Path) -> None:
 READERS: Mapping[str, Reader] = {
     **dict.fromkeys(("obj", "stl", "ply", "off", "glb", "gltf"), read_bodies),
     **dict.fromkeys(("3mf", "dae", "zae", "3dxml", "xaml"), read_in_this_process),
-    **dict.fromkeys(("svg", "dxf"), read_drawing),
     **dict.fromkeys(("toml", "json", "urdf", "sdf"), read_scene),
     "mjcf": read_model,
     "srdf": read_states,

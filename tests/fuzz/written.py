@@ -3,28 +3,16 @@
 from __future__ import annotations
 
 import base64
-import io
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
-
-from ezdxf.filemanagement import new
 
 from tests.scene import files, graphs, test_gltf, test_threedxml, test_xaml, test_zae
 from tests.scene.format import scenes
 from tests.scene.robot import robots
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
-
-SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" viewBox="0 0 210 297">
-<style>.a { fill: none; stroke: red } #b > rect { fill-rule: evenodd }</style>
-<defs><symbol id="s"><circle r="3"/></symbol></defs>
-<g id="b" transform="translate(10, 20) rotate(30) matrix(1 0 0 1 2 3)"><rect width="5" height="4"
- rx="1"/><path d="M0 0 h10 v10 l-5 5 z m1 1 c1 .5 2 .5 3 0 s1-.5 2 0 q.5 .5 1 0 t1 0
- a2 3 9 0 1-4 4 z"/>
-</g><use href="#s" x="4"/><polygon points="0,0 4,0 4,4"/><ellipse rx="4" ry="2"/>
-<line x1="0" y1="0" x2="4" y2="1" stroke-width="2"/></svg>"""
 
 MJCF = """<mujoco model="m">
 <compiler angle="radian" meshdir="."/><option><flag filterparent="disable"/></option>
@@ -94,23 +82,6 @@ def _threemf() -> bytes:
     return files.threemf(resources, '<item objectid="2"/><item objectid="1"/>')
 
 
-def _dxf() -> bytes:
-    document = new()
-    document.header["$INSUNITS"] = 4
-    space = document.modelspace()
-    space.add_lwpolyline([(0, 0, 0, 0, 1), (10, 0, 0, 0, 1)], close=True)
-    space.add_circle((20, 0), 3)
-    space.add_line((0, 30), (10, 30))
-    space.add_line((10, 30), (5, 35))
-    space.add_arc((5, 30), 5, 0, 180)
-    block = document.blocks.new("plate")
-    block.add_lwpolyline([(0, 0), (4, 0), (4, 3)], close=True)
-    space.add_blockref("plate", (40, 0), {"rotation": 30})
-    text = io.StringIO()
-    document.write(text)
-    return text.getvalue().encode()
-
-
 def _baseline() -> bytes:
     finding = {"asset": "", "a": "x", "b": "y", "severity": "error", "relation": "penetrating"}
     figures = {"units": "mm", "reason": "by design", "depth": 0.5}
@@ -172,8 +143,6 @@ _MAKERS: Mapping[str, list[Callable[[], bytes]]] = {
     "zae": [lambda: test_zae.archive(cube_dae=files.collada())],
     "3dxml": [test_threedxml.threedxml],
     "xaml": [lambda: test_xaml.xaml(test_xaml.model())],
-    "svg": [SVG.encode],
-    "dxf": [_dxf],
     "json": [_scene, _shapes, _simple],
     "urdf": [_urdf],
     "mjcf": [MJCF.encode],

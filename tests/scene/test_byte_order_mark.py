@@ -103,17 +103,6 @@ def test_a_scene_in_utf_16_is_refused(tmp_path, name):
         load_scene([tmp_path / name])
 
 
-def test_drawings(tmp_path):
-    svg = '<svg xmlns="http://www.w3.org/2000/svg"><rect width="2" height="1"/></svg>'
-    dxf = (
-        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0\n20\n0\n30\n0\n40\n1\n0\nENDSEC\n0\nEOF\n"
-    )
-    for name, text in (("a.svg", svg), ("a.dxf", dxf)):
-        (tmp_path / name).write_bytes(codecs.BOM_UTF8 + text.encode())
-        scene = load_scene([tmp_path / name])
-        assert (len(scene.bodies), scene.unreadable) == (1, ())
-
-
 def test_what_goes_with_a_robot(tmp_path):
     from satcheck.scene.robot import read_srdf
 

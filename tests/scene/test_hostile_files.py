@@ -94,7 +94,6 @@ XML = {
     "a.dae": files.collada(),
     "a.xaml": b"<Viewport3D/>",
     "a.urdf": robots.robot_of(robots.link("a")).encode(),
-    "a.svg": b'<svg xmlns="http://www.w3.org/2000/svg"/>',
 }
 
 

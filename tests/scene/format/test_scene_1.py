@@ -113,6 +113,10 @@ def changed(*way, **new):
     return change
 
 
+def outline(*points):
+    return changed("bodies", 0, shape={"type": "outline", "points": list(points)})
+
+
 # name: (change, where it is said to be wrong, what is said, code)
 WRONG = {
     "no bodies": (changed(bodies=None), "", "is missing", "bad-scene"),
@@ -170,6 +174,25 @@ WRONG = {
     ),
     "size": (changed("bodies", 0, "shape", size=[1, 0, 1]), "bodies[0].shape", "size", "bad-scene"),
     "radius": (changed("bodies", 0, "shape", radius=1), "bodies[0].shape", "radius", "bad-scene"),
+    "two points": (outline([0, 0], [1, 0]), "bodies[0].shape", "at least three", "bad-scene"),
+    "repeated point": (
+        outline([0, 0], [1, 0], [0, 1], [0, 0]),
+        "bodies[0].shape",
+        "points[3] repeats points[0]",
+        "bad-scene",
+    ),
+    "point in space": (
+        outline([0, 0], [1, 0], [0, 1, 0]),
+        "bodies[0].shape",
+        "points[2] should be [x, y]",
+        "bad-scene",
+    ),
+    "crossing": (
+        outline([0, 0], [1, 1], [1, 0], [0, 1]),
+        "bodies[0].shape",
+        "points[0] and points[2] cross",
+        "bad-scene",
+    ),
     "static": (changed("bodies", 0, static=1), "bodies[0].static", "true or false", "bad-scene"),
     "groups": (
         changed("bodies", 0, groups="a"),

@@ -7,7 +7,7 @@ import numpy as np
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box
-from satcheck.scene.planar.region import convex_corners, drawn_region, region_of
+from satcheck.scene.planar.region import convex_corners, region_of
 from tests.scene.planar.flat import sheet
 
 L_SHAPE = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]
@@ -38,22 +38,21 @@ def test_convex_corners_of_what_is_convex_only() -> None:
     assert corners is not None
     assert sorted(map(tuple, corners.tolist())) == [(-1, -2), (-1, 2), (1, -2), (1, 2)]
     bent = sheet(L_SHAPE, [(0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5)])
-    assert convex_corners(drawn_region(bent)) is None
+    assert convex_corners(region_of(bent, False, "xy")) is None
 
 
 def test_a_region_covered_twice_is_not_taken_for_convex() -> None:
     """Two triangles, one over part of the other: the same hull, another multiplicity."""
     twice = sheet([(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 1.0)], [(0, 1, 2), (0, 1, 3)])
-    assert convex_corners(drawn_region(twice)) is None
+    assert convex_corners(region_of(twice, False, "xy")) is None
 
 
 def test_a_spike_without_area_adds_no_corner() -> None:
     """From a corner of a triangle to a point outside of it, and back."""
     spiked = sheet([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (-3.0, 2.0)], [(0, 1, 2), (2, 3, 2)])
-    for region in (drawn_region(spiked), region_of(spiked, False, "xy")):
-        corners = convex_corners(region)
-        assert corners is not None
-        assert sorted(map(tuple, corners.tolist())) == [(0, 0), (0, 2), (2, 0)]
+    corners = convex_corners(region_of(spiked, False, "xy"))
+    assert corners is not None
+    assert sorted(map(tuple, corners.tolist())) == [(0, 0), (0, 2), (2, 0)]
 
 
 def test_points_that_coincide_in_the_plane_are_one() -> None:

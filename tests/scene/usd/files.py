@@ -49,7 +49,7 @@ def bounds_of(scene: Scene) -> dict[str, Bounds]:
 
 
 def _bounds(body: Body) -> Bounds:
-    if body.shape is not None and is_curved(body.shape):
+    if is_curved(body.shape):
         return curved_shape(body.shape, body.transform).bounds()
     return body.world_mesh().bounds
 

@@ -1,0 +1,144 @@
+"""Polygons that a scene file states as the shapes of bodies, for checks in a plane."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
+from msgspec.structs import force_setattr
+
+from satcheck._native.readers import ReadError, cut_polygons
+from satcheck.core import Mesh
+from satcheck.core.shapes import Primitive, primitive_of
+
+if TYPE_CHECKING:
+    from satcheck.scene.planar.turns import Floats, Indices
+
+Point = tuple[float, float]
+
+OUTLINE = "outline"
+_NUMBERS = frozenset((int, float))
+
+
+class Outline(Struct, frozen=True, tag_field="type", tag=OUTLINE):
+    """A polygon in the plane z = 0.
+
+    points: its corners, counter-clockwise from the least one, in whatever order they are given, so
+    that the order changes no answer. Raises ValueError unless they bound one region without
+    crossing.
+    """
+
+    points: tuple[Point, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.points) < 3:
+            raise ValueError(f"an outline has at least three points, not {len(self.points)}")
+        first: dict[Point, int] = {}
+        for k, point in enumerate(self.points):
+            if (other := first.setdefault(point, k)) != k:
+                raise ValueError(f"points[{k}] repeats points[{other}]: state each corner once")
+        _refuse_crossing(self.points)
+        force_setattr(self, "points", _in_order(self.points))
+
+    def mesh(self) -> Mesh:
+        """A sheet that covers the polygon. No corner is added, moved or left out."""
+        import numpy as np
+
+        corners, triangles = _cut(self.points)
+        vertices = np.column_stack((corners, np.zeros(len(corners))))
+        return Mesh(vertices, triangles.astype(np.uint32))
+
+
+Shape = Primitive | Outline
+
+
+def shape_from(values: object) -> Shape:
+    """The shape that a scene file or a report states. Raises ValueError."""
+    if not isinstance(values, dict) or values.get("type") != OUTLINE:
+        return primitive_of(values)
+    points: Any = values.get("points")
+    if values.keys() != {"type", "points"} or not isinstance(points, list | tuple):
+        raise ValueError("an outline has points, a list of [x, y]")
+    return Outline(tuple(_point(k, point) for k, point in enumerate(points)))
+
+
+def _point(k: int, value: Any) -> Point:
+    given = value if isinstance(value, list | tuple) else ()
+    if len(given) == 2 and _NUMBERS.issuperset(map(type, given)):
+        try:
+            x, y = (float(number) + 0.0 for number in given)  # no negative zeros
+        except OverflowError:  # an integer beyond float64
+            x = y = math.inf
+        if math.isfinite(x) and math.isfinite(y):
+            return x, y
+    raise ValueError(f"points[{k}] should be [x, y], two finite numbers")
+
+
+def _refuse_crossing(points: tuple[Point, ...]) -> None:
+    """Raises ValueError if all points lie on a line, or if two edges have a common point that is no
+    common corner. Exact."""
+    import numpy as np
+
+    from satcheck.scene.planar.region import fan_of
+    from satcheck.scene.planar.turns import turns
+
+    corners, count = _floats(points), len(points)
+    if not turns(corners, fan_of(count)).any():
+        raise ValueError("the outline has no area: its points lie on a line")
+    ends = np.roll(corners, -1, axis=0)
+    low, high = np.minimum(corners, ends), np.maximum(corners, ends)
+    for k in range(count - 2):
+        rest = slice(k + 2, count - (k == 0))  # without the neighbours of edge k
+        meets = (low[rest] <= high[k]).all(axis=1) & (high[rest] >= low[k]).all(axis=1)
+        first = np.flatnonzero(meets) + k + 2
+        if not len(first):
+            continue
+        last = (first + 1) % count
+        start, end = np.full_like(first, k), np.full_like(first, k + 1)
+        sides = [(start, end, first), (start, end, last), (first, last, start), (first, last, end)]
+        a, b, c, d = turns(corners, np.hstack(sides).T).reshape(4, -1)
+        # The ends of either edge lie on different sides of the other one, or on it.
+        common = first[(a * b <= 0) & (c * d <= 0)]
+        if len(common):
+            message = f"the edges from points[{k}] and points[{common[0]}] cross or touch"
+            raise ValueError(f"{message}: an outline runs around one region")
+
+
+def _in_order(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """The corners as `Outline` has them."""
+    from satcheck.scene.planar.region import fan_of
+    from satcheck.scene.planar.turns import turns
+
+    least = points.index(min(points))
+    start, *others = points[least:] + points[:least]
+    # At the least corner a polygon is convex. Where it is straight, it has folded back: it crosses.
+    if turns(_floats((others[-1], start, others[0])), fan_of(3))[0] < 0:
+        others.reverse()
+    return (start, *others)
+
+
+def _cut(points: tuple[Point, ...]) -> tuple[Floats, Indices]:
+    """The corners, (n, 2), and triangles between them whose boundary is the polygon."""
+    import numpy as np
+
+    from satcheck.scene.planar.turns import turns
+
+    corners = _floats(points)
+    cut = cut_polygons(
+        np.column_stack((corners, np.zeros(len(corners)))).tobytes(),
+        np.arange(len(corners), dtype="<u4").tobytes(),
+        np.array([len(corners)], dtype="<u4").tobytes(),
+    )
+    if isinstance(cut, ReadError):
+        raise ValueError(cut.message)
+    triangles = np.frombuffer(cut, "<u4").astype(np.int64).reshape(-1, 3)
+    if not (turns(corners, triangles) > 0).all():
+        raise ValueError("the outline is too thin to be cut into triangles")
+    return corners, triangles
+
+
+def _floats(points: tuple[Point, ...]) -> Floats:
+    import numpy as np
+
+    return np.array(points, dtype=np.float64)
