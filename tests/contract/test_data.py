@@ -1,0 +1,18 @@
+"""Real meshes, and scenes in all formats, get the answers that are pinned."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.contract.broken import broken
+from tests.contract.cases import Call, data_pairs, data_scenes
+
+
+@pytest.mark.parametrize("call", data_pairs(), ids=lambda call: call.name)
+def test_pair(call: Call) -> None:
+    assert broken("data_pairs", call) == []
+
+
+@pytest.mark.parametrize("call", data_scenes(), ids=lambda call: call.name)
+def test_scene(call: Call) -> None:
+    assert broken("data_scenes", call) == []
