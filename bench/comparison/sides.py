@@ -6,6 +6,7 @@ benches need no extra of satcheck.
 
 from __future__ import annotations
 
+import fcntl
 import io
 import os
 import shutil
@@ -76,11 +77,17 @@ def working_tree() -> str:
 
 def built(tree: str, store: Path) -> Path:
     """The Python of an environment with these files of git installed. Raises CannotCompare."""
+    store.mkdir(parents=True, exist_ok=True)
     folder = store / tree[:12]
+    with folder.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # another comparison may be building it
+        if not (folder / BUILT).exists():
+            _build(tree, folder)
+    return folder / "venv" / "bin" / "python"
+
+
+def _build(tree: str, folder: Path) -> None:
     source, environment = folder / "source", folder / "venv"
-    python = environment / "bin" / "python"
-    if (folder / BUILT).exists():
-        return python
     shutil.rmtree(folder, ignore_errors=True)
     source.mkdir(parents=True)
     sys.stderr.write(f"building {tree[:12]} in {folder}: this takes some minutes\n")
@@ -90,7 +97,7 @@ def built(tree: str, store: Path) -> Path:
         tar.extractall(source, filter="data")
     for step in (
         [sys.executable, "-m", "venv", str(environment)],
-        [str(python), "-m", "pip", "install", str(source)],
+        [str(environment / "bin" / "python"), "-m", "pip", "install", str(source)],
     ):
         done = subprocess.run(
             step, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
@@ -100,4 +107,3 @@ def built(tree: str, store: Path) -> Path:
             raise CannotCompare(f"{tree[:12]} cannot be built:\n{' '.join(step)}\n{tail}")
     shutil.rmtree(source)
     (folder / BUILT).touch()
-    return python

@@ -10,6 +10,7 @@ import pytest
 from bench import compare
 from bench.comparison import answers, measuring, ratios, sides
 from bench.comparison.answers import Answers
+from bench.comparison.benches import BENCHES
 from bench.comparison.measuring import Row, spellings
 from bench.comparison.ratios import Failure, Line, Sample, judged, record, summary, table
 from bench.comparison.sides import CannotCompare, Side
@@ -28,8 +29,8 @@ def line(*rounds: tuple[float, float], old: Answers = SAME, new: Answers = SAME)
 
 
 def report(relation: str, depth: list[float | None] | None) -> bytes:
-    finding = {"a": "a", "b": "b", "relation": relation}
-    finding |= {"depth_bounds": depth, "thickness_bounds": None}
+    bounds = {"depth_bounds": depth, "thickness_bounds": None}
+    finding = {"a": "a", "b": "b", "relation": relation, **bounds}
     summary = {"verdict": "fail"}
     return json.dumps(
         {"summary": summary, "bodies": [{"triangles": 12}], "findings": [finding]}
@@ -172,7 +173,7 @@ def test_a_side_is_asked_in_the_words_that_it_knows(monkeypatch: pytest.MonkeyPa
 
 
 def test_an_unknown_bench_names_those_that_exist() -> None:
-    assert compare.chosen([]) == list(compare.BENCHES)
+    assert compare.chosen([]) == list(BENCHES)
     assert compare.chosen(["batch", "depth"]) == ["batch", "depth"]
     with pytest.raises(CannotCompare, match="no bench deep; there are: convex, depth, thickness"):
         compare.chosen(["depth", "deep"])
