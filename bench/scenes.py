@@ -46,18 +46,20 @@ def environment() -> dict[str, str]:
 def run(command: list[str], fine: tuple[int, ...] = (0, 1)) -> tuple[float, float, int, bytes]:
     """Wall and CPU seconds and MiB of a fresh process, and its standard output.
 
-    Raises RuntimeError where the exit code is not among `fine`.
+    Raises RuntimeError, with its standard error, where the exit code is not among `fine`.
     """
-    with tempfile.TemporaryFile() as out:
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         start = time.perf_counter()
-        child = subprocess.Popen(command, env=environment(), stdout=out, stderr=subprocess.DEVNULL)
+        child = subprocess.Popen(command, env=environment(), stdout=out, stderr=err)
         _, status, usage = os.wait4(child.pid, 0)
         wall = time.perf_counter() - start
         child.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
         said = out.read()
+        err.seek(0)
+        complaint = err.read().decode(errors="replace")
     if child.returncode not in fine:
-        raise RuntimeError(f"{command}: exit code {child.returncode}")
+        raise RuntimeError(f"{command}: exit code {child.returncode}\n{complaint}".strip())
     return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss // 1024, said
 
 

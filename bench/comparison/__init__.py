@@ -1,0 +1,1 @@
+"""What bench/compare.py runs: two environments, the benches, and what their figures say."""
