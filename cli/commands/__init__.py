@@ -10,7 +10,6 @@ COMMANDS = {
     "batch": "Check thousands of scenes: none stops the others.",
     "cache": "The cache of convex parts: info, clear.",
     "config": "The config file: show which options are in effect.",
-    "convert": "Write any scene as a scene file of satcheck, or as GLB.",
     "decompose": "Split meshes into convex parts, for physics engines.",
     "each": "Check each asset of a folder as a scene of its own.",
     "report": "Report which scenes of a batch fail, and how.",
