@@ -15,7 +15,6 @@ COMMANDS = {
     "report": "Report which scenes of a batch fail, and how.",
     "resolve": "Move the bodies of a scene apart, by short translations.",
     "schema": "Print the JSON Schema of a kind of document.",
-    "stability": "Check whether equivalent inputs get the same answer.",
     "suggest": "Suggest which pairs a scene may allow to overlap.",
     "tradeoff": "What accuracy costs in time: every rung of the ladder on one pair.",
     "verify": "Re-check the certificates of a report.",

@@ -19,7 +19,6 @@ DOCUMENTS = (
     "result",
     "samples",
     "scene",
-    "stability",
     "suggestions",
     "surface-tolerances",
     "tradeoff",

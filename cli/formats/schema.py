@@ -16,7 +16,6 @@ from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
 from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
-from satcheck.report.stability import StabilityReport
 from satcheck.report.suggestions import SuggestionsReport
 from satcheck.report.surface_tolerances import SurfaceTolerancesReport
 from satcheck.report.verification import VerificationReport
@@ -31,7 +30,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "resolution": ResolutionReport,
     "result": Result,
     "samples": SamplesReport,
-    "stability": StabilityReport,
     "suggestions": SuggestionsReport,
     "surface-tolerances": SurfaceTolerancesReport,
     "verification": VerificationReport,
@@ -41,8 +39,8 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `difference`, `resolution`, `result`, `samples`, `stability`, `suggestions`,
-    `surface-tolerances`, `tradeoff`, `verification`; `scene`; `config`."""
+    `difference`, `resolution`, `result`, `samples`, `suggestions`, `surface-tolerances`,
+    `tradeoff`, `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name == "config":

@@ -31,7 +31,6 @@ def test_help_advertises_what_exists() -> None:
         "Exit codes",
         "satcheck axes",
         "satcheck batch",
-        "satcheck stability",
         "satcheck suggest",
         "satcheck tradeoff",
         "satcheck verify",

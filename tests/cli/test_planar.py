@@ -92,7 +92,7 @@ def test_what_a_drawing_leaves_out_is_said_once(layout: Path) -> None:
     assert codes.count("ignored-geometry") == 1
 
 
-@pytest.mark.parametrize("command", [[], ["suggest"], ["resolve"], ["tradeoff"], ["stability"]])
+@pytest.mark.parametrize("command", [[], ["suggest"], ["resolve"], ["tradeoff"]])
 def test_no_command_takes_a_drawing_for_bodies_in_space(command: list[str], tmp_path: Path) -> None:
     paths = []
     for name, x in (("one", 0), ("two", 5)):
