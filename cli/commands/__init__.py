@@ -8,7 +8,6 @@ COMMANDS = {
     "axes": "Show why two convex bodies are apart: the separating axis theorem, axis by axis.",
     "baseline": "Known findings that do not fail a check.",
     "batch": "Check thousands of scenes: none stops the others.",
-    "cache": "The cache of convex parts: info, clear.",
     "config": "The config file: show which options are in effect.",
     "decompose": "Split meshes into convex parts, for physics engines.",
     "each": "Check each asset of a folder as a scene of its own.",
