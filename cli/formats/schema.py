@@ -11,7 +11,6 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.axes import AxesReport
 from satcheck.report.batch import Result
 from satcheck.report.decomposition import DecompositionReport
-from satcheck.report.difference import Difference
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
 from satcheck.report.samples import SamplesReport
@@ -25,7 +24,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
     "axes": AxesReport,
     "decomposition": DecompositionReport,
-    "difference": Difference,
     "report": Report,
     "resolution": ResolutionReport,
     "result": Result,
@@ -39,8 +37,8 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `difference`, `resolution`, `result`, `samples`, `suggestions`, `surface-tolerances`,
-    `tradeoff`, `verification`; `scene`; `config`."""
+    `resolution`, `result`, `samples`, `suggestions`, `surface-tolerances`, `tradeoff`,
+    `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name == "config":
