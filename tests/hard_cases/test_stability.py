@@ -30,7 +30,7 @@ from tests.hard_cases.mesh_case import MIRRORED, MeshData
 from tests.hard_cases.mesh_families import FAMILIES as MESH_FAMILIES
 
 Points = NDArray[np.float64]
-Side = tuple[Points, NDArray[np.int64]]  # vertices (n, 3), triangles (m, 3)
+Side = tuple[Points, NDArray[Any]]  # vertices (n, 3), triangles (m, 3)
 Ends = tuple[float, float]
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
@@ -51,7 +51,8 @@ SAMPLE_PAIRS = [
 ]
 # The hull of points in a plane is no solid.
 SOLID_FAMILIES = [family for family in FAMILIES if family is not flats]
-CATEGORIES = [*(family.CATEGORY for family in (*SOLID_FAMILIES, *MESH_FAMILIES)), "samples"]
+CATEGORIES = [family.CATEGORY for family in SOLID_FAMILIES]
+CATEGORIES += [*(family.CATEGORY for family in MESH_FAMILIES), "samples"]
 # At most so many pairs a category, chosen by the seed, and turns a pair.
 PAIRS, SEED, TURNS = 24, 5, 3
 
