@@ -18,9 +18,9 @@ REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
 PICTURES = tuple(PICTURE_FORMATS)
 _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
-} | {".parquet": "parquet"}
+}
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset({".svg", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
+_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", ".parquet", *MESHES} - _ENDINGS.keys()
 
 form_option = click.option(
     "--format",

@@ -1,6 +1,6 @@
 """Splits concave meshes into convex parts with a measured error, and caches them on disk."""
 
-from satcheck.decompose.cache import Cache, CacheInfo
+from satcheck.decompose.cache import Cache
 from satcheck.decompose.decomposition import decompose
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import Decomposition, Note
@@ -8,7 +8,6 @@ from satcheck.decompose.settings import DecompositionSettings
 
 __all__ = [
     "Cache",
-    "CacheInfo",
     "Decomposition",
     "DecompositionError",
     "DecompositionSettings",

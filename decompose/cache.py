@@ -5,8 +5,8 @@ complete file is renamed to this name, so a reader sees all of it or nothing. A 
 as missing, and the next writer replaces it. If two processes need the same entry, it is computed
 once: the second process waits for the file lock of the first.
 
-If the cache cannot be read or written, the parts are computed without it, and a note of the result
-says so.
+To clear the cache, delete the folder. If the cache cannot be read or written, the parts are
+computed without it, and a note of the result says so.
 """
 
 from __future__ import annotations
@@ -15,11 +15,9 @@ import hashlib
 import os
 import struct
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
-
-from msgspec import Struct
 
 DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
 _SUBDIRECTORY: Final = "decompositions"  # other files in the user's directory are never touched
@@ -30,37 +28,12 @@ _HEADER: Final = struct.Struct("<8s32s32s")  # magic, key, SHA-256 of the payloa
 _MAGIC: Final = b"SATPARTS"
 
 
-class CacheInfo(Struct, frozen=True):
-    """path: the directory of the entries; bytes: their total size."""
-
-    path: Path
-    entries: int
-    bytes: int
-
-
 class Cache:
     """A directory of entries. It is created when the first entry is stored."""
 
     def __init__(self, directory: Path | None = None) -> None:
         """directory: None: $SATCHECK_CACHE_DIR, or else the user's cache directory."""
         self.path = (default_directory() if directory is None else directory) / _SUBDIRECTORY
-
-    def info(self) -> CacheInfo:
-        sizes = []
-        for entry in self._files(_ENTRY_SUFFIX):
-            with suppress(OSError):  # another process has removed it
-                sizes.append(entry.stat().st_size)
-        return CacheInfo(self.path, len(sizes), sum(sizes))
-
-    def clear(self) -> int:
-        """Removes all entries and returns their number. Raises OSError if one cannot be removed."""
-        entries = self._files(_ENTRY_SUFFIX)
-        for file in entries:
-            file.unlink(missing_ok=True)
-        for file in self._files(_TEMPORARY_SUFFIX) + self._files(_LOCK_SUFFIX):
-            with suppress(OSError):  # another process uses it; harmless
-                file.unlink(missing_ok=True)
-        return len(entries)
 
     def load(self, key: bytes) -> bytes | None:
         """The payload of a key of 32 bytes; None: missing or damaged."""
@@ -118,12 +91,6 @@ class Cache:
 
     def _entry(self, key: bytes) -> Path:
         return self.path / (key.hex() + _ENTRY_SUFFIX)
-
-    def _files(self, suffix: str) -> list[Path]:
-        try:
-            return sorted(file for file in self.path.iterdir() if file.suffix == suffix)
-        except OSError:
-            return []
 
 
 def default_directory() -> Path:

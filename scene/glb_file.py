@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from satcheck.core import Mesh, largest_stretch
+from satcheck.core import Mesh
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.units import MICROMETRES, unit_of
@@ -45,22 +45,6 @@ def glb(nodes: Sequence[Node], units: str | None, remarks: Sequence[str] = ()) -
     for node in nodes:
         file.add(node, _metres(units))
     return file.content()
-
-
-def rounding(nodes: Sequence[Node]) -> float:
-    """An upper bound on how far a vertex moves when its coordinates are rounded to 32 bits, but for
-    the rounding of its placement."""
-    steps: dict[int, float] = {}
-    farthest = 0.0
-    for node in nodes:
-        key = id(node.mesh)
-        if key not in steps:
-            points = node.mesh.vertices
-            off = np.linalg.norm(points - points.astype("<f4"), axis=1)
-            steps[key] = float(off.max(initial=0.0))
-        stretch = 1.0 if node.transform is None else largest_stretch(node.transform)
-        farthest = max(farthest, steps[key] * stretch)
-    return farthest
 
 
 class _File:

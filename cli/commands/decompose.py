@@ -120,6 +120,10 @@ def command(
     the mesh, and the mesh out of the parts. A mesh that is not closed is rebuilt from voxels
     first, which thickens it. The parts lie where the input places them.
 
+    A cache keeps the parts: the folder `decompositions` below SATCHECK_CACHE_DIR, or else below
+    ~/.cache/satcheck (macOS: ~/Library/Caches/satcheck, Windows: %LOCALAPPDATA%\\satcheck\\Cache).
+    Delete the folder to clear the cache.
+
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
     or an internal error; 3, some bodies have no parts.
     """

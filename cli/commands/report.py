@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -21,14 +20,10 @@ from satcheck.cli.options import (
     root_option,
 )
 from satcheck.cli.output import Document
-from satcheck.cli.results.difference import FORMATS as DIFFERENCE_FORMATS
-from satcheck.cli.results.difference import compare
-from satcheck.cli.results.query import FORMATS as QUERY_FORMATS
-from satcheck.cli.results.query import answer
 from satcheck.cli.results.report import TOP, Chosen, report
 from satcheck.cli.scene_options import outside_option
 
-FORMATS = (*REPORT_FORMATS, "html", "parquet")
+FORMATS = (*REPORT_FORMATS, "html")
 
 
 @click.command("report", cls=Command, context_settings=HELP_NAMES)
@@ -49,8 +44,8 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
     "form",
     type=click.Choice(FORMATS),
     metavar="FORMAT",
-    help=f"{', '.join(FORMATS)}; html is a page of the worst findings with their pictures, parquet "
-    "all findings.  [default: as the file of -o ends, otherwise table]",
+    help=f"{', '.join(FORMATS)}; html is a page of the worst findings with their pictures.  "
+    "[default: as the file of -o ends, otherwise table]",
 )
 @output_option
 @click.option(
@@ -59,21 +54,7 @@ FORMATS = (*REPORT_FORMATS, "html", "parquet")
     metavar="N",
     help="Report the N worst scenes, the worst first; of html and --pictures the N worst findings. "
     f"The summary and the exit code count all.  [default: {TOP} in a table and of html, "
-    "otherwise all]. Of --sql and --against, the first N rows.",
-)
-@click.option(
-    "--sql",
-    metavar="QUERY",
-    help="Answer a question about the tables scenes, findings and issues, as table, json, jsonl, "
-    "csv or parquet (pip install 'satcheck[query]').",
-)
-@click.option(
-    "--against",
-    type=click.Path(dir_okay=False, path_type=Path),
-    multiple=True,
-    metavar="OLD",
-    help="Compare with the results of an older batch: which findings are new, gone, worse or "
-    "better. As table, json or markdown. Repeatable, for shards.",
+    "otherwise all]",
 )
 @click.option(
     "--pictures",
@@ -93,8 +74,6 @@ def command(
     form: str | None,
     output: Path | None,
     top: int | None,
-    sql: str | None,
-    against: tuple[Path, ...],
     folder: Path | None,
     root: Path,
     allow_outside: bool,
@@ -107,37 +86,13 @@ def command(
     again; if one has changed since the check, the page says so in place of the picture.
 
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
-    if one is not fully checked or the batch did not finish, else 0. With --sql only the files
-    count: 2 if one has lines that are no results, 3 if a batch did not finish, else 0. With
-    --against it is 1 if a finding is new or worse, 3 if that is undecided for a finding, and 2 if a
-    scene cannot be read now but could be read before.
+    if one is not fully checked or the batch did not finish, else 0.
     """
-    forms = _forms(sql, against, folder)
-    form = form_of(form, output, forms)
-    refuse_early(
-        Inputs(paths=tuple(map(str, (*results, *against, *filter(None, [manifest]))))), output
-    )
+    form = form_of(form, output, FORMATS)
+    refuse_early(Inputs(paths=tuple(map(str, (*results, *filter(None, [manifest]))))), output)
     document = Document()
     expected = () if manifest is None else read_manifest(manifest)
     with StoredResults(results, expected) as stored:
-        if sql is not None:
-            verdict = answer(stored, sql, form, output, top, document)
-        elif against:
-            with StoredResults(against) as before:
-                verdict = compare(before, stored, form, output, top, document)
-        else:
-            chosen = Chosen(form, output, top, folder, root, allow_outside)
-            verdict = report(stored, chosen, document)
+        chosen = Chosen(form, output, top, folder, root, allow_outside)
+        verdict = report(stored, chosen, document)
     return exit_codes.for_assets(verdict, exit_zero=exit_zero)
-
-
-def _forms(sql: str | None, against: Sequence[Path], folder: Path | None) -> Sequence[str]:
-    """The formats of a report, or of the answer or the comparison that replaces it. Raises
-    click.UsageError for options that contradict each other."""
-    if sql is not None and against:
-        raise click.UsageError("--sql and --against contradict each other")
-    if folder is not None and (sql is not None or against):
-        raise click.UsageError("--pictures: --sql and --against have no pictures")
-    if sql is not None:
-        return QUERY_FORMATS
-    return DIFFERENCE_FORMATS if against else FORMATS

@@ -38,7 +38,7 @@ from satcheck.scene.loader import is_rules
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.moved import WRITTEN_BACK, written_back
 from satcheck.scene.moved.scene_file import stray_mesh
-from satcheck.scene.new_scene_file import new_scene_file
+from satcheck.scene.new_scene_file import left_out_of, new_scene_file
 from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
@@ -206,9 +206,13 @@ def _posed(scene: Scene, inputs: Inputs) -> Scene:
 
 def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
     """A mesh outside of the folder of the file to write, which names it; UsageError unless
-    allow_outside."""
+    allow_outside. Raises ClickException if a new scene file cannot state each body."""
     if target.path is None or (target.source is not None and target.scene is None):
         return None
+    if target.source is None and (lost := left_out_of(scene)):
+        raise click.ClickException(
+            f"--scene-out {target.path}: it would lack {', '.join(lost)}, which could not be read"
+        )
     stray = stray_mesh(target.scene, target.path, scene)
     if stray is not None and not allow_outside:
         raise click.UsageError(

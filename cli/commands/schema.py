@@ -14,12 +14,10 @@ DOCUMENTS = (
     "axes",
     "config",
     "decomposition",
-    "difference",
     "resolution",
     "result",
     "samples",
     "scene",
-    "stability",
     "suggestions",
     "surface-tolerances",
     "tradeoff",
@@ -33,8 +31,7 @@ def command(document: str) -> None:
     """Print the JSON Schema of a kind of document.
 
     report describes a check, assets many of them, samples a robot in many poses, config the options
-    in satcheck.toml, result a line of the results of batch, difference that of two batches,
-    resolution the result of resolve, suggestions and surface-tolerances those of suggest,
-    verification that of verify.
+    in satcheck.toml, result a line of the results of batch, resolution the result of resolve,
+    suggestions and surface-tolerances those of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

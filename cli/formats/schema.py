@@ -11,12 +11,10 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.axes import AxesReport
 from satcheck.report.batch import Result
 from satcheck.report.decomposition import DecompositionReport
-from satcheck.report.difference import Difference
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
 from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
-from satcheck.report.stability import StabilityReport
 from satcheck.report.suggestions import SuggestionsReport
 from satcheck.report.surface_tolerances import SurfaceTolerancesReport
 from satcheck.report.verification import VerificationReport
@@ -26,12 +24,10 @@ STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
     "axes": AxesReport,
     "decomposition": DecompositionReport,
-    "difference": Difference,
     "report": Report,
     "resolution": ResolutionReport,
     "result": Result,
     "samples": SamplesReport,
-    "stability": StabilityReport,
     "suggestions": SuggestionsReport,
     "surface-tolerances": SurfaceTolerancesReport,
     "verification": VerificationReport,
@@ -41,8 +37,8 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `difference`, `resolution`, `result`, `samples`, `stability`, `suggestions`,
-    `surface-tolerances`, `tradeoff`, `verification`; `scene`; `config`."""
+    `resolution`, `result`, `samples`, `suggestions`, `surface-tolerances`, `tradeoff`,
+    `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name == "config":

@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Iterable
 from pathlib import Path
 
-import click
 from msgspec import Struct
 
 from satcheck.batch.stored import StoredResults
@@ -22,7 +21,6 @@ from satcheck.report.json import render_assets
 
 # Scenes that a table lists without --top, and findings with a picture.
 TOP = 100
-ALL_FINDINGS = "SELECT * FROM findings"
 
 
 class Chosen(Struct, frozen=True):
@@ -38,15 +36,13 @@ class Chosen(Struct, frozen=True):
 
 
 def report(stored: StoredResults, chosen: Chosen, document: Document) -> AssetVerdict:
-    if chosen.form == "parquet" and chosen.top is not None:
-        raise click.UsageError("--top: Parquet has all findings; --sql can order and limit them")
     assets = StoredAssets(stored)
     top = chosen.top or TOP
     seen = overview(assets, stored.issues, least=stored.least, top=top)
     listed = assets if chosen.top is None else Assets(seen.shown)
     illustrated = iter(_illustrated(stored, chosen, top))
     document.deliver(
-        lambda page: _render(stored, seen, listed, illustrated, chosen.form, page),
+        lambda page: _render(seen, listed, illustrated, chosen.form, page),
         chosen.output,
         utf8=chosen.form != "table",
     )
@@ -63,13 +59,12 @@ def _illustrated(stored: StoredResults, chosen: Chosen, top: int) -> Iterable[Il
 
 
 def _render(
-    stored: StoredResults,
     seen: Overview,
     assets: Assets,
     illustrated: Iterable[Illustrated],
     form: str,
     page: Page,
-) -> str | bytes | Iterable[str]:
+) -> str | Iterable[str]:
     if form == "json":
         return render_assets(seen.report(), assets, timings=False)
     if form in CI_FORMATS:
@@ -78,11 +73,6 @@ def _render(
         from satcheck.cli.formats.worst_page import render as render_page
 
         return render_page(seen, illustrated)
-    if form == "parquet":
-        from satcheck.batch.query import Tables
-
-        with Tables(stored) as tables:
-            return tables.parquet(ALL_FINDINGS)
     from satcheck.cli.formats.assets import render
 
     return render(seen, page)

@@ -28,7 +28,6 @@ WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
     "resolve": (("resolve", "-o", "{}", *PUSHED), "out.json"),
     "scene": (("resolve", "--scene-out", "{}", *PUSHED, "--allow-outside"), "out.json"),
     "suggest": (("suggest", "-o", "{}", "cell.toml"), "out.toml"),
-    "stability": (("stability", "-o", "{}", "--samples", "1", *PUSHED), "out.json"),
     "tradeoff": (("tradeoff", "-o", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.json"),
     "plot": (("tradeoff", "--plot", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.svg"),
 }

@@ -16,7 +16,6 @@ from satcheck.cli.formats.schema import text
 from satcheck.cli.help_sections import MANY, OTHER, SECTIONS, sections
 from tests.cli.process import (
     SAMPLES,
-    private_cache,
     satcheck,
 )
 
@@ -31,7 +30,6 @@ def test_help_advertises_what_exists() -> None:
         "Exit codes",
         "satcheck axes",
         "satcheck batch",
-        "satcheck stability",
         "satcheck suggest",
         "satcheck tradeoff",
         "satcheck verify",
@@ -61,14 +59,6 @@ def test_schema_command_prints_the_schema() -> None:
     assert satcheck("schema").document == json.loads(text())
 
 
-def test_cache_commands(tmp_path: Path) -> None:
-    places = private_cache(tmp_path)
-    info = satcheck("cache", "info", env=places)
-    assert info.code == 0
-    assert "0 entries" in info.out
-    assert satcheck("cache", "clear", env=places).out == "deleted 0 entries\n"
-
-
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_script(shell: str) -> None:
     ran = satcheck(env={"_SATCHECK_COMPLETE": f"{shell}_source"})
@@ -83,8 +73,8 @@ def test_completion_script(shell: str) -> None:
         ("satcheck --accuracy o", "plain,obb"),
         ("satcheck b", "file,b"),
         ("satcheck box.obj --exp", "plain,--explain"),
-        ("satcheck ca", "plain,cache"),
-        ("satcheck cache i", "plain,info"),
+        ("satcheck ba", "plain,baseline"),
+        ("satcheck baseline w", "plain,write"),
     ],
 )
 def test_completion(words: str, expected: str) -> None:
@@ -94,10 +84,10 @@ def test_completion(words: str, expected: str) -> None:
 
 
 def test_a_file_named_like_a_command_can_be_checked(tmp_path: Path) -> None:
-    shutil.copy(SAMPLES / "box.obj", tmp_path / "cache")
-    ran = satcheck("./cache", str(SAMPLES / "box.obj"), cwd=tmp_path)
+    shutil.copy(SAMPLES / "box.obj", tmp_path / "config")
+    ran = satcheck("./config", str(SAMPLES / "box.obj"), cwd=tmp_path)
     assert ran.code == 2  # no ending: an unknown format, but a path
-    assert "cache" in ran.err
+    assert "config" in ran.err
     assert sys.executable not in ran.err
 
 

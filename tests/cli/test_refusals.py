@@ -95,9 +95,9 @@ def test_a_failed_input_is_told_once() -> None:
 
 
 def test_a_misspelt_command_gets_a_hint() -> None:
-    said = satcheck("cash", "info").err
-    assert said.endswith("satcheck: did you mean the command cache:\n  satcheck cache info\n")
-    assert "did you mean" not in satcheck("cash.obj", "box.obj").err
+    said = satcheck("confug", "show").err
+    assert said.endswith("satcheck: did you mean the command config:\n  satcheck config show\n")
+    assert "did you mean" not in satcheck("confug.obj", "box.obj").err
 
 
 def test_the_readable_rest_is_still_checked() -> None:

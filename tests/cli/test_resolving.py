@@ -46,6 +46,17 @@ def test_a_dry_run_shows_the_moves() -> None:
     assert ran.out.endswith("1 touching.\nPASS: no collision.\n")
 
 
+def test_a_scene_without_an_input_is_not_written(tmp_path: Path) -> None:
+    """A check of it could pass, although a body is missing."""
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    output = tmp_path / "moved.toml"
+    paths = [str(tmp_path / name) for name in ("box.obj", "lost.obj")]
+    ran = satcheck("resolve", *paths, "--scene-out", str(output))
+    assert ran.code == 2
+    assert "it would lack lost, which could not be read" in ran.err
+    assert not output.exists()
+
+
 def test_no_option_is_named_that_resolve_lacks(tmp_path: Path) -> None:
     ran = satcheck("resolve", str(scene_of_boxes(tmp_path, 0, 0.7)), "--pin", "*")
     assert ran.code == 1

@@ -83,7 +83,6 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "boxes": (("--accuracy", "aabb", "workcell.json"), "report"),
     "resolve": (("resolve", *PUSHED), "resolution"),
     "suggest": (("suggest", "cell.toml"), "suggestions"),
-    "stability": (("stability", "--samples", "1", *PUSHED), "stability"),
     "tradeoff": (("tradeoff", "--repeat", "1", "--budget", "2", *PUSHED), "tradeoff"),
 }
 

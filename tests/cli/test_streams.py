@@ -64,10 +64,10 @@ def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
         APART,
         ("--format", "json", *APART),
         ("schema",),
-        ("cache", "info"),
+        ("config", "show"),
         ("--help",),
         ("resolve", "-h"),
-        ("cache", "info", "--help"),
+        ("config", "show", "--help"),
         ("schema", "-h"),
         ("--version",),
         ("bash_source",),
@@ -91,7 +91,7 @@ def test_a_full_disk_is_an_error(arguments: tuple[str, ...]) -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "code"),
-    [(PUSHED, 1), (APART, 0), (("--help",), 0), (("cache", "-h"), 0), (("schema",), 0)],
+    [(PUSHED, 1), (APART, 0), (("--help",), 0), (("config", "-h"), 0), (("schema",), 0)],
 )
 def test_a_reader_that_leaves_early_changes_nothing(arguments: tuple[str, ...], code: int) -> None:
     process = subprocess.Popen(

@@ -89,11 +89,11 @@ def test_units_say_what_the_files_do_not(tmp_path: Path) -> None:
     assert ran.document["units"] == "mm"
 
 
-@pytest.mark.parametrize("command", ["resolve", "tradeoff", "stability"])
+@pytest.mark.parametrize("command", ["resolve", "tradeoff"])
 def test_other_commands_refuse_and_take_units(command: str, tmp_path: Path) -> None:
     (tmp_path / "a.glb").write_bytes(glb(cube_at(0)))
     (tmp_path / "b.stl").write_bytes(files.binary_stl(cube_at(0.5)))
-    few = {"resolve": (), "tradeoff": ("--repeat", "1"), "stability": ("--samples", "1")}[command]
+    few = {"resolve": (), "tradeoff": ("--repeat", "1")}[command]
     refused = satcheck(command, "a.glb", "b.stl", *few, cwd=tmp_path)
     assert refused.code == 2
     assert "State the unit: --units" in refused.err

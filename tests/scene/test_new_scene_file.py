@@ -75,6 +75,7 @@ reason = "it stands"
 [[motion]]
 bodies = "swing"
 translation = [1, 2, 3]
+clear = true
 
 [[motion]]
 bodies = "door"

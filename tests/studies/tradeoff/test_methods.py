@@ -9,8 +9,8 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.audit.request.settings import METHODS, Method
 from satcheck.scene import load_scene
-from satcheck.studies.stability.variant import rounding_of_figures
 from satcheck.studies.tradeoff import method_costs
+from tests.hard_cases.test_stability import FIGURE_ROUNDOFFS, U
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 CONVEX = [
@@ -39,7 +39,7 @@ def test_every_method_gives_the_same_answer(names: tuple[str, str], method: Meth
     bodies = load_scene(paths).bodies
     largest = max(float(abs(body.world_mesh().vertices).max()) for body in bodies)
     # Each of the two figures may be off by so much.
-    rounding = 2 * rounding_of_figures(largest)
+    rounding = 2 * FIGURE_ROUNDOFFS * U * largest
     if finding.distance is not None and expected.distance is not None:
         assert abs(finding.distance - expected.distance) <= rounding
     if finding.depth_bounds is not None and expected.depth_bounds is not None:
