@@ -18,10 +18,9 @@ from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
-from satcheck.audit.vectors import added
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.report.resolution import Drop, Move
+from satcheck.report.resolution import Move
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 
@@ -40,7 +39,6 @@ def resolve(
     pins: Sequence[str] = (),
     max_motion: float | None = None,
     iterations: int = ITERATIONS,
-    dropping: bool = False,
     progress: Progress | None = None,
 ) -> Resolution:
     """Translations, without rotation, that end every overlap of a scene that can be ended.
@@ -52,8 +50,7 @@ def resolve(
 
     pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
     links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
-    after which bodies are taken out to free places. dropping: bodies that float then fall along
-    gravity until they lie on something. progress(done, total) counts pairs.
+    after which bodies are taken out to free places. progress(done, total) counts pairs.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
@@ -81,13 +78,6 @@ def resolve(
             write_plainly(layout, rounds.left, longest)
         why = reasons(layout, staying, _links(scene), rounds.left)
     translations = _translations(layout)
-    drops: list[Drop] = []
-    if dropping:
-        from satcheck.audit.resolve.drop import drop
-
-        falls, drops = drop(moved_scene(scene, translations), settings, staying, longest)
-        for body, fall in falls.items():
-            translations[body] = added(translations.get(body, ORIGIN), fall)
     moves = _moves(scene, translations)
     report = check(moved_scene(scene, translations), proof_of(settings))
     return Resolution(
@@ -99,7 +89,6 @@ def resolve(
         rounds=rounds.count,
         left=tuple(left_pairs(report, why)),
         report=report,
-        drops=tuple(drops),
     )
 
 

@@ -74,12 +74,6 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
     show_default=True,
     help="Rounds of pushing. Bodies that still overlap then move to a free place.",
 )
-@click.option(
-    "--drop",
-    "dropping",
-    is_flag=True,
-    help="Then let bodies that float fall, along gravity, until they lie on something.",
-)
 @open_option
 @jobs_option
 @form_option
@@ -94,7 +88,6 @@ def command(
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
-    dropping: bool,
     **options: Any,
 ) -> int:
     """Move the bodies of a scene apart, by short translations.
@@ -104,9 +97,8 @@ def command(
     with a small sum of squared lengths. The moved scene is checked again (with --scene-out the file
     that was written), and what still overlaps is reported.
 
-    Exit codes: 0, no pair overlaps any more; 1, a pair does, or with --drop a body floats; 2, wrong
-    usage, an unreadable input, or an internal error; 3, nothing is known to overlap, but not
-    everything could be checked.
+    Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable input, or
+    an internal error; 3, nothing is known to overlap, but not everything could be checked.
     """
     inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
@@ -131,7 +123,6 @@ def command(
             pins=pins,
             max_motion=farthest,
             iterations=iterations,
-            dropping=dropping,
             progress=bar,
         )
     if scene_out is not None:
@@ -142,8 +133,8 @@ def command(
     )
     if stray is not None:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
-    verdict = "fail" if result.floating else result.report.summary.verdict
-    return exit_codes.for_verdict(verdict, result.report.issues, exit_zero=False)
+    report = result.report
+    return exit_codes.for_verdict(report.summary.verdict, report.issues, exit_zero=False)
 
 
 class _Target(Struct, frozen=True):
