@@ -20,8 +20,7 @@ from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Scene
 from satcheck.scene.glb_file import Node, glb, rounding
-from satcheck.scene.moved.scene_file import stray_mesh
-from satcheck.scene.new_scene_file import left_out_of, new_scene_file
+from satcheck.scene.new_scene_file import left_out_of, new_scene_file, stray_mesh
 from satcheck.scene.units import unit_of
 
 # The lines about what was written, and the ids of bodies that are not in the file.
@@ -80,7 +79,7 @@ def _write_scene(output: Path, scene: Scene, inputs: Inputs) -> Told:
     stated = len(scene.bodies) + len(scene.unreadable) - len(lost)
     rules = len(scene.rules) + len(scene.body_rules)
     lines = [f"{output}: {counted(stated, 'body', 'bodies')}, {counted(rules, 'rule')}"]
-    if (stray := stray_mesh(None, output, scene)) is not None:
+    if (stray := stray_mesh(output, scene)) is not None:
         lines.append(f"note: to read {output} give --allow-outside, because of {stray}")
     if scene.robots:
         lines.append("note: joints are not written: the links stand where the pose puts them")
