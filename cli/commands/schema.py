@@ -21,7 +21,6 @@ DOCUMENTS = (
     "scene",
     "stability",
     "suggestions",
-    "surface-tolerances",
     "tradeoff",
     "verification",
 )
@@ -34,7 +33,6 @@ def command(document: str) -> None:
 
     report describes a check, assets many of them, samples a robot in many poses, config the options
     in satcheck.toml, result a line of the results of batch, difference that of two batches,
-    resolution the result of resolve, suggestions and surface-tolerances those of suggest,
-    verification that of verify.
+    resolution the result of resolve, suggestions that of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

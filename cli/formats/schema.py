@@ -18,7 +18,6 @@ from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
 from satcheck.report.stability import StabilityReport
 from satcheck.report.suggestions import SuggestionsReport
-from satcheck.report.surface_tolerances import SurfaceTolerancesReport
 from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
@@ -33,7 +32,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "samples": SamplesReport,
     "stability": StabilityReport,
     "suggestions": SuggestionsReport,
-    "surface-tolerances": SurfaceTolerancesReport,
     "verification": VerificationReport,
 }
 SCENE = HERE.parents[1] / "scene" / "format"
@@ -41,8 +39,8 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `difference`, `resolution`, `result`, `samples`, `stability`, `suggestions`,
-    `surface-tolerances`, `tradeoff`, `verification`; `scene`; `config`."""
+    `difference`, `resolution`, `result`, `samples`, `stability`, `suggestions`, `tradeoff`,
+    `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name == "config":

@@ -203,21 +203,3 @@ def test_a_scene_is_resolved_beside_its_rules(tmp_path: Path) -> None:
     ran = satcheck("resolve", *given, "rules.toml", "--scene-out", "moved.toml", cwd=tmp_path)
     assert ran.code == 0, ran.err
     assert satcheck("moved.toml", cwd=tmp_path).code == 0
-
-
-def test_suggested_support_is_a_file_of_rules(tmp_path: Path) -> None:
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        'schema = "satcheck.scene/1"\nunits = "m"\n'
-        '[[bodies]]\nid = "floor"\nshape = { type = "box", size = [4, 4, 1] }\n'
-        '[[bodies]]\nid = "cube"\nshape = { type = "box", size = [1, 1, 1] }\n'
-        "position = [0, 0, 1]\n"
-    )
-    rules = tmp_path / "rules.toml"
-    ran = satcheck("suggest", "--support", str(scene), "-o", str(rules))
-    assert ran.code == 0
-    assert "1 fixed body suggested" in ran.err
-    checked = satcheck(str(scene), str(rules))
-    assert (checked.code, "cube: supported" in checked.out) == (0, True)
-    refused = satcheck("suggest", "--support", "--never", str(scene))
-    assert (refused.code, "as they are placed" in refused.err) == (2, True)
