@@ -17,10 +17,9 @@ SECTIONS = {
     "What to check": "bodies pairs manifest shard changed_since split merge planar units "
     "allow_open package packages geometry purpose time animation mesh_hulls pose state "
     "joint_path sample seed root allow_outside",
-    "What to compute": "depth contacts components volume tolerances support never cross_check "
-    "certificate",
+    "What to compute": "depth contacts components volume never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
-    "angular_tolerance rules between baseline fail_on exit_zero pins dropping",
+    "angular_tolerance rules between baseline fail_on exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "

@@ -19,16 +19,6 @@ class Move(Value, frozen=True):
     length: Length
 
 
-class Drop(Value, frozen=True):
-    """A body that floated. length: how far it was moved along gravity. onto: the body that stopped
-    it, or one that it fell with; None: it still floats, and reason says why."""
-
-    body: str
-    length: Length
-    onto: str | None
-    reason: str | None = None
-
-
 class Left(Value, frozen=True):
     """An unresolved pair, and the reason. relation: of the bodies as placed, or the worst of the
     motion if the motion is the problem."""
@@ -40,9 +30,8 @@ class Left(Value, frozen=True):
 
 
 class ResolutionSummary(Value, frozen=True, kw_only=True):
-    """verdict: of the check of the moved scene. resolved: everything was checked, no pair fails,
-    and with --drop no body floats. incomplete: no pair is known to fail, but not everything could
-    be checked.
+    """verdict: of the check of the moved scene. resolved: everything was checked, and no pair
+    fails. incomplete: no pair is known to fail, but not everything could be checked.
 
     conflicts: pairs that did not pass a check before: they overlapped beyond what rules allow, were
     closer than their clearance (gaps), or met a hole that leaves open whether they overlap (open).
@@ -78,8 +67,7 @@ class ResolutionReport(Value, frozen=True, kw_only=True):
 
     units: as the scene declares them. output: the file that the moved scene was written to; `check`
     is about that file; None: no file was written. moves: in the order of the scene. pinned: bodies
-    that had to stay: static, or pinned. drops: the bodies that floated; empty without --drop. Their
-    falls are a part of the moves.
+    that had to stay: static, or pinned.
     """
 
     schema: Literal["satcheck.resolution/1"] = "satcheck.resolution/1"
@@ -88,7 +76,6 @@ class ResolutionReport(Value, frozen=True, kw_only=True):
     output: str | None
     summary: ResolutionSummary
     moves: tuple[Move, ...]
-    drops: tuple[Drop, ...]
     pinned: tuple[str, ...]
     left: tuple[Left, ...]
     check: MovedCheck

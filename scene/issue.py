@@ -47,7 +47,6 @@ _ALL = (
     Code("reference-cycle", "error", "Nodes or components refer to each other in a cycle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
     Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
-    Code("not-movable", "error", "The format has no place for the translation of this body."),
     Code("unknown-part", "error", "The file has no part of this name."),
     Code("missing-extra", "error", "The library that reads the format is not installed."),
     Code("entity-declaration", "error", "XML entity declarations are refused."),

@@ -21,7 +21,7 @@ from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 from satcheck.scene.motion import Motion, PosePath, Rotation
-from satcheck.scene.path_kind import is_file
+from satcheck.scene.path_kind import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector
 from satcheck.scene.scene_builder import SceneBuilder
 from satcheck.scene.units import unit_in
@@ -80,11 +80,21 @@ def left_out_of(scene: Scene) -> list[str]:
     return [body.id for body in scene.unreadable if not _has_file(body)]
 
 
+def stray_mesh(output: Path, scene: Scene) -> str | None:
+    """A mesh file outside of the folder of `output`, if reading the new scene would then need
+    `--allow-outside`; None: there is none."""
+    folder = followed(output.absolute().parent)
+    meshes = (body.file.path for body in scene.bodies if body.shape is None)
+    return next((mesh for mesh in meshes if not followed(Path(mesh)).is_relative_to(folder)), None)
+
+
 def path_from(output: Path, target: Path) -> str:
-    """The path of `target` relative to the folder of `output`; absolute paths stay absolute."""
-    if target.is_absolute():
+    """The path of `target` relative to the folder of `output`; absolute paths elsewhere stay
+    absolute."""
+    folder = output.absolute().parent
+    if target.is_absolute() and not target.is_relative_to(folder):
         return target.as_posix()
-    return Path(os.path.relpath(target.absolute(), output.absolute().parent)).as_posix()
+    return Path(os.path.relpath(target.absolute(), folder)).as_posix()
 
 
 def _has_file(body: Unreadable) -> bool:

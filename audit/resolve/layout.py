@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
@@ -21,7 +19,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
-from satcheck.audit.vectors import added, dot, scaled
+from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
 
@@ -29,12 +27,9 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Body, Scene
 
-# The relative width of the depth interval if there are many overlaps. A way out that is a few per
-# cent too long is shortened later.
-WAY_OUT_WIDTH = 0.25
-WAY_OUT_BUDGET = 0.006
-# Seconds of a slow machine that the ways out of few overlaps may take together.
-CAREFUL_BUDGET = 4.0
+# Seconds of a slow machine that all ways out of a round may take together, and the least for one.
+ROUND_BUDGET = 4.0
+LEAST_BUDGET = 0.006
 
 
 class Layout:
@@ -42,8 +37,7 @@ class Layout:
     order of the scene does not matter.
 
     home: bodies as the scene places them. placed: bodies now, moved by `offsets`. movable: the
-    bodies that may be moved. settings: for the ways out. careful: few bodies overlap, so each gets
-    more time.
+    bodies that may be moved.
     """
 
     def __init__(
@@ -55,13 +49,11 @@ class Layout:
     ) -> None:
         """meter: needed where rules limit the volume of overlaps."""
         # The verdicts of a check, and a way out for every overlap.
-        self._own, self._meter = settings, meter
+        self._meter = meter
         self.settings = replace(
             settings,
             depth=True,
             thickness=False,
-            depth_width=WAY_OUT_WIDTH,
-            depth_budget=WAY_OUT_BUDGET,
             contacts=False,
             components=False,
             volume=False,
@@ -77,16 +69,9 @@ class Layout:
         self.offsets = [ORIGIN] * len(self.home)
         self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, PairState]] = {}
-        self.careful = False
-        self.settle()
-
-    def look_closely(self, overlaps: int) -> None:
-        """From now on ways out are as short as those of a check, within the budget for this number
-        of overlaps. Known ways out are computed again."""
-        own, self.careful = self._own, True
-        budget = min(own.depth_budget, CAREFUL_BUDGET / max(overlaps, 1))
-        self.settings = replace(self.settings, depth_width=own.depth_width, depth_budget=budget)
-        self._known = {pair: state for pair, state in self._known.items() if state[2].push is None}
+        share = max(LEAST_BUDGET, ROUND_BUDGET / max(len(self.close_pairs()), 1))
+        budget = min(self.settings.depth_budget, share)
+        self.settings = replace(self.settings, depth_budget=budget)
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""
@@ -100,20 +85,6 @@ class Layout:
                     else PlacedBody(translated(home.body, offset), home.shared)
                 )
 
-    def settle(self) -> None:
-        """Keeps the known states for `restart`."""
-        self._start = dict(self._known), set(self._excused)
-
-    def restart(self) -> None:
-        """Moves all bodies home."""
-        self.placed, self.offsets = list(self.home), [ORIGIN] * len(self.home)
-        self._known, self._excused = dict(self._start[0]), set(self._start[1])
-
-    def squares(self, bodies: Iterable[int] | None = None) -> float:
-        """The sum of the squared lengths of the translations of these bodies, by default of all."""
-        chosen = self.offsets if bodies is None else [self.offsets[i] for i in bodies]
-        return math.fsum(dot(offset, offset) for offset in chosen)
-
     def offset(self, pair: BodyPair) -> Vector:
         """t_a - t_b."""
         return added(self.offsets[pair[0]], scaled(self.offsets[pair[1]], -1.0))
@@ -123,18 +94,8 @@ class Layout:
         request = replace(self._planner.request(*self._members(pair)), tolerance=0.0)
         return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, request, self._meter)
 
-    def pair_after(self, pair: BodyPair, step: Vector) -> Pair:
-        """The same pair with the first body moved further by `step`."""
-        a, b = self.placed[pair[0]], self.placed[pair[1]]
-        moved = PlacedBody(translated(a.body, step), a.shared)
-        return Pair(moved, b, self.settings, self.pair(pair).request, self._meter)
-
     def clearance(self, pair: BodyPair) -> float:
         return self._planner.request(*self._members(pair)).clearance or 0.0
-
-    def is_limited(self, pair: BodyPair) -> bool:
-        """Whether the bodies may overlap, within limits."""
-        return self._planner.request(*self._members(pair)).limited
 
     def is_checked(self, pair: BodyPair) -> bool:
         return self._bodies.book.is_checked(*self._members(pair))
@@ -144,13 +105,13 @@ class Layout:
         i, j = sorted(self._index[body] for body in pair)
         return i, j
 
-    def close_pairs(self, boxes: Sequence[Box] | None = None) -> list[BodyPair]:
-        """Checked pairs whose boxes (by default those of the bodies) are close enough to matter."""
-        around = boxes or [body.bounds for body in self.placed]
+    def close_pairs(self) -> list[BodyPair]:
+        """Checked pairs whose boxes are close enough to matter."""
         reach = self._planner.reach(
             {index: body.resolution for index, body in zip(self._index, self.placed, strict=True)}
         )
-        close = core.close_pairs(around, reach, [0] * len(around))
+        boxes = [body.bounds for body in self.placed]
+        close = core.close_pairs(boxes, reach, [0] * len(boxes))
         return [pair for pair in close if self.is_checked(pair)]
 
     def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:

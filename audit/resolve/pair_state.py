@@ -11,10 +11,8 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.settings import FailOn
-from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import fails
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
@@ -76,29 +74,6 @@ def may_overlap(pair: Pair) -> float:
 def is_overlap_excused(finding: Finding) -> bool:
     """Whether a finding that no check fails on is an overlap, or may be one."""
     return finding.exact_relation in OVERLAPS or finding.undecided is not None
-
-
-def separation(pair: Pair) -> tuple[Vector, float] | None:
-    """The unit direction from B to A, and the gap along it; None: unknown.
-
-    If the hulls are apart, it is the normal of a separating plane, and valid for all translations.
-    For other bodies it is the direction between their nearest points, and valid for small
-    translations only. For an overlap within limits it is the way out, and the gap is the negative
-    depth.
-    """
-    distance = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-    if distance.outcome in ("separated", "touching") and distance.normal is not None:
-        return scaled(distance.normal, -1.0), max(distance.lower or 0.0, 0.0)
-    if pair.request.limited:
-        way = examine(pair, Trace()).finding.mtv
-        if way is not None and any(way):
-            return unit(way), -math.hypot(*way)
-    near = core.mesh_distance(pair.a.surface(), pair.b.surface())
-    (ax, ay, az), (bx, by, bz) = near.witness_a, near.witness_b
-    step = (ax - bx, ay - by, az - bz)
-    if near.distance == 0 or not any(step) or not all(map(math.isfinite, step)):
-        return None
-    return unit(step), near.distance
 
 
 def parting_step(pair: Pair, length: float) -> Vector | None:

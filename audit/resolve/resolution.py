@@ -12,7 +12,6 @@ from satcheck.audit.resolve.pair_state import is_objected
 from satcheck.audit.resolve.walls import BodyPair
 from satcheck.report.report import OVERLAPS, Finding, Report
 from satcheck.report.resolution import (
-    Drop,
     Left,
     Move,
     MovedCheck,
@@ -38,7 +37,7 @@ class Resolution(Struct, frozen=True):
     overlaps, gaps: pairs of the unmoved scene that fail a check, because they overlap more than
     rules allow, or are closer than their clearance. open: pairs that may overlap because of a hole.
     rounds: how often bodies were pushed. left: unresolved pairs. report: of the check of the moved
-    scene. drops: what happened to floating bodies, if these were to be dropped.
+    scene.
     """
 
     moves: tuple[Move, ...]
@@ -49,16 +48,10 @@ class Resolution(Struct, frozen=True):
     rounds: int
     left: tuple[Left, ...]
     report: Report
-    drops: tuple[Drop, ...] = ()
 
     @property
     def verdict(self) -> ResolutionVerdict:
-        return "unresolved" if self.floating else _VERDICTS[self.report.summary.verdict]
-
-    @property
-    def floating(self) -> tuple[Drop, ...]:
-        """Bodies that were to be dropped, and still float."""
-        return tuple(drop for drop in self.drops if drop.onto is None)
+        return _VERDICTS[self.report.summary.verdict]
 
     @property
     def conflicts(self) -> int:
@@ -95,7 +88,6 @@ class Resolution(Struct, frozen=True):
             output=output,
             summary=self._summary(),
             moves=self.moves,
-            drops=self.drops,
             pinned=self.pinned,
             left=self.left,
             check=MovedCheck(

@@ -12,25 +12,16 @@ from msgspec.structs import replace
 from satcheck.audit.check import check, volume_meter
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.resolve.layout import Layout, translated
-from satcheck.audit.resolve.plain_numbers import write_plainly
-from satcheck.audit.resolve.pull_back import pull_back
 from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
-from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
-from satcheck.audit.vectors import added
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.report.resolution import Drop, Move
+from satcheck.report.resolution import Move
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 
 ITERATIONS = 50
-
-# Both kinds of rounds are tried for up to this many overlaps. The second result has to be better by
-# more than this share.
-FEW = 64
-TIE = 1e-9
 
 
 def resolve(
@@ -40,20 +31,18 @@ def resolve(
     pins: Sequence[str] = (),
     max_motion: float | None = None,
     iterations: int = ITERATIONS,
-    dropping: bool = False,
     progress: Progress | None = None,
 ) -> Resolution:
     """Translations, without rotation, that end every overlap of a scene that can be ended.
 
     `check` with these settings decides what an overlap is: a pair that the scene allows or ignores
     stays, and an overlap within the touch band is a touch. A pair closer than its clearance is
-    pushed apart. A body that is moved ends free of all others, without any touch band. The sum of
-    the squared lengths of the translations is small, not least.
+    pushed apart. A body that is moved ends free of all others, without any touch band. The
+    translations are short, not the shortest.
 
     pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
     links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
-    after which bodies are taken out to free places. dropping: bodies that float then fall along
-    gravity until they lie on something. progress(done, total) counts pairs.
+    after which bodies are taken out to free places. progress(done, total) counts pairs.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
@@ -66,28 +55,12 @@ def resolve(
         meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None
         layout = Layout(scene, settings, staying, meter)
         before = layout.states(layout.close_pairs())
-        overlaps = [pair for pair, state in before.items() if state.kind in ("overlap", "near")]
         kinds = Counter(state.kind for state in before.values())
-        few = len(overlaps) <= FEW
-        if few:
-            layout.look_closely(kinds["overlap"])
-            layout.states(layout.close_pairs())
-        layout.settle()
         longest = max_motion or math.inf
-        rounds = _shortest(layout, few, longest, iterations, progress)
-        if few and not rounds.left:
-            retry(layout, overlaps, longest, iterations)
-        if few:
-            write_plainly(layout, rounds.left, longest)
+        rounds = Rounds(layout, longest)
+        rounds.run(iterations, progress)
         why = reasons(layout, staying, _links(scene), rounds.left)
     translations = _translations(layout)
-    drops: list[Drop] = []
-    if dropping:
-        from satcheck.audit.resolve.drop import drop
-
-        falls, drops = drop(moved_scene(scene, translations), settings, staying, longest)
-        for body, fall in falls.items():
-            translations[body] = added(translations.get(body, ORIGIN), fall)
     moves = _moves(scene, translations)
     report = check(moved_scene(scene, translations), proof_of(settings))
     return Resolution(
@@ -99,7 +72,6 @@ def resolve(
         rounds=rounds.count,
         left=tuple(left_pairs(report, why)),
         report=report,
-        drops=tuple(drops),
     )
 
 
@@ -108,25 +80,6 @@ def _require_limits(max_motion: float | None, iterations: int) -> None:
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
-
-
-def _shortest(
-    layout: Layout, both: bool, longest: float, iterations: int, progress: Progress | None
-) -> Rounds:
-    """Rounds of one kind, or the better of both kinds; the bodies are where these left them."""
-    best: tuple[tuple[int, float], Rounds, list[Vector]] | None = None
-    for deepest_first in (False, True) if both else (False,):
-        layout.restart()
-        rounds = Rounds(layout, longest, deepest_first=deepest_first)
-        rounds.run(iterations, progress)
-        pull_back(layout, rounds.left, longest)
-        squares = layout.squares()
-        key = (len(rounds.left), squares * (1 + TIE) if deepest_first else squares)
-        if best is None or key < best[0]:
-            best = key, rounds, list(layout.offsets)
-    assert best is not None
-    layout.move(dict(enumerate(best[2])))
-    return best[1]
 
 
 def _limits_volume(scene: Scene) -> bool:

@@ -16,7 +16,7 @@ ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Shares of the longest way that a wall requires. MISSED: a wall that is missed by less does not
 # contradict others. NOISE: rounding of a translation.
 MISSED = 1e-3
-NOISE = 1e-13
+NOISE = 1e-11
 
 
 class Wall(Struct):

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
@@ -33,15 +32,10 @@ from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.input_kind import kind_of
+from satcheck.scene.input_kind import SCENE_SUFFIXES, kind_of
 from satcheck.scene.loader import is_rules
-from satcheck.scene.loading.reading_children import ReadingChildren
-from satcheck.scene.moved import WRITTEN_BACK, written_back
-from satcheck.scene.moved.scene_file import stray_mesh
-from satcheck.scene.new_scene_file import left_out_of, new_scene_file
+from satcheck.scene.new_scene_file import left_out_of, new_scene_file, stray_mesh
 from satcheck.scene.units import Length
-
-SCENE_SUFFIXES = frozenset({".json", ".toml"})
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
@@ -50,7 +44,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
     "--scene-out",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Write the moved scene to FILE. [default: show the moves only]",
+    help="Write the moved scene as a scene file, .toml or .json. [default: show the moves only]",
 )
 @click.option(
     "--pin",
@@ -74,12 +68,6 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
     show_default=True,
     help="Rounds of pushing. Bodies that still overlap then move to a free place.",
 )
-@click.option(
-    "--drop",
-    "dropping",
-    is_flag=True,
-    help="Then let bodies that float fall, along gravity, until they lie on something.",
-)
 @open_option
 @jobs_option
 @form_option
@@ -94,7 +82,6 @@ def command(
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
-    dropping: bool,
     **options: Any,
 ) -> int:
     """Move the bodies of a scene apart, by short translations.
@@ -104,9 +91,8 @@ def command(
     with a small sum of squared lengths. The moved scene is checked again (with --scene-out the file
     that was written), and what still overlaps is reported.
 
-    Exit codes: 0, no pair overlaps any more; 1, a pair does, or with --drop a body floats; 2, wrong
-    usage, an unreadable input, or an internal error; 3, nothing is known to overlap, but not
-    everything could be checked.
+    Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable input,
+    or an internal error; 3, nothing is known to overlap, but not everything could be checked.
     """
     inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
@@ -115,10 +101,11 @@ def command(
         )
     form = form_of(form, output)
     refuse_early(inputs, output)
-    target = _target(inputs, scene_out, output)
+    if scene_out is not None:
+        _refuse_output(inputs, scene_out, output)
     document = Document()
     scene = _posed(load(inputs), inputs)
-    stray = _stray(target, scene, allow_outside=inputs.allow_outside)
+    stray = scene_out and _stray(scene_out, scene, allow_outside=inputs.allow_outside)
     settings = settings_of({**options, **inputs.limits}, scene)
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
@@ -131,71 +118,39 @@ def command(
             pins=pins,
             max_motion=farthest,
             iterations=iterations,
-            dropping=dropping,
             progress=bar,
         )
     if scene_out is not None:
-        _write_moved(scene_out, target, scene, result, inputs)
-        result = replace(result, report=_checked(scene_out, target, settings, inputs))
+        moves = {move.body: move.translation for move in result.moves}
+        files = inputs.mesh_files(scene.reading)
+        write_file(scene_out, new_scene_file(scene_out, scene, files, moves))
+        result = replace(result, report=_checked(scene_out, settings, inputs))
     document.deliver(
         lambda page: _render(result, form, page, scene_out), output, utf8=form == "json"
     )
-    if stray is not None:
+    if stray:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
-    verdict = "fail" if result.floating else result.report.summary.verdict
-    return exit_codes.for_verdict(verdict, result.report.issues, exit_zero=False)
+    if scene_out is not None and scene.robots:
+        talk(f"note: {scene_out} has no joints: the bodies stand where they were moved")
+    report = result.report
+    return exit_codes.for_verdict(report.summary.verdict, report.issues, exit_zero=False)
 
 
-class _Target(Struct, frozen=True):
-    """Where the moved scene goes, and what it is made from.
-
-    path: None: it is not written. rules: inputs beside others that state rules alone. source: the
-    file that is written back, where it is all that was given, but for rules; None: the scene file
-    is new.
-    """
-
-    path: Path | None
-    rules: tuple[str, ...]
-    source: str | None
-
-    @property
-    def scene(self) -> str | None:
-        """The scene file that is written back."""
-        source = self.source
-        return source if source and Path(source).suffix.lower() in SCENE_SUFFIXES else None
-
-
-def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
+def _refuse_output(inputs: Inputs, moved: Path, output: Path | None) -> None:
     """What cannot be written is said before any work is done."""
-    if moved is not None:
-        refuse_early(inputs, moved, option="--scene-out")
-        if output is not None and output.absolute() == moved.absolute():
-            raise click.UsageError("--scene-out and -o name the same file")
-    rules = tuple(filter(is_rules, inputs.paths)) if len(inputs.paths) > 1 else ()
-    bodies = [path for path in inputs.paths if path not in rules]
-    if moved is None:
-        return _Target(moved, rules, None)
-    ending = moved.suffix.lower()
-    own = WRITTEN_BACK.get(Path(bodies[0]).suffix.lower(), frozenset())
-    back = len(bodies) == 1 and ending in own
-    if back and inputs.has_poses and kind_of(bodies[0]) == "document":
+    refuse_early(inputs, moved, option="--scene-out")
+    if output is not None and output.absolute() == moved.absolute():
+        raise click.UsageError("--scene-out and -o name the same file")
+    if moved.suffix.lower() not in SCENE_SUFFIXES:
         raise click.UsageError(
-            f"--scene-out {moved}: a pose cannot be written back: write a scene file (.toml)"
+            f"--scene-out {moved}: the moved scene is written as a .toml or .json file"
         )
-    is_scene = len(bodies) == 1 and kind_of(bodies[0]) == "scene"
-    if not is_scene and not all(kind_of(path) in ("mesh", "document") for path in bodies):
+    bodies = [path for path in inputs.paths if len(inputs.paths) == 1 or not is_rules(path)]
+    kinds = {kind_of(path) for path in bodies}
+    if not (kinds <= {"mesh", "document"} or (kinds == {"scene"} and len(bodies) == 1)):
         raise click.UsageError(
             "--scene-out needs one scene file, or mesh files alone: links of robots are not moved"
         )
-    wanted = own if is_scene else SCENE_SUFFIXES | (own if len(bodies) == 1 else frozenset())
-    if ending not in wanted:
-        known = " or ".join(sorted(wanted))
-        raise click.UsageError(f"--scene-out {moved}: this scene is written as a {known} file")
-    if back and not is_scene and moved.absolute().parent != Path(bodies[0]).absolute().parent:
-        raise click.UsageError(
-            f"--scene-out {moved}: write it beside {bodies[0]}, which may refer to files there"
-        )
-    return _Target(moved, rules, bodies[0] if back else None)
 
 
 def _posed(scene: Scene, inputs: Inputs) -> Scene:
@@ -204,44 +159,28 @@ def _posed(scene: Scene, inputs: Inputs) -> Scene:
     return posed_once(scene, inputs, "resolve takes one pose, which places the links")
 
 
-def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
-    """A mesh outside of the folder of the file to write, which names it; UsageError unless
-    allow_outside. Raises ClickException if a new scene file cannot state each body."""
-    if target.path is None or (target.source is not None and target.scene is None):
-        return None
-    if target.source is None and (lost := left_out_of(scene)):
-        raise click.ClickException(
-            f"--scene-out {target.path}: it would lack {', '.join(lost)}, which could not be read"
+def _stray(output: Path, scene: Scene, *, allow_outside: bool) -> str | None:
+    """A mesh outside of the folder of the scene file to write, which names it; UsageError unless
+    allow_outside, and for a body that the file cannot state."""
+    for body in left_out_of(scene):
+        raise click.UsageError(
+            f"--scene-out {output}: {body} could not be read, and a scene file cannot state it"
         )
-    stray = stray_mesh(target.scene, target.path, scene)
+    stray = stray_mesh(output, scene)
     if stray is not None and not allow_outside:
         raise click.UsageError(
-            f"--scene-out {target.path}: {stray} lies outside of its folder: write it into a "
+            f"--scene-out {output}: {stray} lies outside of its folder: write it into a "
             "folder that contains the meshes, or add --allow-outside"
         )
     return stray
 
 
-def _write_moved(
-    path: Path, target: _Target, scene: Scene, result: Resolution, inputs: Inputs
-) -> None:
-    translations = {move.body: move.translation for move in result.moves}
-    if target.source is None:
-        write_file(
-            path, new_scene_file(path, scene, inputs.mesh_files(scene.reading), translations)
-        )
-        return
-    children, seconds = ReadingChildren(inputs.megabytes_per_file), inputs.seconds_per_file
-    content = written_back(path, target.source, scene, translations, children, seconds=seconds)
-    write_file(path, content)
-
-
-def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) -> Report:
-    """The file as anybody would check it, beside the rules given; errors of reading are told. What
-    cannot be read is not left behind."""
+def _checked(path: Path, settings: Settings, inputs: Inputs) -> Report:
+    """The file as anybody would check it; errors of reading are told. What cannot be read is not
+    left behind."""
     try:
         scene = load_scene(
-            [str(path), *target.rules],
+            [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
             reading=inputs.reading,

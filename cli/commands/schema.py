@@ -19,7 +19,6 @@ DOCUMENTS = (
     "samples",
     "scene",
     "suggestions",
-    "surface-tolerances",
     "tradeoff",
     "verification",
 )
@@ -32,6 +31,6 @@ def command(document: str) -> None:
 
     report describes a check, assets many of them, samples a robot in many poses, config the options
     in satcheck.toml, result a line of the results of batch, resolution the result of resolve,
-    suggestions and surface-tolerances those of suggest, verification that of verify.
+    suggestions that of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

@@ -40,8 +40,6 @@ from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
 
 FORMATS = ("toml", "json", "srdf")
-# Names of files that hold rules.
-_RULES = (".toml", ".srdf")
 
 
 def _form_of(output: Path | None) -> str:
@@ -63,18 +61,6 @@ def _form_of(output: Path | None) -> str:
     help="toml: rules for a scene; json: data; srdf: disable_collisions for a robot. "
     "[default: as the name after -o ends; else toml]",
 )
-@click.option(
-    "--surface-tolerance",
-    "tolerances",
-    is_flag=True,
-    help="Suggest a surface tolerance instead: how far facets are off the curves that they stand "
-    "for, measured on the meshes, with the evidence.",
-)
-@click.option(
-    "--support",
-    is_flag=True,
-    help="Suggest fixed bodies instead, and rules that ask whether the others are supported.",
-)
 @output_option
 @planar_option
 @split_option
@@ -90,8 +76,6 @@ def command(
     form: str | None,
     output: Path | None,
     never: bool,
-    tolerances: bool,
-    support: bool,
     **options: Any,
 ) -> int:
     """Suggest which pairs a scene may allow to overlap.
@@ -105,24 +89,6 @@ def command(
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
-    if support:
-        if (
-            never
-            or tolerances
-            or inputs.has_poses
-            or options["planar"]
-            or form not in (None, "toml")
-        ):
-            raise click.UsageError("--support is about bodies as they are placed, as TOML")
-        return _support(inputs, output)
-    if tolerances:
-        if never or inputs.has_poses or options["planar"] or form not in (None, "json"):
-            raise click.UsageError("--surface-tolerance is about meshes alone, as text or JSON")
-        if form is None and output is not None and output.suffix.lower() in _RULES:
-            raise click.UsageError(
-                f"{output}: --surface-tolerance writes text or JSON: name the file .txt or .json"
-            )
-        return _surface_tolerances(inputs, form, output)
     form = form or _form_of(output)
     refuse_early(inputs, output)
     document = Document()
@@ -148,35 +114,6 @@ def command(
     if errors:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
-
-
-def _surface_tolerances(inputs: Inputs, form: str | None, output: Path | None) -> int:
-    from satcheck.audit.suggest_surface_tolerances import surface_tolerances
-    from satcheck.cli.formats import surface_tolerances as words
-
-    refuse_early(inputs, output)
-    document = Document()
-    scene = load(inputs, hashed=False, least=1)
-    scene.require_in_space("it has no facets")
-    result = surface_tolerances(scene)
-    as_json = "json" in (form, _form_of(output))
-    text = json_document(result) if as_json else words.render(result)
-    document.deliver(lambda _: text, output, utf8=True)
-    talk(words.remark(result))
-    return exit_codes.ERROR if scene.unreadable else exit_codes.CLEAN
-
-
-def _support(inputs: Inputs, output: Path | None) -> int:
-    from satcheck.audit.suggest_support import suggest_support
-    from satcheck.cli.formats import suggested_support as words
-
-    refuse_early(inputs, output)
-    document = Document()
-    scene = load(inputs, hashed=False)
-    terms = suggest_support(scene, settings_of(inputs.limits, scene))
-    document.deliver(lambda _: words.toml(terms), output, utf8=True)
-    talk(words.remark(terms))
-    return exit_codes.ERROR if scene.unreadable else exit_codes.CLEAN
 
 
 def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestions:

@@ -12,7 +12,7 @@ from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import number, vector
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.verdict import verdict_line
-from satcheck.cli.formats.words import counted, with_unit
+from satcheck.cli.formats.words import counted
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
-    from satcheck.report.resolution import Drop, Left, Move
+    from satcheck.report.resolution import Left, Move
 
 # More rows than this, and the longest moves are shown.
 ROWS = 60
@@ -36,8 +36,6 @@ def render(resolution: Resolution, page: Page, output: str | None) -> str:
         console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
     for left in resolution.left:
         console.print(_left_line(left))
-    for drop in resolution.drops:
-        console.print(_drop_line(drop, resolution.report.units))
     console.print(_motion_line(resolution))
     if resolution.flush:
         console.print(
@@ -45,11 +43,7 @@ def render(resolution: Resolution, page: Page, output: str | None) -> str:
         )
     subject = "The moved scene" if output is None else output
     console.print(f"{subject}, checked again: {counts_line(resolution.report)}")
-    if resolution.floating and resolution.report.summary.verdict != "fail":
-        floating = counted(len(resolution.floating), "body still floats", "bodies still float")
-        console.print(f"FAIL: {floating}.")
-    else:
-        console.print(verdict_line(resolution.report))
+    console.print(verdict_line(resolution.report))
     return console.text()
 
 
@@ -68,14 +62,6 @@ def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
     for move in moves:
         table.add_row(move.body, vector(move.translation), number(move.length))
     return table
-
-
-def _drop_line(drop: Drop, units: str | None) -> str:
-    if drop.onto is None:
-        return f"{drop.body} still floats: {drop.reason}"
-    return (
-        f"{drop.body} falls by {with_unit(number(drop.length), unit_of(units))}, onto {drop.onto}"
-    )
 
 
 def _left_line(left: Left) -> str:
@@ -116,9 +102,7 @@ def _motion_line(resolution: Resolution) -> str:
     if not resolution.conflicts:
         motions = resolution.report.motions
         where = "as the bodies are placed" if motions else "beyond what is allowed"
-        moved = counted(len(resolution.moves), "body falls", "bodies fall")
-        did = moved if resolution.moves else "nothing was moved"
-        return f"Nothing overlaps {where}: {did}.{stays}"
+        return f"Nothing overlaps {where}: nothing was moved.{stays}"
     conflicts = _conflicts(resolution)
     total, largest = number(resolution.total_motion), number(resolution.largest_motion)
     if not resolution.moves:

@@ -16,7 +16,6 @@ from satcheck.report.resolution import ResolutionReport
 from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
 from satcheck.report.suggestions import SuggestionsReport
-from satcheck.report.surface_tolerances import SurfaceTolerancesReport
 from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
@@ -29,7 +28,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "result": Result,
     "samples": SamplesReport,
     "suggestions": SuggestionsReport,
-    "surface-tolerances": SurfaceTolerancesReport,
     "verification": VerificationReport,
 }
 SCENE = HERE.parents[1] / "scene" / "format"
@@ -37,7 +35,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
-    `resolution`, `result`, `samples`, `suggestions`, `surface-tolerances`, `tradeoff`,
+    `resolution`, `result`, `samples`, `suggestions`, `tradeoff`,
     `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")

@@ -1,6 +1,6 @@
-"""Finds where values stand in the text of a document.
+"""Finds the lines of values in the text of a document.
 
-Only errors and edits need this. tree-sitter builds the syntax trees, and only for text that
+Only errors need this. tree-sitter builds the syntax trees, and only for text that
 `tomllib` or `json` has accepted.
 """
 
@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 import numpy as np
 import tree_sitter_json
 import tree_sitter_toml
-from msgspec import Struct
 from tree_sitter import Language, Node, Parser
 
 Key = str | int
@@ -23,25 +22,12 @@ Keys = tuple[Key, ...]
 _TABLES = frozenset({"object", "inline_table", "table", "table_array_element"})
 
 
-class Place(Struct, frozen=True):
-    """Offsets in the text: the start of the key (in a list, of the item), and the extent of the
-    value.
-
-    A TOML table with a header has the header as its key and an empty value.
-    """
-
-    key: int
-    start: int
-    end: int
-
-
 @dataclass(slots=True)
 class _Value:
-    """Offsets in bytes. unread: nodes whose members are not in `members` yet."""
+    """key: the offset in bytes of the key (in a list, of the item; of a TOML table with a header,
+    the header). unread: nodes whose members are not in `members` yet."""
 
     key: int
-    start: int
-    end: int
     unread: list[Node] = field(default_factory=list)
     members: dict[Key, _Value] = field(default_factory=dict)
 
@@ -61,25 +47,23 @@ class _Value:
     def add(self, names: list[str], value: _Value) -> None:
         owner = self
         for name in names[:-1]:
-            owner = owner.members.setdefault(name, _Value(value.key, value.key, value.key))
+            owner = owner.members.setdefault(name, _Value(value.key))
         owner.members[names[-1]] = value
 
     def table(self, name: str, header: int) -> _Value:
         """The table of a header; of an array of tables, the last one."""
-        value = self.members.setdefault(name, _Value(header, header, header))
+        value = self.members.setdefault(name, _Value(header))
         return value.members[len(value.members) - 1] if 0 in value.members else value
 
 
 class Positions:
-    """Places of values. A lookup parses only the nodes on the way to the value."""
+    """Lines of values. A lookup parses only the nodes on the way to the value."""
 
     def __init__(self, text: str, *, toml: bool) -> None:
         data = text.encode()
         grammar = tree_sitter_toml if toml else tree_sitter_json
         document = Parser(Language(grammar.language())).parse(data).root_node
-        starts = (np.frombuffer(data, np.uint8) & 0xC0) != 0x80  # of characters in UTF-8
         self._line_ends = np.flatnonzero(np.frombuffer(data, np.uint8) == ord("\n"))
-        self._characters = np.cumsum([0, *starts]) if not text.isascii() else None
         self._document = document
         self._root = _toml_root(document) if toml else _value(0, _values(document)[0])
 
@@ -92,16 +76,6 @@ class Positions:
                 break
             value = inner
         return int(np.searchsorted(self._line_ends, value.key)) + 1
-
-    def place(self, keys: Keys) -> Place:
-        """Raises KeyError if there is no such value."""
-        value = self._root
-        for key in keys:
-            inner = value.member(key)
-            if inner is None:
-                raise KeyError(keys)
-            value = inner
-        return Place(self._offset(value.key), self._offset(value.start), self._offset(value.end))
 
     def duplicates(self) -> Iterator[Keys]:
         """The keys of each member that occurs twice in an object of a JSON document."""
@@ -117,12 +91,9 @@ class Positions:
                 seen.add(name)
                 to_visit.append(((*keys, name), value))
 
-    def _offset(self, byte: int) -> int:
-        return byte if self._characters is None else int(self._characters[byte])
-
 
 def _toml_root(document: Node) -> _Value:
-    root = _Value(0, 0, 0, [document])
+    root = _Value(0, [document])
     for names, pair, value in _pairs(document):
         root.add(names, _value(pair.start_byte, value))
     for node in document.named_children:
@@ -133,15 +104,15 @@ def _toml_root(document: Node) -> _Value:
         for name in above:
             owner = owner.table(name, header)
         if node.type == "table_array_element":
-            tables = owner.members.setdefault(last, _Value(header, header, header)).members
-            tables[len(tables)] = _Value(header, header, header, [node])
+            tables = owner.members.setdefault(last, _Value(header)).members
+            tables[len(tables)] = _Value(header, [node])
         else:
             owner.table(last, header).unread.append(node)
     return root
 
 
 def _value(key: int, node: Node) -> _Value:
-    return _Value(key, node.start_byte, node.end_byte, [node])
+    return _Value(key, [node])
 
 
 def _values(node: Node) -> list[Node]:

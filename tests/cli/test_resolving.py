@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import shutil
 import tomllib
@@ -152,6 +151,7 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         ((*PUSHED, "--scene-out", "moved.obj"), ".json"),
         ((*PUSHED, "workcell.json", "--scene-out", "moved.json"), "mesh files alone"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
+        (("arm.urdf", "arm.srdf", "--scene-out", "moved.toml"), "links of robots are not moved"),
         (("workcell.json", "--scene-out", "workcell.json"), "overwrite an input"),
         (("workcell.json", "--scene-out", "nowhere/moved.json"), "does not exist"),
     ],
@@ -162,24 +162,48 @@ def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
     assert said in ran.err
 
 
-def test_a_scene_in_toml_keeps_its_comments_and_its_pins(tmp_path: Path) -> None:
+def test_the_new_scene_keeps_what_the_scene_states(tmp_path: Path) -> None:
     (tmp_path / "box.obj").write_text(BOX)
-    text = """\
-schema = "satcheck.scene/1"  # two boxes
-[[bodies]]
-id = "a"
-mesh = "box.obj"
-pinned = true
-[[bodies]]
-id = "b"
-mesh = "box.obj"
-position = [0.75, 0.0, 0.0]  # too close
-"""
-    scene, moved = tmp_path / "scene.toml", tmp_path / "moved.toml"
-    scene.write_text(text)
-    ran = satcheck("resolve", str(scene), "--scene-out", str(moved))
-    assert ran.code == 0, ran.err
-    assert moved.read_text() == text.replace("0.75", "1.0")
+    (tmp_path / "lost.obj").write_text("no mesh\n")
+    scene, moved = tmp_path / "scene.toml", tmp_path / "elsewhere" / "moved.toml"
+    moved.parent.mkdir()
+    scene.write_text("""\
+schema = "satcheck.scene/1"
+units = "mm"
+ignore_within_groups = ["steel"]
+statics = { gravity = [0, 0, -9.81], friction = 0.25, tolerance = 0.5 }
+bodies = [
+    {id = "a", mesh = "box.obj", pinned = true, groups = ["steel"]},
+    {id = "b", mesh = "box.obj", position = [0.75, 0, 0]},
+    {id = "c", mesh = "box.obj", position = [0, 0.5, 0], static = true, groups = ["steel"]},
+    {id = "lost", mesh = "lost.obj"},
+]
+rules = [
+    {a = "b", b = "c", allowed = true, reason = "a press fit"},
+    {bodies = "b", supported = true, reason = "it stands"},
+]
+motion = [{bodies = "b", translation = [5, 0, 0]}]
+""")
+    arguments = ("resolve", "scene.toml", "--scene-out", "elsewhere/moved.toml", "--allow-outside")
+    ran = satcheck(*arguments, cwd=tmp_path)
+    assert ran.code == 2, ran.err  # a body is unreadable, as in the source
+    before, after = (tomllib.loads(path.read_text()) for path in (scene, moved))
+    for entry in before["bodies"]:
+        entry["mesh"] = f"../{entry['mesh']}"
+    before["bodies"][1]["position"] = [1.0, 0, 0]
+    before["motion"][0]["bodies"] = ["b"]
+    assert after == before
+
+
+def test_what_a_new_scene_cannot_state_is_refused(tmp_path: Path) -> None:
+    """Without the file that is missing the new scene would pass."""
+    for name in PUSHED:
+        shutil.copy(SAMPLES / name, tmp_path)
+    moved = tmp_path / "moved.json"
+    ran = satcheck("resolve", *PUSHED, "gone.obj", "--scene-out", str(moved), cwd=tmp_path)
+    assert ran.code == 2
+    assert "gone could not be read" in " ".join(ran.err.split())
+    assert not moved.exists()
 
 
 def test_overlaps_and_gaps_are_counted_apart(tmp_path: Path) -> None:
@@ -271,40 +295,24 @@ def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> No
     assert said in " ".join(ran.err.split())
 
 
-def test_a_usd_file_is_written_back_and_checked_again(tmp_path: Path) -> None:
-    source = tmp_path / "scene.usda"
+def test_the_parts_of_a_usd_file_become_a_scene(tmp_path: Path) -> None:
+    source, output = tmp_path / "scene.usda", tmp_path / "moved.toml"
     source.write_text(stage(cube("A"), cube("B", at(0.75))))
-    output = tmp_path / "moved.usda"
     ran = satcheck("resolve", str(source), "--scene-out", str(output))
     assert ran.code == 0, ran.err
     assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out
     assert satcheck(str(output)).code == 0
-    assert "xformOp:translate:resolved" in output.read_text()
+    refused = satcheck("resolve", str(source), "--scene-out", str(tmp_path / "moved.usda"))
+    assert refused.code == 2
+    assert "is written as a .toml or .json file" in " ".join(refused.err.split())
 
 
-def test_a_usd_file_is_written_beside_the_files_that_it_names(tmp_path: Path) -> None:
-    source = tmp_path / "scene.usda"
-    source.write_text(stage(cube("A"), cube("B", at(0.75))))
-    (tmp_path / "elsewhere").mkdir()
-    output = tmp_path / "elsewhere" / "moved.usda"
-    ran = satcheck("resolve", str(source), "--scene-out", str(output))
-    assert ran.code == 2
-    assert "write it beside" in ran.err
-    assert not output.exists()
-
-
-@pytest.mark.parametrize("ending", [".gltf", ".glb"])
-def test_a_gltf_file_is_written_back_and_checked_again(tmp_path: Path, ending: str) -> None:
-    source, output = tmp_path / f"scene{ending}", tmp_path / f"moved{ending}"
-    document, buffer = gltf_document()
+def test_the_nodes_of_a_gltf_file_become_a_scene(tmp_path: Path) -> None:
+    source, output = tmp_path / "scene.glb", tmp_path / "moved.toml"
+    document, _ = gltf_document()
     document["nodes"] = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "scale": [2, 2, 2]}]
     document["scenes"] = [{"nodes": [0, 1]}]
-    if ending == ".glb":
-        source.write_bytes(glb(document))
-    else:
-        data = base64.b64encode(buffer).decode()
-        document["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{data}"
-        source.write_text(json.dumps(document))
+    source.write_bytes(glb(document))
     ran = satcheck("resolve", str(source), "--scene-out", str(output))
     assert ran.code == 0, ran.err
     assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out

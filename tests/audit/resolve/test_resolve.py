@@ -92,7 +92,7 @@ def test_a_stack_on_the_floor_rises(tmp_path) -> None:
     assert not overlapping(after(scene, resolution))
     rises = [moves(resolution)[f"box{k}"] for k in range(3)]
     for k, way in enumerate(rises):
-        assert way == pytest.approx((0, 0, 0.25 * (k + 1)), abs=1e-12)
+        assert way == pytest.approx((0, 0, 0.25 * (k + 1)), abs=1e-9)
 
 
 def test_a_free_row_spreads_about_its_middle(tmp_path) -> None:
@@ -119,7 +119,7 @@ def test_a_row_too_long_for_its_place_sends_some_elsewhere(tmp_path) -> None:
     assert not overlapping(after(scene, resolution))
     assert not {"left", "right"} & set(moves(resolution))
     # One box gives way by its width, shared with a neighbour; the others close up.
-    assert 0.5 <= resolution.largest_motion <= 1
+    assert 0.5 <= resolution.largest_motion <= 1 + 1e-9
     assert resolution.total_motion <= 3
 
 

@@ -68,8 +68,7 @@ def test_pushing_others_keeps_an_overlap_within_its_limit(tmp_path) -> None:
     assert resolution.verdict == "resolved"
     ways = {"a": -1 / 3, "b": -5 / 6, "c": 7 / 6}
     for body, way in ways.items():
-        # Written with 9 digits, of which 2 are before the point.
-        assert moves(resolution)[body] == pytest.approx((way, 0, 0), abs=1e-7)
+        assert moves(resolution)[body] == pytest.approx((way, 0, 0), abs=1e-9)
 
 
 def test_an_overlap_beyond_its_limit_of_volume_ends(tmp_path) -> None:
