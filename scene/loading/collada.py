@@ -20,8 +20,14 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.collada_skin import Floats, morphed, skinned
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import instances
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
-from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
+from satcheck.scene.loading.raw_mesh import (
+    RawMesh,
+    RawNode,
+    RawPart,
+    RawScene,
+    fan_triangles,
+    strip_triangles,
+)
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
 Indices = NDArray[np.int64]

@@ -13,8 +13,13 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import NeedsChild, Work, extension, integer, items, member
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh
-from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
+from satcheck.scene.loading.raw_mesh import (
+    NO_SURFACE,
+    Block,
+    RawMesh,
+    fan_triangles,
+    strip_triangles,
+)
 
 DRACO = "KHR_draco_mesh_compression"
 

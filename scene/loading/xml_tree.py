@@ -169,13 +169,6 @@ class Element:
             yield element
             waiting.extend(reversed(element.children))
 
-    def words(self, text: str, multiple: int) -> list[str]:
-        """Numbers separated by commas or spaces. Their count has to be a multiple of `multiple`."""
-        words = text.replace(",", " ").split()
-        if len(words) % multiple:
-            self.refuse(f"{len(words)} numbers, not a multiple of {multiple}")
-        return words
-
     def floats(self, words: list[str]) -> list[float]:
         try:
             values = [float(word) for word in words]
@@ -183,16 +176,6 @@ class Element:
             self.refuse(str(error))
         if not all(map(math.isfinite, values)):
             self.refuse("a number that is not finite", "non-finite")
-        return values
-
-    def indices(self, text: str, count: int, multiple: int = 1) -> list[int]:
-        """Vertex numbers below `count`."""
-        words = self.words(text, multiple)
-        if not all(word.isdecimal() for word in words):
-            self.refuse("a vertex number that is not a whole number")
-        values = self._whole(words)
-        if values and max(values) >= count:
-            self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")
         return values
 
     def floats_of_text(self) -> list[float]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from ezdxf.filemanagement import new
 
-from tests.scene import files, graphs, test_gltf, test_threedxml, test_xaml, test_zae
+from tests.scene import files, graphs, test_gltf
 from tests.scene.format import scenes
 from tests.scene.robot import robots
 
@@ -169,9 +169,6 @@ _MAKERS: Mapping[str, list[Callable[[], bytes]]] = {
     "gltf": [_gltf],
     "3mf": [_threemf],
     "dae": [files.collada],
-    "zae": [lambda: test_zae.archive(cube_dae=files.collada())],
-    "3dxml": [test_threedxml.threedxml],
-    "xaml": [lambda: test_xaml.xaml(test_xaml.model())],
     "svg": [SVG.encode],
     "dxf": [_dxf],
     "json": [_scene, _shapes, _simple],
