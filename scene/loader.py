@@ -78,7 +78,7 @@ def load_scene(
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
     known: mesh files that stay in memory from scene to scene.
-    reading: options for formats that leave a choice, such as the time of an animation. A scene may
+    reading: options for formats that leave a choice, such as the time of a USD file. A scene may
     state those that are not given here.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest

@@ -166,6 +166,4 @@ def _read(request: Request) -> RawScene:
         binary=request.format == "glb",
         allow_outside=request.allow_outside,
         isolated=True,
-        time=request.options.time,
-        animation=request.options.animation,
     )

@@ -44,12 +44,7 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    """posed: the nodes stand as in an animation, not as the file stores them."""
-
-    def __init__(
-        self, document: dict[str, Any], accessors: Accessors, work: Work, *, posed: bool = False
-    ) -> None:
-        self._posed = posed
+    def __init__(self, document: dict[str, Any], accessors: Accessors, work: Work) -> None:
         self._meshes = items(document, "meshes")
         self._accessors = accessors
         self._work = work
@@ -122,15 +117,13 @@ class Meshes:
             triangles = self._triangles(primitive, mode, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
-            if not self._posed:
-                warnings["rest-shape"] = "morph targets have the weights that the file stores"
+            warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
         if skin is not None:
             from satcheck.scene.loading.gltf_shapes import skinned
 
-            if not self._posed:
-                warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
+            warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
             positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
 
