@@ -137,7 +137,6 @@ class Element:
     """tag and names of attributes: without namespaces. text: the whole text of the element."""
 
     tag: str
-    namespace: str
     attributes: dict[str, str]
     line: int
     children: list[Self] = field(default_factory=list)
@@ -178,9 +177,6 @@ class Element:
             self.refuse("a number that is not finite", "non-finite")
         return values
 
-    def floats_of_text(self) -> list[float]:
-        return self.floats(self.text.split())
-
     def counted_floats(self) -> NDArray[np.float64]:
         """The numbers in the element. Their count has to equal its `count`."""
         words, count = self.text.split(), self.integer("count")
@@ -189,10 +185,10 @@ class Element:
             self.refuse(message, "count-mismatch")
         return np.array(self.floats(words), np.float64)
 
-    def integers(self, least: int = 0) -> list[int]:
-        """The whole numbers in the element."""
+    def integers(self) -> list[int]:
+        """The whole numbers >= 0 in the element."""
         values = self._whole(self.text.split())
-        if values and min(values) < least:
+        if values and min(values) < 0:
             self.refuse(f"negative number {min(values)}", "index-out-of-range")
         return values
 
@@ -229,16 +225,15 @@ def read_elements(
 def parse_elements(
     parser: expat.XMLParserType,
     stream: IO[bytes],
-    make: Callable[[str, str, dict[str, str], int], E],
+    make: Callable[[str, dict[str, str], int], E],
 ) -> E:
-    """The outermost element. make: creates an element from tag, namespace, attributes and line."""
+    """The outermost element. make: creates an element from tag, attributes and line."""
     outermost: list[E] = []
     around: list[E] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        namespace, tag = split_name(name)
         plain = {split_name(key)[1]: value for key, value in attributes.items()}
-        element = make(tag, namespace, plain, parser.CurrentLineNumber)
+        element = make(split_name(name)[1], plain, parser.CurrentLineNumber)
         if len(around) >= MAX_DEPTH:
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
