@@ -1,7 +1,7 @@
-"""Findings as topics for coordination programs: BCF 2.1 and 3.0 (buildingSMART, BCF-XML).
+"""Findings as topics for coordination programs: BCF 3.0 (buildingSMART, BCF-XML).
 
 One topic for each group of findings, with a view of each pair. The order of XML elements is that of
-the schemas at tags v2.1 and v3.0 of buildingSMART/BCF-XML.
+the schemas at tag v3.0 of buildingSMART/BCF-XML.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.bcf.archive import archive
 from satcheck.cli.formats.bcf.markup import extensions, markup, project, version_file
-from satcheck.cli.formats.bcf.text import Version
 from satcheck.cli.formats.bcf.topics import topics_of
 from satcheck.cli.formats.bcf.viewpoint import Snapshots, visualization
 from satcheck.cli.formats.picture.data import require_drawable
@@ -20,20 +19,22 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 
-def render(report: Report, scene: Scene, version: Version) -> bytes:
+def render(report: Report, scene: Scene) -> bytes:
     """The zip archive."""
     require_drawable(scene)
     topics = topics_of(report, scene)
-    files = {"bcf.version": version_file(version), "project.bcfp": project(scene, version)}
-    if version == "3.0":
-        files["extensions.xml"] = extensions(topics)
+    files = {
+        "bcf.version": version_file(),
+        "project.bcfp": project(scene),
+        "extensions.xml": extensions(topics),
+    }
     snapshots = Snapshots(scene)
     for topic in topics:
         seen = {view.guid: snapshot for view in topic.views if (snapshot := snapshots.of(view))}
         views = [view for view in topic.views if view.guid in seen]
-        files[f"{topic.guid}/markup.bcf"] = markup(topic, views, version)
+        files[f"{topic.guid}/markup.bcf"] = markup(topic, views)
         for view in views:
             name = f"{topic.guid}/{view.guid}"
-            files[f"{name}.bcfv"] = visualization(view, seen[view.guid], version)
+            files[f"{name}.bcfv"] = visualization(view, seen[view.guid])
             files[f"{name}.png"] = seen[view.guid].image
     return archive(files)

@@ -12,4 +12,4 @@ if TYPE_CHECKING:
 
 
 def render(report: Report, scene: Scene) -> bytes:
-    return bcf.render(report, scene, "3.0")
+    return bcf.render(report, scene)
