@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline, known_findings
-from satcheck.cli.formats.bcf import render
+from satcheck.cli.formats.picture.bcf import render
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene, load_scene
 from tests.cli.process import PUSHED, SAMPLES, satcheck

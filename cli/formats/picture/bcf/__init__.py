@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.bcf.archive import archive
-from satcheck.cli.formats.bcf.markup import extensions, markup, project, version_file
-from satcheck.cli.formats.bcf.topics import topics_of
-from satcheck.cli.formats.bcf.viewpoint import Snapshots, visualization
+from satcheck.cli.formats.picture.bcf.archive import archive
+from satcheck.cli.formats.picture.bcf.markup import extensions, markup, project, version_file
+from satcheck.cli.formats.picture.bcf.topics import topics_of
+from satcheck.cli.formats.picture.bcf.viewpoint import Snapshots, visualization
 from satcheck.cli.formats.picture.data import require_drawable
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.cli.formats.bcf.text import below, document, point
+from satcheck.cli.formats.picture.bcf.text import below, document, point
 from satcheck.cli.formats.picture.data import up_of
 from satcheck.cli.formats.picture.png import View, image_of, view_of
 from satcheck.scene.units import ratio, stated_unit
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.cli.formats.bcf.topics import Member, PairView
+    from satcheck.cli.formats.picture.bcf.topics import Member, PairView
     from satcheck.scene import Body, Scene
 
     Floats = npt.NDArray[np.float64]

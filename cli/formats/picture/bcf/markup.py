@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from uuid import NAMESPACE_URL, uuid5
 from xml.etree.ElementTree import Element
 
-from satcheck.cli.formats.bcf.archive import date
-from satcheck.cli.formats.bcf.text import below, document
-from satcheck.cli.formats.bcf.topics import PRIORITIES, STATUSES, TYPES, PairView, Topic
+from satcheck.cli.formats.picture.bcf.archive import date
+from satcheck.cli.formats.picture.bcf.text import below, document
+from satcheck.cli.formats.picture.bcf.topics import PRIORITIES, STATUSES, TYPES, PairView, Topic
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
