@@ -7,7 +7,6 @@ import math
 import re
 from codecs import BOM_UTF8
 from collections.abc import Sequence
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,6 @@ from satcheck.scene.loading.regular_file import read_whole
 
 if TYPE_CHECKING:
     from satcheck.scene.format.lines import Keys
-    from satcheck.scene.format.positions import Positions
 
 TOML_SUFFIX = ".toml"
 
@@ -41,12 +39,6 @@ class Parsed:
         self.text = text
         self.document = document
         self.repeated_keys = repeated_keys
-
-    @cached_property
-    def positions(self) -> Positions:
-        from satcheck.scene.format.positions import Positions
-
-        return Positions(self.text, toml=is_toml(self.location))
 
     def lines(self, wanted: Sequence[Keys]) -> list[int]:
         """The line of each of these keys, or of the innermost table or list around it."""
