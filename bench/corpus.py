@@ -32,9 +32,7 @@ from bench.peers.child import replies
 
 Record = dict[str, Any]
 NODES = frozenset((".glb", ".gltf", ".3mf"))
-MESHES = frozenset(
-    (".obj", ".stl", ".stla", ".stlb", ".ply", ".off", ".dae", ".zae", ".amf", ".3dxml", *NODES)
-)
+MESHES = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off", ".dae", ".amf", *NODES))
 ROBOTS = frozenset((".urdf",))
 LARGEST = 20_000_000
 SECONDS = 120.0

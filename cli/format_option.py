@@ -19,8 +19,9 @@ PICTURES = tuple(PICTURE_FORMATS)
 _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
 }
+_BCF_2 = ".bcfzip"
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", ".parquet", *MESHES} - _ENDINGS.keys()
+_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", ".parquet", _BCF_2, *MESHES} - _ENDINGS.keys()
 
 form_option = click.option(
     "--format",
@@ -42,8 +43,8 @@ report_form_option = click.option(
     type=click.Choice((*REPORT_FORMATS, *PICTURES)),
     metavar="FORMAT",
     help=f"{', '.join((*REPORT_FORMATS, *PICTURES))}; html is a 3-D view, png an image of the "
-    "worst finding, glb a 3-D model, bcf and bcfzip topics (BCF 3.0, 2.1).  [default: as the file "
-    "of -o ends, otherwise table]",
+    "worst finding, glb a 3-D model, bcf topics (BCF 3.0).  [default: as the file of -o ends, "
+    "otherwise table]",
 )
 
 
@@ -60,6 +61,8 @@ def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMAT
         return form or "table"
     ending = output.suffix.lower()
     named = "json" if ending == ".json" else _ENDINGS.get(ending, "table")
+    if ending == _BCF_2 and "bcf" in forms:
+        raise click.UsageError(f"{output}: BCF 2.1 is not written: name the file .bcf for BCF 3.0")
     if ending in _NO_REPORTS or named not in forms:
         raise click.UsageError(
             f"{output}: this command writes {', '.join(forms)}: give one of them with --format, "

@@ -34,12 +34,10 @@ from satcheck.scene.read_options import (
 )
 from satcheck.scene.scene_builder import Split
 
-_HOLD_USD = frozenset(("document", "scene"))  # a scene may place a part of a USD or glTF file
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
     ("not-a-body", "left-out", "no-shape", "ignored-geometry", "no-collision-geometry")
 ) | {"no-surface", "unknown-element"}
-_GLTF = frozenset(("glb", "gltf"))
 
 
 class Inputs(Struct, frozen=True):
@@ -59,7 +57,6 @@ class Inputs(Struct, frozen=True):
     between: tuple[tuple[str, str], ...] = ()
     joint_path: str | None = None
     time: float | None = None
-    animation: str | None = None
     purpose: tuple[Purpose, ...] = ()
     mesh_hulls: bool = False
     chord_tolerance: float | None = None
@@ -86,7 +83,6 @@ class Inputs(Struct, frozen=True):
     def reading(self) -> ReadOptions:
         return ReadOptions(
             time=self.time,
-            animation=self.animation,
             purpose=self.purpose or None,
             mesh_hulls=self.mesh_hulls or None,
             chord_tolerance=self.chord_tolerance,
@@ -170,10 +166,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
-    if inputs.time is not None and not any(map(_may_be_animated, paths)):
-        raise click.UsageError("--time is about USD and glTF files")
-    if inputs.animation is not None and inputs.time is None:
-        raise click.UsageError("--animation chooses among animations: add --time SECONDS")
+    if inputs.time is not None and not any(map(_may_hold_usd, paths)):
+        raise click.UsageError("--time is about USD files")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed)
@@ -196,8 +190,9 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     return scene
 
 
-def _may_be_animated(path: str) -> bool:
-    return kind_of(path) in _HOLD_USD or FORMATS.get(Path(path).suffix.lower()) in _GLTF
+def _may_hold_usd(path: str) -> bool:
+    """A scene may place a part of a USD file."""
+    return kind_of(path) == "scene" or FORMATS.get(Path(path).suffix.lower()) == "usd"
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

@@ -146,9 +146,8 @@ geometry_options = together(
         type=float,
         metavar="TIME",
         callback=_time,
-        help="The time in animations: glTF seconds, USD time code.",
+        help="The time code of USD files.",
     ),
-    click.option("--animation", metavar="NAME", help="The glTF animation that --time refers to."),
     click.option(
         "--mesh-hulls",
         is_flag=True,

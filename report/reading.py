@@ -10,15 +10,13 @@ from satcheck.report.values import Size, Value
 class StatedReading(Value, frozen=True, kw_only=True):
     """The options that count for the formats of these files; None: no such file, or the default.
 
-    time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
-    the first samples. animation: of glTF, by its name or its number; None: the first. geometry: of
-    USD, "collision" or "visual". purpose: of the prims of USD that are drawn, beside those without
-    a purpose. chord_tolerance: of the facets of curved faces in STEP and IFC files, in millimetres;
-    None beside such files: that of each format. angular_tolerance: of the same, in radians.
+    time: the time code of USD; None: the first samples. geometry: of USD, "collision" or "visual".
+    purpose: of the prims of USD that are drawn, beside those without a purpose. chord_tolerance: of
+    the facets of curved faces in STEP and IFC files, in millimetres; None beside such files: that
+    of each format. angular_tolerance: of the same, in radians.
     """
 
     time: float | None = None
-    animation: str | None = None
     geometry: Literal["collision", "visual"] | None = None
     purpose: tuple[Literal["render", "proxy", "guide"], ...] | None = None
     chord_tolerance: Size | None = None

@@ -1,9 +1,9 @@
 """satcheck.scene turns files into bodies and inspects each mesh before it is used.
 
-`load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML,
-STEP), buildings (IFC), stages (USD), scene files (`satcheck.scene/1`, `satcheck-scene-1`) and
-robots (URDF, SRDF, SDFormat; `scene.robot` poses them). A mesh file that cannot be used is reported
-as `Unreadable`; warnings about the others are `Issue`s with the stable codes of `CODES`.
+`load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, STEP), buildings
+(IFC), stages (USD), scene files (`satcheck.scene/1`, `satcheck-scene-1`) and robots (URDF, SRDF,
+SDFormat; `scene.robot` poses them). A mesh file that cannot be used is reported as `Unreadable`;
+warnings about the others are `Issue`s with the stable codes of `CODES`.
 """
 
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable

@@ -1,8 +1,8 @@
 """Converts bodies of inputs with different units of length to one unit, if their units are known.
 
 GLB and glTF files and robots are in metres. A 3MF or DAE file is in the unit that it names, a scene
-in its `units`. OBJ, STL, PLY, OFF and XAML files state no unit. Within a scene or a robot they have
-its unit. Otherwise their unit is unknown.
+in its `units`. OBJ, STL, PLY and OFF files state no unit. Within a scene or a robot they have its
+unit. Otherwise their unit is unknown.
 """
 
 from __future__ import annotations

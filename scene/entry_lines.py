@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from satcheck.scene.bodies import Entry, Scene
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.item_lines import item_lines
-from satcheck.scene.format.text import is_toml, parsed, read_text
-
-_HEADER = re.compile(r"\s*\[\[\s*bodies\s*\]\]")
-# Strings of several lines, which may hold what looks like a header.
-_NOT_PLAIN_TOML = ('"""', "'''")
+from satcheck.scene.format.lines import Keys, lines_of
+from satcheck.scene.format.text import is_toml, read_text
 
 
 class Line(NamedTuple):
@@ -45,22 +40,10 @@ def _line(entry: Entry, lines: Mapping[str, Mapping[int, int]]) -> int:
 
 def _lines(path: str, location: Path, numbers: Sequence[int]) -> dict[int, int]:
     """The lines of the bodies with these numbers. path: for messages."""
-    text = read_text(path, location)
-    if is_toml(location):
-        return _toml_lines(path, location, text, numbers)
+    keys: list[Keys] = [("bodies", number) for number in numbers]
     try:
-        lines = list(item_lines(text, "bodies"))
-        return {number: lines[number] for number in numbers}
-    except (ValueError, IndexError):
+        lines = lines_of(read_text(path, location), keys, toml=is_toml(location))
+        return {number: lines[of] for number, of in zip(numbers, keys, strict=True)}
+    except (ValueError, LookupError):
         message = "the scene file has changed since it was read"
         raise SceneFileError("bad-scene", message, file=path) from None
-
-
-def _toml_lines(path: str, location: Path, text: str, numbers: Sequence[int]) -> dict[int, int]:
-    """A text whose every body has a header of its own, as most have, needs no syntax tree."""
-    if not any(mark in text for mark in _NOT_PLAIN_TOML):
-        headers = [number for number, line in enumerate(text.split("\n"), 1) if _HEADER.match(line)]
-        if max(numbers) < len(headers):
-            return {number: headers[number] for number in numbers}
-    positions = parsed(path, location, text).positions
-    return {number: positions.line(("bodies", number)) for number in numbers}

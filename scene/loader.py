@@ -63,7 +63,7 @@ def load_scene(
     their file if there are several files). Repeated ids get the suffix -2, -3, ...
 
     split: how a mesh file is split into bodies. "none": the whole file is one body. "nodes": each
-    node with a mesh in a GLB, glTF, 3MF, 3DXML or STEP file is a body; other formats have none.
+    node with a mesh in a GLB, glTF, 3MF or STEP file is a body; other formats have none.
     "components": each edge-connected component of these is a body. None: "nodes" for a single file,
     else "none".
     packages: folders of the packages and models that a robot names, see `robot.MeshPlaces`.
@@ -78,7 +78,7 @@ def load_scene(
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
     known: mesh files that stay in memory from scene to scene.
-    reading: options for formats that leave a choice, such as the time of an animation. A scene may
+    reading: options for formats that leave a choice, such as the time of a USD file. A scene may
     state those that are not given here.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest

@@ -13,8 +13,6 @@ Purpose = Literal["render", "proxy", "guide"]
 
 # The options that count for files of a format.
 OPTIONS_OF: dict[str, tuple[str, ...]] = {
-    "glb": ("time", "animation"),
-    "gltf": ("time", "animation"),
     "usd": ("time", "geometry", "purpose"),
     "step": ("chord_tolerance", "angular_tolerance"),
     "ifc": ("chord_tolerance", "angular_tolerance"),
@@ -29,18 +27,15 @@ class ReadOptions(Struct, frozen=True):
     """Options for reading files. They decide the geometry of a check, so a report states them, and
     whoever reads the same files again needs the same options.
 
-    time: of animations, in seconds, in USD a time code; None: the pose that the file stores, in USD
-    the first samples. animation: of a glTF file, by its name or its number from 0; None: the first.
-    geometry: collision: the colliders of a simulation are bodies; visual or
-    None: what is drawn. purpose: of the prims that are drawn, beside those without a purpose; None:
-    render. mesh_hulls: the collision meshes of MJCF files are convex hulls; the parts that bodies
-    name say so. chord_tolerance: how far facets may be off a curved face for which a reader makes
-    them, in millimetres; None: as in `CHORD_TOLERANCES`. angular_tolerance: the largest angle
-    between neighbouring facets of such a face, in radians.
+    time: the time code of USD files; None: their first samples. geometry: collision: the colliders
+    of a simulation are bodies; visual or None: what is drawn. purpose: of the prims that are drawn,
+    beside those without a purpose; None: render. mesh_hulls: the collision meshes of MJCF files are
+    convex hulls; the parts that bodies name say so. chord_tolerance: how far facets may be off a
+    curved face for which a reader makes them, in millimetres; None: as in `CHORD_TOLERANCES`.
+    angular_tolerance: the largest angle between neighbouring facets of such a face, in radians.
     """
 
     time: float | None = None
-    animation: str | None = None
     geometry: GeometryKind | None = None
     purpose: tuple[Purpose, ...] | None = None
     mesh_hulls: bool | None = None

@@ -70,7 +70,7 @@ def command(
 
     REPORT is a JSON report of a check. satcheck reads the mesh files again, and names each file
     that has changed since the check. Without -o the page opens in the browser; -o takes .html,
-    .png, .glb, .bcf and .bcfzip. The page shows where surfaces cross if the check had --contacts.
+    .png, .glb and .bcf. The page shows where surfaces cross if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.

@@ -29,9 +29,10 @@ class ConfigFile(Struct, frozen=True):
 
     def where(self, key: str) -> str:
         """`satcheck.toml:3`."""
-        from satcheck.scene.format.positions import Positions
+        from satcheck.scene.format.lines import innermost, lines_of
 
-        return f"{self.path}:{Positions(self.text, toml=True).line((*self.keys, key))}"
+        keys = (*self.keys, key)
+        return f"{self.path}:{innermost(lines_of(self.text, [keys], toml=True), keys)}"
 
     def refused(self, key: str, reason: str) -> SatcheckError:
         """To be raised."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from satcheck.scene.errors import SceneFileError
 
 if TYPE_CHECKING:
-    from satcheck.scene.format.positions import Key, Keys, Positions
+    from satcheck.scene.format.lines import Key, Keys
 
 MOST = 20  # problems reported for one file
 
@@ -39,20 +39,20 @@ class Problems:
         """keys: the path from the top of the document to the value."""
         self.entries.append(((*keys, *wrong.keys), wrong))
 
-    def raise_any(self, path: str, positions: Callable[[], Positions]) -> None:
+    def raise_any(self, path: str, lines: Callable[[Sequence[Keys]], Sequence[int]]) -> None:
         """Raises SceneFileError if there are problems: the first in the file, with the rest as
-        `others`."""
+        `others`. lines: returns the line of each of these keys."""
         if not self.entries:
             return
-        where = positions()
+        shown = self.entries[:MOST]
         errors = [
             SceneFileError(
                 wrong.code,
                 f"{dotted(keys)}: {wrong.message}" if keys else wrong.message,
                 file=path,
-                line=where.line(keys),
+                line=line,
             )
-            for keys, wrong in self.entries[:MOST]
+            for (keys, wrong), line in zip(shown, lines([keys for keys, _ in shown]), strict=True)
         ]
         errors.sort(key=lambda error: error.line or 0)
         if left := len(self.entries[MOST:]):

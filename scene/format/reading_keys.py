@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.table import Table
-from satcheck.scene.format.values import Reader, list_of, number, one_of, shown, text
+from satcheck.scene.format.values import Reader, list_of, number, one_of, shown
 from satcheck.scene.read_options import GeometryKind, Purpose
 
 _purposes = list_of("purposes", one_of(get_args(Purpose)))
@@ -27,7 +27,6 @@ def _positive(value: Any) -> float:
 # Lengths in millimetres, angles in radians, as in `ReadOptions`.
 _READERS: dict[str, Reader[Any]] = {
     "time": number,
-    "animation": text,
     "geometry": one_of(get_args(GeometryKind)),
     "purpose": _some_purposes,
     "chord_tolerance": _positive,

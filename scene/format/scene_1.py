@@ -48,7 +48,7 @@ def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     """Raises SceneFileError with all errors of the file."""
     problems = parsed.problems()
     scene = _Reader(parsed, problems, allow_outside).read()
-    problems.raise_any(parsed.path, lambda: parsed.positions)
+    problems.raise_any(parsed.path, parsed.lines)
     return scene
 
 
@@ -72,7 +72,7 @@ def read_rules(parsed: Parsed) -> SceneFile:
     if "rules" not in top:
         top.wrong('"rules" is missing')
     scene = _Reader(parsed, problems, allow_outside=False).read_rules(top)
-    problems.raise_any(parsed.path, lambda: parsed.positions)
+    problems.raise_any(parsed.path, parsed.lines)
     return scene
 
 
@@ -157,13 +157,15 @@ class _Reader:
         of_pairs: list[Rule | None] = []
         of_bodies: list[BodyRule | None] = []
         path = self._parsed.path
-        for table in top.tables("rules"):
+        tables = list(top.tables("rules"))
+        lines = self._parsed.lines([table.keys for table in tables]) if tables else []
+        for table, line in zip(tables, lines, strict=True):
             if "bodies" in table:
                 from satcheck.scene.format.statics_keys import read_body_rule
 
-                of_bodies.append(read_body_rule(table, path, self._line(table)))
+                of_bodies.append(read_body_rule(table, path, line))
             else:
-                of_pairs.append(read_rule(table, units, path, self._line(table)))
+                of_pairs.append(read_rule(table, units, path, line))
         return tuple(filter(None, of_pairs)), tuple(filter(None, of_bodies))
 
     def _reading(self, top: Table) -> dict[str, Any]:
@@ -186,9 +188,6 @@ class _Reader:
         moved: dict[str, str] = {}  # id of a body -> its motion
         candidates = (read_motion(table, bodies, moved) for table in top.tables("motion"))
         return tuple(motion for motion in candidates if motion is not None)
-
-    def _line(self, table: Table) -> int:
-        return self._parsed.positions.line(table.keys)
 
 
 def _shape(value: Any) -> Shape:

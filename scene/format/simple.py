@@ -56,7 +56,7 @@ def read_scene(parsed: Parsed) -> SceneFile:
     units = top.read("units", _text_or_null, None)
     pairs = top.read("allowed_pairs", list_of("pairs", _pair), [])
     name = top.read("name", _text_or_null, None) or parsed.location.stem
-    problems.raise_any(path, lambda: parsed.positions)
+    problems.raise_any(path, parsed.lines)
     rules, unknown_bodies = _rules(pairs, {body.id for body in bodies}, path)
     return SceneFile(
         path=path,

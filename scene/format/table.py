@@ -11,7 +11,7 @@ from satcheck.scene.format.values import Reader, shown
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.scene.format.positions import Keys
+    from satcheck.scene.format.lines import Keys
 
 T = TypeVar("T")
 D = TypeVar("D")

@@ -6,7 +6,7 @@ import json
 import math
 import re
 from codecs import BOM_UTF8
-from functools import cached_property
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.loading.regular_file import read_whole
 
 if TYPE_CHECKING:
-    from satcheck.scene.format.positions import Positions
+    from satcheck.scene.format.lines import Keys
 
 TOML_SUFFIX = ".toml"
 
@@ -40,17 +40,21 @@ class Parsed:
         self.document = document
         self.repeated_keys = repeated_keys
 
-    @cached_property
-    def positions(self) -> Positions:
-        from satcheck.scene.format.positions import Positions
+    def lines(self, wanted: Sequence[Keys]) -> list[int]:
+        """The line of each of these keys, or of the innermost table or list around it."""
+        from satcheck.scene.format.lines import innermost, lines_of
 
-        return Positions(self.text, toml=is_toml(self.location))
+        lines = lines_of(self.text, wanted, toml=is_toml(self.location))
+        return [innermost(lines, keys) for keys in wanted]
 
     def problems(self) -> Problems:
         """A new collection of problems. It starts with the keys that occur twice."""
         problems = Problems()
-        for keys in self.positions.duplicates() if self.repeated_keys else ():
-            problems.add(keys, Wrong("a second value for this key"))
+        if self.repeated_keys:
+            from satcheck.scene.format.lines import repeated_keys
+
+            for keys in repeated_keys(self.text):
+                problems.add(keys, Wrong("a second value for this key"))
         return problems
 
 

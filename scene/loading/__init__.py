@@ -90,8 +90,6 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
                 str(source.location.parent),
                 binary=source.format == "glb",
                 allow_outside=allowed.allow_outside,
-                time=allowed.options.time,
-                animation=allowed.options.animation,
             )
             if not flat:
                 return scene

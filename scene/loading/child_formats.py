@@ -1,4 +1,4 @@
-"""Reads 3MF, DAE, ZAE, 3DXML, XAML, STEP, IFC, USD and some glTF files in a child process.
+"""Reads 3MF, DAE, STEP, IFC, USD and some glTF files in a child process.
 
 Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
 `serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
@@ -145,22 +145,10 @@ def _read(request: Request) -> RawScene:
             from satcheck.scene.loading.collada import read_collada
 
             return alone(read_collada(data))
-        case "3dxml":
-            from satcheck.scene.loading.threedxml import read_3dxml
-
-            return read_3dxml(data)
-        case "xaml":
-            from satcheck.scene.loading.xaml import read_xaml
-
-            return alone(read_xaml(data))
         case "ifc":
             from satcheck.scene.loading.ifc import read_ifc
 
             return read_ifc(data, request.options)
-        case "zae":
-            from satcheck.scene.loading.zae import read_zae
-
-            return alone(read_zae(data))
         case "usd":
             from satcheck.scene.loading.usd import read_usd
 
@@ -178,6 +166,4 @@ def _read(request: Request) -> RawScene:
         binary=request.format == "glb",
         allow_outside=request.allow_outside,
         isolated=True,
-        time=request.options.time,
-        animation=request.options.animation,
     )

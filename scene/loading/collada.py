@@ -17,19 +17,26 @@ from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.collada_skin import Floats, morphed, skinned
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import instances
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
-from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
+from satcheck.scene.loading.raw_mesh import (
+    RawMesh,
+    RawNode,
+    RawPart,
+    RawScene,
+    fan_triangles,
+    strip_triangles,
+)
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
+Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Geometry = tuple[Floats, Indices]  # vertices (n, 3), triangles (m, 3)
 
 _MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _BENDS = frozenset({"lookat", "skew"})
-_MESHES = frozenset({"instance_geometry", "instance_controller"})
+_MESH = "instance_geometry"
+_SHAPED = "instance_controller"  # by a skin or by morph targets
 _BESIDE = frozenset(  # elements of a node or a visual scene that place nothing
     ("asset", "extra", "evaluate_scene", "instance_camera", "instance_light", *_MOVES, *_BENDS)
 )
@@ -69,7 +76,7 @@ class _Document:
         nodes = instances(
             [(scene, None)],
             children=self._children,
-            has_mesh=lambda element: element.tag in _MESHES and self._carries(element),
+            has_mesh=lambda element: element.tag == _MESH and self._carries(element),
             name=lambda element: element.attributes.get("id", element.tag),
             kind="node",
         )
@@ -77,7 +84,7 @@ class _Document:
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
         parts, placements = [], []
         for number, node in enumerate(nodes):
-            (points, triangles), matrix = self._placed(node.key, node.matrix, scene)
+            points, triangles = self._mesh_of(node.key)
             mesh = RawMesh(
                 vertices=points.astype("<f8").tobytes(),
                 triangles=triangles.astype("<u4").tobytes(),
@@ -86,7 +93,7 @@ class _Document:
                 warnings=tuple(self._warnings.items()),
             )
             parts.append(RawPart(str(number), mesh))
-            placements.append(RawNode(node.path, number, matrix))
+            placements.append(RawNode(node.path, number, node.matrix))
         return RawScene(tuple(parts), tuple(placements))
 
     def _units(self) -> str:
@@ -108,9 +115,9 @@ class _Document:
             references[1].refuse("a second visual scene is not read", "unsupported-feature")
         return self._target(references[0], "visual_scene")
 
-    def _target(self, element: Element, tag: str, attribute: str = "url") -> Element:
+    def _target(self, element: Element, tag: str) -> Element:
         """The element of that tag that a reference points to."""
-        url = element.attributes.get(attribute, "")
+        url = element.attributes.get("url", "")
         if not url.startswith("#"):
             element.refuse(f"reference {url!r} leaves the file: refused", "outside-path")
         targets = self._by_id.get((tag, url[1:]), [])
@@ -127,13 +134,18 @@ class _Document:
         ]
 
     def _placed_in(self, element: Element) -> Iterator[Element]:
-        if element.tag in _MESHES:
+        if element.tag == _MESH:
             return
         for child in element.children:
-            if child.tag == "node" or child.tag in _MESHES:
+            if child.tag in ("node", _MESH):
                 yield child
             elif child.tag == "instance_node":
                 yield self._target(child, "node")
+            elif child.tag == _SHAPED:
+                child.refuse(
+                    "skins and morph targets are not read: export the mesh in its pose",
+                    "unsupported-feature",
+                )
             elif child.tag not in _BESIDE:
                 child.refuse("could be geometry, and is not read", "unsupported-feature")
 
@@ -143,69 +155,16 @@ class _Document:
             self._carriers[element] = False  # for cycles, which are refused later
             self._carriers[element] = (
                 len(self._mesh_of(element)[1]) > 0
-                if element.tag in _MESHES
+                if element.tag == _MESH
                 else any(map(self._carries, self._placed_in(element)))
             )
         return self._carriers[element]
 
-    def _shaper(self, element: Element) -> Element | None:
-        """The skin or morph of an <instance_controller>; None for an <instance_geometry>."""
-        if element.tag == "instance_geometry":
-            return None
-        controller = self._target(element, "controller")
-        shaper = controller.find("skin") or controller.find("morph")
-        return shaper or controller.refuse("a controller without <skin> and <morph>")
-
-    def _mesh_of(self, element: Element) -> Geometry:
-        """The mesh of an instance, before skins and morph targets move its vertices."""
-        shaper = self._shaper(element)
-        owner, attribute = (element, "url") if shaper is None else (shaper, "source")
-        return self._geometry(self._target(owner, "geometry", attribute))
-
-    def _placed(
-        self, element: Element, matrix: Transform | None, scene: Element
-    ) -> tuple[Geometry, Transform | None]:
-        """A mesh, with vertices moved by its skin or morph targets, and its placement."""
-        points, triangles = self._mesh_of(element)
-        shaper = self._shaper(element)
-        if shaper is None:
-            return (points, triangles), matrix
-        if shaper.tag == "morph":
-            self._warnings["rest-shape"] = "weights of morph targets are as the file stores them"
-            return (morphed(shaper, points, self._morph_target), triangles), matrix
-        self._warnings["rest-shape"] = "joints stand as the file stores them"
-        skeletons = [skeleton.text.lstrip("#") for skeleton in element.all("skeleton")]
-        points, mirrored = skinned(
-            shaper, points, lambda by, names: self._joints(scene, skeletons, by, names)
-        )
-        return (points, triangles[:, ::-1] if mirrored else triangles), None
-
-    def _morph_target(self, id_: str) -> Floats | None:
-        targets = self._by_id.get(("geometry", id_), [])
-        return self._geometry(targets[0])[0] if len(targets) == 1 else None
-
-    def _joints(
-        self, scene: Element, skeletons: list[str], attribute: str, names: list[str]
-    ) -> dict[str, Transform]:
-        """World matrices of the nodes with these names. Only nodes below the skeletons count, if
-        there are skeletons. attribute: the one that holds the name."""
-        roots = [k for id_ in skeletons for k in self._by_id.get(("node", id_), [])]
-        joints: dict[str, Transform] = {}
-        stack: list[tuple[Element, ...]] = [(scene,)]
-        while stack:
-            chain = stack.pop()
-            name = chain[-1].attributes.get(attribute)
-            is_below = not roots or any(node in roots for node in chain)
-            if name in names and name not in joints and is_below:
-                joints[name] = _world(chain)
-            inside = [child for child in self._placed_in(chain[-1]) if child.tag == "node"]
-            stack += [(*chain, child) for child in reversed(inside)]
-        return joints
-
-    def _geometry(self, element: Element) -> Geometry:
-        if element not in self._geometries:
-            self._geometries[element] = self._read_geometry(element)
-        return self._geometries[element]
+    def _mesh_of(self, instance: Element) -> Geometry:
+        geometry = self._target(instance, "geometry")
+        if geometry not in self._geometries:
+            self._geometries[geometry] = self._read_geometry(geometry)
+        return self._geometries[geometry]
 
     def _read_geometry(self, element: Element) -> Geometry:
         mesh = element.find("mesh")
@@ -232,14 +191,6 @@ def _without_extras(root: Element) -> Iterator[Element]:
         element = waiting.pop()
         yield element
         waiting += [child for child in element.children if child.tag != "extra"]
-
-
-def _world(chain: tuple[Element, ...]) -> Transform:
-    """The product of the matrices of a node and its ancestors."""
-    matrix = IDENTITY
-    for node in chain:
-        matrix = compose(matrix, _matrix_of(node))
-    return matrix
 
 
 def _matrix_of(node: Element) -> Transform:

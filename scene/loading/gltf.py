@@ -59,6 +59,7 @@ _READ = frozenset(
 )
 # Extensions that move all of the geometry even where they are optional.
 _MOVING = frozenset({"CESIUM_RTC"})
+_ANIMATED = (("time-sampled", "the file is animated; checked as stored"),)
 
 
 def read_gltf(
@@ -68,15 +69,11 @@ def read_gltf(
     binary: bool,
     allow_outside: bool = False,
     isolated: bool = False,
-    time: float | None = None,
-    animation: str | None = None,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
     directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
-    binary: GLB. isolated: this process is a child that may crash. time: of the animation, in
-    seconds; None: the pose that the nodes store. animation: by its name or its number; None: the
-    first. Raises MeshFileError without a
+    binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
     file name, and NeedsChild if the data need an isolated process and this one is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
@@ -85,31 +82,9 @@ def read_gltf(
     work = Work(isolated=isolated)
     views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
     accessors = Accessors(document, views, work)
-    named = items(document, "animations")
-    chosen = 0
-    if named and time is not None:
-        from satcheck.scene.loading.gltf_animation import number_of, posed
-
-        chosen = number_of(document, animation)
-        document = posed(document, accessors, time, chosen)
-    meshes = Meshes(document, accessors, work, posed=bool(named) and time is not None)
+    meshes = Meshes(document, accessors, work)
     scene = _Scene(document, accessors, meshes, work).read()
-    return replace(scene, warnings=_about_time(named, time, chosen)) if named else scene
-
-
-def _about_time(
-    animations: list[Any], time: float | None, chosen: int
-) -> tuple[tuple[str, str], ...]:
-    """animations: of the file, at least one. chosen: the number of one."""
-    name = animations[chosen].get("name") if isinstance(animations[chosen], dict) else None
-    which = "the first" if chosen == 0 else f"number {chosen}"
-    count = f"{which} of {len(animations)} animations" if len(animations) > 1 else "the animation"
-    called = f" ({name!r})" if isinstance(name, str) and name else ""
-    if time is None:
-        message = f"the nodes stand as the file stores them; --time asks for {count}{called}"
-    else:
-        message = f"the nodes stand as in {count}{called} at {time:g} s"
-    return (("time-sampled", message),)
+    return replace(scene, warnings=_ANIMATED) if items(document, "animations") else scene
 
 
 def _check_extensions(document: dict[str, Any]) -> None:

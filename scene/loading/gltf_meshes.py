@@ -13,8 +13,13 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import NeedsChild, Work, extension, integer, items, member
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh
-from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
+from satcheck.scene.loading.raw_mesh import (
+    NO_SURFACE,
+    Block,
+    RawMesh,
+    fan_triangles,
+    strip_triangles,
+)
 
 DRACO = "KHR_draco_mesh_compression"
 
@@ -39,12 +44,7 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    """posed: the nodes stand as in an animation, not as the file stores them."""
-
-    def __init__(
-        self, document: dict[str, Any], accessors: Accessors, work: Work, *, posed: bool = False
-    ) -> None:
-        self._posed = posed
+    def __init__(self, document: dict[str, Any], accessors: Accessors, work: Work) -> None:
         self._meshes = items(document, "meshes")
         self._accessors = accessors
         self._work = work
@@ -117,15 +117,13 @@ class Meshes:
             triangles = self._triangles(primitive, mode, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
-            if not self._posed:
-                warnings["rest-shape"] = "morph targets have the weights that the file stores"
+            warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
         if skin is not None:
             from satcheck.scene.loading.gltf_shapes import skinned
 
-            if not self._posed:
-                warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
+            warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
             positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
 

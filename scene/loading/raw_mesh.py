@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from array import array
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
@@ -125,6 +127,21 @@ class RawScene(Struct, frozen=True, tag=True):
 def alone(mesh: RawMesh) -> RawScene:
     """A scene of one mesh without a placement."""
     return RawScene((RawPart("", mesh),), (RawNode(None, 0),))
+
+
+def strip_triangles(strip: Sequence[int]) -> list[int]:
+    """Corners of the triangles of a strip. Every other triangle is turned over."""
+    corners: list[int] = []
+    for k, (a, b, c) in enumerate(zip(strip, strip[1:], strip[2:], strict=False)):
+        corners += (b, a, c) if k % 2 else (a, b, c)
+    return corners
+
+
+def fan_triangles(fan: Sequence[int]) -> list[int]:
+    corners: list[int] = []
+    for b, c in pairwise(fan[1:]):
+        corners += (fan[0], b, c)
+    return corners
 
 
 def into_range(raw: RawMesh) -> RawMesh:

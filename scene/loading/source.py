@@ -49,7 +49,7 @@ _SIGNATURES = (
     (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file", ()),
     (b"glTF", "a GLB file", ("glb",)),
     (b"ISO-10303-21;", "a STEP file", ("step", "ifc")),
-    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml", "ifc", "usd")),
+    (b"PK\x03\x04", "a zip archive", ("3mf", "ifc", "usd")),
     (b"ply\n", "a PLY file", ("ply",)),
     (b"ply\r\n", "a PLY file", ("ply",)),
 )

@@ -20,7 +20,6 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.loading.written_mesh import digits_of
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
@@ -348,6 +347,14 @@ class _ModelReader:
 
 
 def _note_digits(object_: Object, text: str) -> None:
-    decimals, significant = digits_of(text)
+    decimals, significant = _digits_of(text)
     object_.decimals = max(object_.decimals, decimals)
     object_.significant = max(object_.significant, significant)
+
+
+def _digits_of(number: str) -> tuple[int, int]:
+    """(digits after the point, 0); for a number with an exponent (0, its significant digits)."""
+    mantissa, exponent, _ = number.lower().partition("e")
+    if exponent:
+        return 0, len(mantissa.lstrip("+-0.").replace(".", ""))
+    return len(mantissa.rstrip().partition(".")[2]), 0

@@ -137,7 +137,6 @@ class Element:
     """tag and names of attributes: without namespaces. text: the whole text of the element."""
 
     tag: str
-    namespace: str
     attributes: dict[str, str]
     line: int
     children: list[Self] = field(default_factory=list)
@@ -169,13 +168,6 @@ class Element:
             yield element
             waiting.extend(reversed(element.children))
 
-    def words(self, text: str, multiple: int) -> list[str]:
-        """Numbers separated by commas or spaces. Their count has to be a multiple of `multiple`."""
-        words = text.replace(",", " ").split()
-        if len(words) % multiple:
-            self.refuse(f"{len(words)} numbers, not a multiple of {multiple}")
-        return words
-
     def floats(self, words: list[str]) -> list[float]:
         try:
             values = [float(word) for word in words]
@@ -185,19 +177,6 @@ class Element:
             self.refuse("a number that is not finite", "non-finite")
         return values
 
-    def indices(self, text: str, count: int, multiple: int = 1) -> list[int]:
-        """Vertex numbers below `count`."""
-        words = self.words(text, multiple)
-        if not all(word.isdecimal() for word in words):
-            self.refuse("a vertex number that is not a whole number")
-        values = self._whole(words)
-        if values and max(values) >= count:
-            self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")
-        return values
-
-    def floats_of_text(self) -> list[float]:
-        return self.floats(self.text.split())
-
     def counted_floats(self) -> NDArray[np.float64]:
         """The numbers in the element. Their count has to equal its `count`."""
         words, count = self.text.split(), self.integer("count")
@@ -206,10 +185,10 @@ class Element:
             self.refuse(message, "count-mismatch")
         return np.array(self.floats(words), np.float64)
 
-    def integers(self, least: int = 0) -> list[int]:
-        """The whole numbers in the element."""
+    def integers(self) -> list[int]:
+        """The whole numbers >= 0 in the element."""
         values = self._whole(self.text.split())
-        if values and min(values) < least:
+        if values and min(values) < 0:
             self.refuse(f"negative number {min(values)}", "index-out-of-range")
         return values
 
@@ -246,16 +225,15 @@ def read_elements(
 def parse_elements(
     parser: expat.XMLParserType,
     stream: IO[bytes],
-    make: Callable[[str, str, dict[str, str], int], E],
+    make: Callable[[str, dict[str, str], int], E],
 ) -> E:
-    """The outermost element. make: creates an element from tag, namespace, attributes and line."""
+    """The outermost element. make: creates an element from tag, attributes and line."""
     outermost: list[E] = []
     around: list[E] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        namespace, tag = split_name(name)
         plain = {split_name(key)[1]: value for key, value in attributes.items()}
-        element = make(tag, namespace, plain, parser.CurrentLineNumber)
+        element = make(split_name(name)[1], plain, parser.CurrentLineNumber)
         if len(around) >= MAX_DEPTH:
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"

@@ -10,14 +10,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bcf.v2.bcfxml import BcfXml as Bcf21
-from bcf.v3.bcfxml import BcfXml as Bcf30
+from bcf.v3.bcfxml import BcfXml
 from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline, known_findings
-from satcheck.cli.formats.bcf import render
-from satcheck.cli.formats.bcf.text import Version
+from satcheck.cli.formats.picture.bcf import render
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene, load_scene
 from tests.cli.process import PUSHED, SAMPLES, satcheck
@@ -25,8 +23,6 @@ from tests.scene.ifc.models import MILLIMETRES, Model
 
 WALL, PIPE, SLAB = (f"{name:0<22}" for name in ("1wall", "2pipe", "3slab"))
 PROJECT = "0000000000000000000001"  # of every Model
-VERSIONS: tuple[Version, ...] = ("2.1", "3.0")
-READERS = {"2.1": Bcf21, "3.0": Bcf30}
 
 
 @pytest.fixture
@@ -54,10 +50,10 @@ def checked(path: Path) -> tuple[Report, Scene]:
     return check(scene, Settings(depth=True)), scene
 
 
-def read_back(content: bytes, version: Version, folder: Path) -> Any:
+def read_back(content: bytes, folder: Path) -> Any:
     path = folder / "read_back.bcf"
     path.write_bytes(content)
-    return READERS[version].load(path)
+    return BcfXml.load(path)
 
 
 def parts(content: bytes, ending: str) -> list[bytes]:
@@ -66,21 +62,18 @@ def parts(content: bytes, ending: str) -> list[bytes]:
 
 
 def status(report: Report, scene: Scene) -> list[str]:
-    roots = map(ElementTree.fromstring, parts(render(report, scene, "3.0"), "markup.bcf"))
+    roots = map(ElementTree.fromstring, parts(render(report, scene), "markup.bcf"))
     return [root.find("Topic").get("TopicStatus") for root in roots]  # type: ignore[union-attr,misc]
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-def test_a_program_reads_the_topic_and_finds_both_elements(
-    house: Path, tmp_path: Path, version: Version
-) -> None:
-    archive = read_back(render(*checked(house), version), version, tmp_path)
+def test_a_program_reads_the_topic_and_finds_both_elements(house: Path, tmp_path: Path) -> None:
+    archive = read_back(render(*checked(house)), tmp_path)
     (handler,) = archive.topics.values()
     topic = handler.topic
     assert topic.title == "IfcWall South / IfcPipeSegment Water"
     assert (topic.topic_type, topic.topic_status, topic.priority) == ("Clash", "Open", "High")
     assert "depth" in topic.description
-    (file,) = files_of(handler, version)
+    (file,) = handler.markup.header.files.file
     assert (file.filename, file.ifc_project) == ("house.ifc", PROJECT)
     (view,) = handler.viewpoints.values()
     components = view.visualization_info.components
@@ -92,7 +85,7 @@ def test_a_program_reads_the_topic_and_finds_both_elements(
 
 def test_the_camera_sees_the_overlap_in_world_metres(house: Path) -> None:
     report, scene = checked(house)
-    (text,) = parts(render(report, scene, "3.0"), ".bcfv")
+    (text,) = parts(render(report, scene), ".bcfv")
     camera = ElementTree.fromstring(text).find("OrthogonalCamera")
     assert camera is not None
     eye, ahead, up = (
@@ -112,17 +105,11 @@ def test_the_camera_sees_the_overlap_in_world_metres(house: Path) -> None:
         assert ((np.asarray(body.world_mesh().vertices) - eye) @ ahead > 0.0).all()
 
 
-def files_of(handler: Any, version: Version) -> list[Any]:
-    header = handler.markup.header
-    return list(header.files.file if version == "3.0" else header.file)
-
-
-@pytest.mark.parametrize("version", VERSIONS)
 def test_pairs_of_the_same_classes_are_one_topic_with_a_view_of_each(
-    house: Path, tmp_path: Path, version: Version
+    house: Path, tmp_path: Path
 ) -> None:
     house.write_bytes(with_pipes(2))
-    archive = read_back(render(*checked(house), version), version, tmp_path)
+    archive = read_back(render(*checked(house)), tmp_path)
     (handler,) = archive.topics.values()
     assert handler.topic.title == "IfcPipeSegment / IfcWall: 2 pairs"
     assert handler.topic.description.count("depth") == 2
@@ -138,7 +125,7 @@ def test_a_topic_keeps_its_guid_while_its_pairs_change(house: Path) -> None:
     guids = set()
     for pipes in (1, 2):
         house.write_bytes(with_pipes(pipes))
-        roots = parts(render(*checked(house), "3.0"), "markup.bcf")
+        roots = parts(render(*checked(house)), "markup.bcf")
         guids |= {ElementTree.fromstring(root).find("Topic").get("Guid") for root in roots}  # type: ignore[union-attr]
     assert len(guids) == 1
 
@@ -149,19 +136,19 @@ def test_a_topic_shows_the_pairs_that_are_not_accepted(house: Path) -> None:
     first, second = known_findings(report)
     half = beside_baseline(report, Baseline(findings=(first,)), "b.json")
     assert status(half, scene) == ["Open"]
-    assert len(parts(render(half, scene, "3.0"), ".bcfv")) == 1
+    assert len(parts(render(half, scene), ".bcfv")) == 1
     whole = beside_baseline(report, Baseline(findings=(first, second)), "b.json")
     assert status(whole, scene) == ["Closed"]
-    assert len(parts(render(whole, scene, "3.0"), ".bcfv")) == 2
+    assert len(parts(render(whole, scene), ".bcfv")) == 2
 
 
 def test_a_second_run_updates_the_same_topic(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    first = render(*checked(house), "3.0")
+    first = render(*checked(house))
     assert b"2023-11-14T22:13:20Z" in parts(first, "markup.bcf")[0]
-    assert render(*checked(house), "3.0") == first
+    assert render(*checked(house)) == first
     house.write_text(house.read_text().replace("500500.", "501500."))
-    moved = render(*checked(house), "3.0")
+    moved = render(*checked(house))
     assert moved != first
     with zipfile.ZipFile(io.BytesIO(first)) as one, zipfile.ZipFile(io.BytesIO(moved)) as other:
         assert one.namelist() == other.namelist()
@@ -185,15 +172,21 @@ def test_touching_bodies_are_no_topic(house: Path) -> None:
     assert len(status(report, scene)) == 1
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-def test_bodies_without_a_guid_are_named(tmp_path: Path, version: Version) -> None:
-    ending = {"2.1": "bcfzip", "3.0": "bcf"}[version]
-    path = tmp_path / f"report.{ending}"
+def test_bodies_without_a_guid_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "report.bcf"
     ran = satcheck("--units", "in", *PUSHED, "-o", str(path), cwd=SAMPLES)
     assert ran.code == 1
     content = path.read_bytes()
-    assert len(read_back(content, version, tmp_path).topics) == 1
+    assert len(read_back(content, tmp_path).topics) == 1
     root = ElementTree.fromstring(parts(content, ".bcfv")[0])
     names = [each.get("AuthoringToolId") for each in root.iter("Component")]
     assert names == ["box", "box_pushed", "box", "box_pushed"]
     assert float(root.findtext("OrthogonalCamera/ViewToWorldScale") or "") < 0.5  # metres
+
+
+def test_the_ending_of_bcf_2_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "report.bcfzip"
+    ran = satcheck(*PUSHED, "-o", str(path), cwd=SAMPLES)
+    assert ran.code == 2
+    assert "name the file .bcf for BCF 3.0" in ran.err
+    assert not path.exists()

@@ -105,7 +105,7 @@ def view_report(path: Path) -> None:
 
 READERS: Mapping[str, Reader] = {
     **dict.fromkeys(("obj", "stl", "ply", "off", "glb", "gltf"), read_bodies),
-    **dict.fromkeys(("3mf", "dae", "zae", "3dxml", "xaml"), read_in_this_process),
+    **dict.fromkeys(("3mf", "dae"), read_in_this_process),
     **dict.fromkeys(("toml", "json", "urdf", "sdf"), read_scene),
     "mjcf": read_model,
     "srdf": read_states,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from tests.scene import files, graphs, test_gltf, test_threedxml, test_xaml, test_zae
+from tests.scene import files, graphs, test_gltf
 from tests.scene.format import scenes
 from tests.scene.robot import robots
 
@@ -140,9 +140,6 @@ _MAKERS: Mapping[str, list[Callable[[], bytes]]] = {
     "gltf": [_gltf],
     "3mf": [_threemf],
     "dae": [files.collada],
-    "zae": [lambda: test_zae.archive(cube_dae=files.collada())],
-    "3dxml": [test_threedxml.threedxml],
-    "xaml": [lambda: test_xaml.xaml(test_xaml.model())],
     "json": [_scene, _shapes, _simple],
     "urdf": [_urdf],
     "mjcf": [MJCF.encode],

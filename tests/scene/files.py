@@ -178,7 +178,6 @@ def collada(
     nodes: str = '<node id="n"><instance_geometry url="#g"/></node>',
     library_nodes: str = "",
     primitives: str | None = None,
-    controllers: str = "",
     float_count: int | None = None,
     doctype: str = "",
 ) -> bytes:
@@ -199,8 +198,7 @@ def collada(
         f'<accessor source="#a" count="{len(points)}" stride="3">{params}</accessor>'
         '</technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/>'
         f"</vertices>{polylist if primitives is None else primitives}</mesh></geometry>"
-        f"</library_geometries><library_controllers>{controllers}</library_controllers>"
-        f"<library_nodes>{library_nodes}</library_nodes>"
+        f"</library_geometries><library_nodes>{library_nodes}</library_nodes>"
         f'<library_visual_scenes><visual_scene id="S">{nodes}</visual_scene>'
         '</library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>'
     ).encode()

@@ -1,8 +1,6 @@
-"""COLLADA: every kind of polygons, skins and morph targets, and what a parser would misread."""
+"""COLLADA: every kind of polygons, and what a parser would misread."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import pytest
 
@@ -108,151 +106,12 @@ def test_a_material_that_is_not_there_costs_no_mesh(tmp_path):
     assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 2.0
 
 
-def floats(id_: str, numbers: Sequence[float], name: str, width: int = 1) -> str:
-    kind = "float4x4" if width == 16 else "float"
-    return (
-        f'<source id="{id_}"><float_array id="{id_}a" count="{len(numbers)}">'
-        f"{' '.join(map(str, numbers))}</float_array><technique_common><accessor "
-        f'source="#{id_}a" count="{len(numbers) // width}" stride="{width}">'
-        f'<param name="{name}" type="{kind}"/></accessor></technique_common></source>'
-    )
-
-
-def names(id_: str, values: Sequence[str], name: str, kind: str = "Name") -> str:
-    return (
-        f'<source id="{id_}"><{kind}_array id="{id_}a" count="{len(values)}">{" ".join(values)}'
-        f'</{kind}_array><technique_common><accessor source="#{id_}a" count="{len(values)}">'
-        f'<param name="{name}" type="{kind}"/></accessor></technique_common></source>'
-    )
-
-
-def moved(x: float, y: float, z: float) -> list[float]:
-    return [1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1]
-
-
-def skin(
-    influences: Sequence[Sequence[tuple[int, int]]],
-    *,
-    weights: Sequence[float] = (1.0, 0.5),
-    inverse: Sequence[float] = (*moved(0, 0, 0), *moved(0, 0, -1)),
-) -> str:
-    """Two joints; influences: (joint, weight) of each vertex."""
-    bind = " ".join(map(str, moved(0, 0, 0)))
-    counts = " ".join(str(len(given)) for given in influences)
-    flat = " ".join(f"{joint} {weight}" for given in influences for joint, weight in given)
-    return (
-        f'<controller id="c"><skin source="#g"><bind_shape_matrix>{bind}</bind_shape_matrix>'
-        + names("j", ["low", "high"], "JOINT")
-        + floats("i", inverse, "TRANSFORM", 16)
-        + floats("w", weights, "WEIGHT")
-        + '<joints><input semantic="JOINT" source="#j"/>'
-        '<input semantic="INV_BIND_MATRIX" source="#i"/></joints>'
-        f'<vertex_weights count="{len(influences)}">'
-        '<input semantic="JOINT" source="#j" offset="0"/>'
-        '<input semantic="WEIGHT" source="#w" offset="1"/>'
-        f"<vcount>{counts}</vcount><v>{flat}</v></vertex_weights></skin></controller>"
-    )
-
-
-BONES = (
-    '<node id="bones" sid="low" type="JOINT"><translate>10 0 0</translate>'
-    '<node sid="high" type="JOINT"><translate>0 0 3</translate></node></node>'
-)
-SKINNED = (
-    '<node id="n"><translate>500 0 0</translate><instance_controller url="#c">'
-    "<skeleton>#bones</skeleton></instance_controller></node>"
-)
-BY_HEIGHT = [[(1 if point[2] else 0, 0)] for point in files.CUBE_POINTS]
-
-
-def test_a_skin_lies_where_its_joints_stand_and_not_where_its_node_does(tmp_path):
-    content = files.collada(nodes=BONES + SKINNED, controllers=skin(BY_HEIGHT))
-    file = loaded(tmp_path, "a.dae", content)
-    # The upper joint stands 2 higher than it was bound.
-    assert file.mesh.bounds == ((10, 0, 0), (11, 1, 3))
-    assert file.health.volume == 3.0
-    assert warnings(file) == {"rest-shape": "joints stand as the file stores them"}
-
-
-def test_weights_blend_and_need_not_add_up_to_one(tmp_path):
-    half = [[(0, 0), (1, 0)] for _ in files.CUBE_POINTS]
-    content = files.collada(nodes=BONES + SKINNED, controllers=skin(half))
-    assert loaded(tmp_path, "a.dae", content).mesh.bounds == ((10, 0, 1), (11, 1, 2))
-
-
-def test_the_bind_shape_itself_can_have_a_weight(tmp_path):
-    bound = [[(-1, 0)] for _ in files.CUBE_POINTS]
-    content = files.collada(nodes=BONES + SKINNED, controllers=skin(bound))
-    assert loaded(tmp_path, "a.dae", content).mesh.bounds == ((0, 0, 0), (1, 1, 1))
-
-
-@pytest.mark.parametrize(
-    ("content", "code", "said"),
-    [
-        (
-            files.collada(nodes=SKINNED, controllers=skin(BY_HEIGHT)),
-            "index-out-of-range",
-            "no joint 'low'",
-        ),
-        (
-            files.collada(nodes=BONES + SKINNED, controllers=skin(BY_HEIGHT[:-1])),
-            "count-mismatch",
-            "a skin of 7 vertices on a mesh of 8",
-        ),
-        (
-            files.collada(nodes=BONES + SKINNED, controllers=skin([*BY_HEIGHT[:-1], []])),
-            "bad-record",
-            "no joint",
-        ),
-        (
-            files.collada(
-                nodes=BONES + SKINNED, controllers=skin(BY_HEIGHT, weights=(float("nan"),))
-            ),
-            "non-finite",
-            "float_array",
-        ),
-        (
-            files.collada(
-                nodes=BONES.replace("0 0 3", "0 3") + SKINNED, controllers=skin(BY_HEIGHT)
-            ),
-            "bad-record",
-            "<translate>",
-        ),
-        (files.collada(nodes=SKINNED), "index-out-of-range", "<controller> have the id 'c'"),
-    ],
-)
-def test_wrong_skins(tmp_path, content, code, said):
-    found, message = refusal(tmp_path, "a.dae", content)
-    assert found == code
-    assert said in message
-
-
-def morph(method: str, weight: float) -> str:
-    return (
-        f'<controller id="c"><morph source="#g" method="{method}">'
-        + names("t", ["g"], "IDREF", "IDREF")
-        + floats("w", [weight], "MORPH_WEIGHT")
-        + '<targets><input semantic="MORPH_TARGET" source="#t"/>'
-        '<input semantic="MORPH_WEIGHT" source="#w"/></targets></morph></controller>'
-    )
-
-
-@pytest.mark.parametrize(
-    ("method", "weight", "size"),
-    [("NORMALIZED", 0.0, 1), ("NORMALIZED", 0.5, 1), ("RELATIVE", 0.0, 1), ("RELATIVE", 1.0, 2)],
-)
-def test_morph_targets_have_the_weights_of_the_file(tmp_path, method, weight, size):
-    nodes = '<node id="n"><translate>5 0 0</translate><instance_controller url="#c"/></node>'
-    content = files.collada(nodes=nodes, controllers=morph(method, weight))
-    file = loaded(tmp_path, "a.dae", content)
-    assert file.mesh.bounds == ((5, 0, 0), (5 + size, size, size))
-    assert set(warnings(file)) == {"rest-shape"}
-
-
-def test_mirrored_nodes_turn_the_faces_of_what_morphs_too(tmp_path):
-    nodes = '<node id="n"><scale>-1 1 1</scale><instance_controller url="#c"/></node>'
-    content = files.collada(nodes=nodes, controllers=morph("NORMALIZED", 0.0))
-    assert set(warnings(loaded(tmp_path, "a.dae", content))) == {"rest-shape"}
+@pytest.mark.parametrize("beside", ["", '<node id="n"><instance_geometry url="#g"/></node>'])
+def test_a_skin_or_a_morph_is_no_body(tmp_path, beside):
+    nodes = beside + '<node id="s"><instance_controller url="#c"/></node>'
+    found, message = refusal(tmp_path, "a.dae", files.collada(nodes=nodes))
+    assert found == "unsupported-feature"
+    assert "<instance_controller>: skins and morph targets are not read" in message
 
 
 @pytest.mark.parametrize(

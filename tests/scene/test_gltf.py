@@ -322,3 +322,24 @@ def test_damaged_draco_data_loses_its_mesh(tmp_path):
     damaged = document.buffer[: start + size // 2] + b"\xff" * (size - size // 2)
     document.buffer = damaged
     assert refusal(tmp_path, "a.glb", document.glb())[0] in {"bad-record", "reader-failed"}
+
+
+def test_an_animated_file_is_checked_as_stored(tmp_path):
+    document = Document()
+    document.json["nodes"] = [{"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}]
+    document.json["scenes"] = [{"nodes": [0, 1]}]
+    times = document.floats([(0,), (1,)], "SCALAR")
+    moves = document.floats([(0, 9, 0), (0, 5, 0)], "VEC3")
+    target = {"node": 1, "path": "translation"}
+    document.json["animations"] = [
+        {
+            "samplers": [{"input": times, "output": moves}],
+            "channels": [{"sampler": 0, "target": target}],
+        }
+    ] * 2
+    (tmp_path / "a.glb").write_bytes(document.glb())
+    scene = load_scene([tmp_path / "a.glb"])
+    assert scene.bodies[1].world_mesh().bounds == ((3, 0, 0), (4, 1, 1))
+    (issue,) = scene.issues
+    assert (issue.code, issue.severity) == ("time-sampled", "note")
+    assert issue.message == "the file is animated; checked as stored"

@@ -16,12 +16,16 @@ from satcheck.scene.read_options import OPTIONS_OF, ReadOptions, as_stated
 
 def test_only_the_options_of_the_formats_that_occur_are_stated() -> None:
     options = ReadOptions(time=2.5)
-    assert options.stated(["obj", "stl"]) is None
-    assert options.stated(["obj", "glb"]) == {"time": 2.5, "animation": None}
+    assert options.stated(["obj", "glb"]) is None
+    assert options.stated(["obj", "usd"]) == {
+        "time": 2.5,
+        "geometry": None,
+        "purpose": None,
+    }
 
 
 def test_a_default_without_effect_is_not_stated() -> None:
-    assert ReadOptions().stated(["glb"]) is None
+    assert ReadOptions().stated(["usd"]) is None
 
 
 def test_the_options_of_a_report_are_those_of_its_check() -> None:

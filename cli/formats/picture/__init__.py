@@ -19,7 +19,6 @@ FORMATS: dict[str, tuple[str, ...]] = {
     "png": (".png",),
     "glb": (".glb",),
     "bcf": (".bcf",),
-    "bcfzip": (".bcfzip",),
 }
 
 

@@ -198,10 +198,11 @@ def test_the_options_of_the_command_reach_the_reader(tmp_path: Path) -> None:
         assert (ran.code, len(json.loads(ran.out)["bodies"])) == (code, bodies)
 
 
-def test_a_time_without_an_animated_format_is_refused() -> None:
-    ran = satcheck("--time", "9", "box.obj", "cube.off")
+@pytest.mark.parametrize("paths", [("box.obj", "cube.off"), ("gripper.glb",), ("building.ifc",)])
+def test_a_time_without_a_usd_file_is_refused(paths: tuple[str, ...]) -> None:
+    ran = satcheck("--time", "9", *paths)
     assert ran.code == 2
-    assert "--time" in ran.err
+    assert "--time is about USD files" in ran.err
 
 
 def test_the_certificates_of_colliders_are_accepted(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.cli.formats.bcf.text import Version, below, document, point
+from satcheck.cli.formats.picture.bcf.text import below, document, point
 from satcheck.cli.formats.picture.data import up_of
 from satcheck.cli.formats.picture.png import View, image_of, view_of
 from satcheck.scene.units import ratio, stated_unit
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.cli.formats.bcf.topics import Member, PairView
+    from satcheck.cli.formats.picture.bcf.topics import Member, PairView
     from satcheck.scene import Body, Scene
 
     Floats = npt.NDArray[np.float64]
@@ -97,34 +97,25 @@ class Snapshots:
         return x, y, z
 
 
-def visualization(view: PairView, seen: Seen, version: Version) -> bytes:
+def visualization(view: PairView, seen: Seen) -> bytes:
     root = Element("VisualizationInfo", Guid=view.guid)
     components = below(root, "Components")
-    if version == "2.1":
-        _hints(components)
     selection = below(components, "Selection")
     for member in view.members:
         _component(selection, member)
     visibility = below(components, "Visibility", DefaultVisibility="true")
-    if version == "3.0":
-        _hints(visibility)
+    hints = ("SpacesVisible", "SpaceBoundariesVisible", "OpeningsVisible")
+    below(visibility, "ViewSetupHints", **dict.fromkeys(hints, "false"))
     colouring = below(components, "Coloring")
     for member, colour in zip(view.members, COLOURS, strict=True):
-        parent = below(colouring, "Color", Color=colour)
-        _component(below(parent, "Components") if version == "3.0" else parent, member)
+        _component(below(below(colouring, "Color", Color=colour), "Components"), member)
     camera = below(root, "OrthogonalCamera")
     point(camera, "CameraViewPoint", seen.eye)
     point(camera, "CameraDirection", seen.direction)
     point(camera, "CameraUpVector", seen.up)
     below(camera, "ViewToWorldScale", repr(seen.height))
-    if version == "3.0":
-        below(camera, "AspectRatio", repr(SIZE[0] / SIZE[1]))
+    below(camera, "AspectRatio", repr(SIZE[0] / SIZE[1]))
     return document(root)
-
-
-def _hints(parent: Element) -> None:
-    names = ("SpacesVisible", "SpaceBoundariesVisible", "OpeningsVisible")
-    below(parent, "ViewSetupHints", **dict.fromkeys(names, "false"))
 
 
 def _component(parent: Element, member: Member) -> None:

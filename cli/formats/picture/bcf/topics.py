@@ -13,9 +13,9 @@ from uuid import NAMESPACE_URL, uuid5
 
 from msgspec import Struct
 
-from satcheck.cli.formats.bcf.projects import project_of
 from satcheck.cli.formats.ci.problems import kind_of, measured
 from satcheck.cli.formats.order import is_listed, worst_first
+from satcheck.cli.formats.picture.bcf.projects import project_of
 from satcheck.cli.formats.words import counted
 from satcheck.scene.units import unit_of
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from satcheck.cli.output import harmless
-
-Version = Literal["2.1", "3.0"]
 
 
 def below(parent: Element, tag: str, text: str | None = None, **attributes: str) -> Element:

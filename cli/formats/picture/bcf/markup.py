@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from uuid import NAMESPACE_URL, uuid5
 from xml.etree.ElementTree import Element
 
-from satcheck.cli.formats.bcf.archive import date
-from satcheck.cli.formats.bcf.text import Version, below, document
-from satcheck.cli.formats.bcf.topics import PRIORITIES, STATUSES, TYPES, PairView, Topic
+from satcheck.cli.formats.picture.bcf.archive import date
+from satcheck.cli.formats.picture.bcf.text import below, document
+from satcheck.cli.formats.picture.bcf.topics import PRIORITIES, STATUSES, TYPES, PairView, Topic
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -18,24 +18,19 @@ if TYPE_CHECKING:
 AUTHOR = "satcheck"
 
 
-def version_file(version: Version) -> bytes:
-    root = Element("Version", VersionId=version)
-    if version == "2.1":
-        below(root, "DetailedVersion", version)
-    return document(root)
+def version_file() -> bytes:
+    return document(Element("Version", VersionId="3.0"))
 
 
-def project(scene: Scene, version: Version) -> bytes:
-    root = Element("ProjectInfo" if version == "3.0" else "ProjectExtension")
+def project(scene: Scene) -> bytes:
+    root = Element("ProjectInfo")
     number = str(uuid5(NAMESPACE_URL, f"satcheck:{scene.name}"))
     below(below(root, "Project", ProjectId=number), "Name", scene.name)
-    if version == "2.1":
-        below(root, "ExtensionSchema", "")
     return document(root)
 
 
 def extensions(topics: Sequence[Topic]) -> bytes:
-    """The words that topics of BCF 3.0 may use."""
+    """The words that topics may use."""
     root = Element("Extensions")
     labels = sorted({label for topic in topics for label in topic.labels})
     lists = (
@@ -54,44 +49,39 @@ def extensions(topics: Sequence[Topic]) -> bytes:
     return document(root)
 
 
-def markup(topic: Topic, views: Sequence[PairView], version: Version) -> bytes:
+def markup(topic: Topic, views: Sequence[PairView]) -> bytes:
     """views: of the topic, with a picture."""
     root = Element("Markup")
-    _header(root, topic, version)
+    _header(root, topic)
     element = below(root, "Topic", Guid=topic.guid, TopicType=topic.kind, TopicStatus=topic.status)
     below(element, "Title", topic.title)
     below(element, "Priority", topic.priority)
     below(element, "Index", str(topic.index))
-    _labels(element, topic, version)
+    _labels(element, topic)
     below(element, "CreationDate", date())
     below(element, "CreationAuthor", AUTHOR)
     below(element, "Description", topic.description)
-    parent, tag = root, "Viewpoints"
-    if views and version == "3.0":
-        parent, tag = below(element, "Viewpoints"), "ViewPoint"
-    for index, view in enumerate(views):
-        _view(below(parent, tag, Guid=view.guid), view, index)
+    if views:
+        parent = below(element, "Viewpoints")
+        for index, view in enumerate(views):
+            _view(below(parent, "ViewPoint", Guid=view.guid), view, index)
     return document(root)
 
 
-def _header(root: Element, topic: Topic, version: Version) -> None:
+def _header(root: Element, topic: Topic) -> None:
     """The files of the bodies."""
-    parent = below(root, "Header")
-    attribute = "isExternal"
-    if version == "3.0":
-        parent, attribute = below(parent, "Files"), "IsExternal"
+    files = below(below(root, "Header"), "Files")
     members = [member for view in topic.views for member in view.members]
     for file, project in dict.fromkeys((member.file, member.project) for member in members):
         known = {} if project is None else {"IfcProject": project}
-        below(
-            below(parent, "File", **known, **{attribute: "true"}), "Filename", PurePath(file).name
-        )
+        below(below(files, "File", **known, IsExternal="true"), "Filename", PurePath(file).name)
 
 
-def _labels(element: Element, topic: Topic, version: Version) -> None:
-    parent = below(element, "Labels") if version == "3.0" and topic.labels else element
-    for label in topic.labels:
-        below(parent, "Label" if version == "3.0" else "Labels", label)
+def _labels(element: Element, topic: Topic) -> None:
+    if topic.labels:
+        labels = below(element, "Labels")
+        for label in topic.labels:
+            below(labels, "Label", label)
 
 
 def _view(parent: Element, view: PairView, index: int) -> None:
