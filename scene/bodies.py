@@ -42,10 +42,9 @@ class MeshFile(Struct, frozen=True):
     in a check in a plane. placement_step: the relative precision of its placement in the world, as
     a share of the world coordinates. deviation: the largest distance between a curve and the
     polygon that replaces it, in file units; the resolution includes it. inscribed: these polygons
-    lie within the curves; else they may reach beyond them by the deviation. exponent: mesh,
-    resolution, deviation and surface_tolerance times 2**exponent are in file units; 0 unless the
-    numbers of the file are beyond the range of the core. surface_tolerance: how far its facets may
-    be off the curved surfaces of the file, because the reader made them; 0: the file has facets.
+    lie within the curves; else they may reach beyond them by the deviation. surface_tolerance: how
+    far its facets may be off the curved surfaces of the file, because the reader made them; 0: the
+    file has facets.
     """
 
     path: str
@@ -62,7 +61,6 @@ class MeshFile(Struct, frozen=True):
     placement_step: float = FLOAT64_ROUNDING
     deviation: float = 0.0
     inscribed: bool = False
-    exponent: int = 0
     surface_tolerance: float = 0.0
 
 

@@ -8,7 +8,6 @@ from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.scaled_scene import require_in_range
 from satcheck.studies.pair import pair_of
 from satcheck.studies.stability.answer import ask
 from satcheck.studies.stability.comparison import compare
@@ -53,7 +52,6 @@ def probe(
 
 def _question(scene: Scene) -> Question:
     scene.require_in_space("stability is asked about meshes only")
-    require_in_range(scene)
     placed = [body for body in scene.bodies if body.transform is not None]
     if len(scene.bodies) != 2 or scene.unreadable or placed:
         raise SatcheckError("not-a-pair", "stability is asked about two mesh files of one unit")
