@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -40,7 +39,6 @@ if TYPE_CHECKING:
     from satcheck.audit.request.settings import FailOn
     from satcheck.core.shapes import Primitive
     from satcheck.scene import Scene
-    from satcheck.scene.health import MeshHealth
     from satcheck.scene.rules import Rule
 
 
@@ -144,19 +142,13 @@ def _worse(verdict: Verdict, answers: Sequence[BodyAnswer], fail_on: FailOn) -> 
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
     meshes = {id(body.shared): body.shared for body in bodies.placed.values()}
-    health = {key: stated_health(mesh.file.health) for key, mesh in meshes.items()}
+    health = {key: convert(to_builtins(mesh.file.health), Health) for key, mesh in meshes.items()}
     return tuple(
         _unusable_report(bodies.unusable[k])
         if k in bodies.unusable
         else _body_report(bodies.placed[k], health[id(bodies.placed[k].shared)])
         for k in range(len(bodies.ids))
     )
-
-
-def stated_health(health: MeshHealth) -> Health:
-    """A volume that overflowed is unknown."""
-    volume = health.volume if math.isfinite(health.volume) else None
-    return Health(**{**to_builtins(health), "volume": volume})
 
 
 def _unusable_report(body: UnusableBody) -> BodyReport:

@@ -19,7 +19,7 @@ class MeshHealth(Struct, frozen=True):
     faces no wider than the precision of the file; they are closed. holes: boundary loops that
     remain after the repair. Loops of flat parts do not count, because these are sheets.
     largest_hole: the extent of the largest hole, file units, 0.0 without holes. volume: signed,
-    file units cubed, 0.0 unless closed and oriented; nan if it is beyond the range of float64.
+    file units cubed, 0.0 unless closed and oriented.
     inside_out: some parts faced inward and were turned. double_sided: each face exists in both
     orientations. flat: all vertices in one plane. solid: after the repair, inside and outside are
     defined, and the inside is not empty.
@@ -163,8 +163,7 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
     if health.inside_out:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
-        is_known = math.isfinite(health.volume) and health.volume != 0
-        volume = f" (volume {health.volume:g})" if is_known else ""
+        volume = f" (volume {health.volume:g})" if health.volume else ""
         warnings.append(("inside-out", f"{what} faced inward{volume}: turned"))
     if health.flat:
         warnings.append(("flat", f"all triangles lie in one plane: {sheet}"))
