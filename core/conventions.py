@@ -38,8 +38,3 @@ def axes_of(plane: Plane) -> tuple[int, int]:
 def axis_across(plane: Plane) -> int:
     """The world axis perpendicular to a plane."""
     return 3 - sum(axes_of(plane))
-
-
-def depth_from_distance(distance: float) -> float:
-    """Penetration depth of a signed distance; 0.0 for a gap or a touch."""
-    return max(0.0, -distance)
