@@ -38,7 +38,6 @@ _GRAVITY: dict[KnownRelation, int] = {
 }
 _FIGURES: tuple[Figure, ...] = get_args(Figure)
 _OF_OVERLAPS: tuple[Figure, ...] = ("depth", "thickness", "volume")
-_OF_MOTIONS: tuple[Figure, ...] = ("motion_depth", "motion_distance")
 # Figures for which a smaller value is worse.
 _GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 

@@ -82,32 +82,7 @@ def check(
         few = "one body" if least == 1 else "two bodies"
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least")
     bodies = place(scene, settings, cache)
-    if len(bodies.placed) < len(scene.bodies) and settings.planar is None:
-        report = _check_scaled(scene, settings, progress, len(bodies.placed))
-        if report is not None:
-            return report
     return _check(scene, settings, progress, bodies, keep=cache is not None)
-
-
-def _check_scaled(
-    scene: Scene, settings: Settings, progress: Progress | None, placed: int
-) -> Report | None:
-    """The check of a scene with bodies beyond the number range of the core. None: scaling would not
-    bring more bodies than the `placed` ones into the range."""
-    if scene.asks_for_support or scene.joint_path is not None:
-        return None  # the bodies beyond the range stay unusable, and the answers open
-    from satcheck.audit.scaled_check import Scaling
-    from satcheck.scene.scaled_scene import exponent_for, scaled_scene
-
-    exponent = exponent_for(scene)
-    if exponent == 0:
-        return None
-    scaling = Scaling(exponent)
-    scaled, scaled_settings = scaled_scene(scene, exponent), scaling.settings(settings)
-    bodies = place(scaled, scaled_settings)
-    if len(bodies.placed) <= placed:
-        return None
-    return scaling.report(_check(scaled, scaled_settings, progress, bodies), scene, settings)
 
 
 def _check(

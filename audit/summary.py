@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -35,13 +34,10 @@ from satcheck.report.report import (
     Truncated,
     Verdict,
 )
-from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import FailOn
-    from satcheck.decompose import Decomposition
     from satcheck.scene import Scene
-    from satcheck.scene.health import MeshHealth
     from satcheck.scene.rules import Rule
 
 
@@ -145,19 +141,13 @@ def _worse(verdict: Verdict, answers: Sequence[BodyAnswer], fail_on: FailOn) -> 
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
     meshes = {id(body.shared): body.shared for body in bodies.placed.values()}
-    health = {key: stated_health(mesh.file.health) for key, mesh in meshes.items()}
+    health = {key: convert(to_builtins(mesh.file.health), Health) for key, mesh in meshes.items()}
     return tuple(
         _unusable_report(bodies.unusable[k])
         if k in bodies.unusable
         else _body_report(bodies.placed[k], health[id(bodies.placed[k].shared)])
         for k in range(len(bodies.ids))
     )
-
-
-def stated_health(health: MeshHealth) -> Health:
-    """A volume that overflowed is unknown."""
-    volume = health.volume if math.isfinite(health.volume) else None
-    return Health(**{**to_builtins(health), "volume": volume})
 
 
 def _unusable_report(body: UnusableBody) -> BodyReport:
@@ -181,7 +171,6 @@ def _unusable_report(body: UnusableBody) -> BodyReport:
 
 def _body_report(body: PlacedBody, health: Health) -> BodyReport:
     file, given = body.body.file, body.body.as_given or body.body
-    transform = placing_file(given.file, given.transform)
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(
@@ -190,7 +179,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         file=file.path,
         sha256=file.sha256,
         path=body.body.path,
-        transform=None if transform is None else tuple(map(float, transform)),
+        transform=None if given.transform is None else tuple(map(float, given.transform)),
         units=body.body.units,
         unit_scale=body.body.unit_scale,
         groups=body.body.groups,
@@ -201,8 +190,8 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         surface_tolerance=body.surface_tolerance or None,
         convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
-        part_error=None if parts is None else _part_error(parts, file.exponent),
-        shape=stated_shape(shape_of_file(given.file, given.shape)),
+        part_error=None if parts is None else PartError(parts.outside, parts.missing),
+        shape=stated_shape(given.shape),
     )
 
 
@@ -210,10 +199,6 @@ def stated_reading(scene: Scene) -> StatedReading | None:
     """The options that count for the formats of the files in the scene."""
     stated = scene.reading.stated({body.file.format for body in scene.bodies})
     return None if stated is None else StatedReading(**stated)
-
-
-def _part_error(parts: Decomposition, exponent: int) -> PartError:
-    return PartError(math.ldexp(parts.outside, exponent), math.ldexp(parts.missing, exponent))
 
 
 def stated_shape(shape: Struct | None) -> StatedShape | None:

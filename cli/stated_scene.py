@@ -12,7 +12,6 @@ from satcheck.report.report import Issue
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.nodes import CORNER
-from satcheck.scene.mesh_units import placing_mesh
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.shape_file import shape_file
@@ -68,7 +67,7 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Me
 
 
 def _placed(entry: BodyReport, file: MeshFile) -> Body:
-    return Body(entry.id, entry.name, file, placing_mesh(file, entry.transform), path=entry.path)
+    return Body(entry.id, entry.name, file, entry.transform, path=entry.path)
 
 
 def _issue(code: str, entry: BodyReport, message: str) -> Issue:

@@ -17,6 +17,11 @@ from typing import Literal, get_args
 Vector = tuple[float, float, float]
 Bounds = tuple[Vector, Vector]  # least and greatest corner of an axis-aligned box
 
+# The range of the core (native/base/numeric_range.hpp): no coordinate of a mesh is larger, and no
+# mesh or shape is smaller, unless all its points coincide.
+LARGEST_LENGTH = 1e45
+SMALLEST_SIZE = 1e-45
+
 # The meaning of the numbers in PairResults.outcome.
 OUTCOMES = ("separated", "touching", "penetrating", "undecided")
 
@@ -33,14 +38,3 @@ def axes_of(plane: Plane) -> tuple[int, int]:
 def axis_across(plane: Plane) -> int:
     """The world axis perpendicular to a plane."""
     return 3 - sum(axes_of(plane))
-
-
-def depth_from_distance(distance: float) -> float:
-    """Penetration depth of a signed distance; 0.0 for a gap or a touch."""
-    return max(0.0, -distance)
-
-
-def mtv_from(distance: float, normal: Vector) -> Vector:
-    """Minimum translation vector of A from the signed distance and the unit normal A to B."""
-    depth = depth_from_distance(distance)
-    return (-depth * normal[0], -depth * normal[1], -depth * normal[2])

@@ -6,14 +6,13 @@ Each is convex and centred at its own origin, with its axis along z. The apex of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TypeGuard
 
 from msgspec import Struct, to_builtins
 from msgspec.structs import force_setattr
 
 from satcheck.core.conventions import Vector
-from satcheck.core.power_of_two import times_power
 
 Values = dict[str, str | float | Vector]
 Columns = tuple[Vector, Vector, Vector]
@@ -114,16 +113,6 @@ def half_sizes(shape: Primitive) -> Vector:
             return radii
         case Box((x, y, z)):
             return x / 2, y / 2, z / 2
-
-
-def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
-    """The shape with its sizes times 2**exponent; None if a size would be rounded."""
-    sizes = times_power(sizes_of(shape), exponent)
-    if sizes is None:
-        return None
-    values: tuple[object, ...] = (sizes,) if shape.__struct_fields__[0] in _TRIPLES else sizes
-    form: Callable[..., Primitive] = type(shape)
-    return form(*values)
 
 
 def primitive_of(values: object) -> Primitive:

@@ -52,7 +52,7 @@ class Health(Value, frozen=True, kw_only=True):
     loops of the boundary that remain. largest_hole: diagonal of the box around the largest hole,
     file units; 0 without holes. closed: every edge has an even number of triangles, once cracks are
     closed. manifold: exactly two. oriented: all triangles agree on which side is outside. volume:
-    signed, file units cubed; None: out of range. inside_out: some parts faced inward and were
+    signed, file units cubed. inside_out: some parts faced inward and were
     turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
     solid: after the repair, inside and outside are defined, and the inside is not empty.
     """
@@ -71,7 +71,7 @@ class Health(Value, frozen=True, kw_only=True):
     closed: bool
     manifold: bool
     oriented: bool
-    volume: float | None
+    volume: float
     inside_out: bool
     double_sided: bool
     flat: bool

@@ -40,10 +40,9 @@ class MeshFile(Struct, frozen=True):
     outline: the corners, counter-clockwise, of the convex polygon over which the mesh is a prism,
     in a check in a plane. placement_step: the relative precision of its placement in the world, as
     a share of the world coordinates. deviation: in a check in a plane, the largest distance between
-    a curve and the polygon within it that replaces it; the resolution includes it. exponent: mesh,
-    resolution, deviation and surface_tolerance times 2**exponent are in file units; 0 unless the
-    numbers of the file are beyond the range of the core. surface_tolerance: how far its facets may
-    be off the curved surfaces of the file, because the reader made them; 0: the file has facets.
+    a curve and the polygon within it that replaces it; the resolution includes it.
+    surface_tolerance: how far its facets may be off the curved surfaces of the file, because the
+    reader made them; 0: the file has facets.
     """
 
     path: str
@@ -59,7 +58,6 @@ class MeshFile(Struct, frozen=True):
     outline: tuple[tuple[float, float], ...] | None = None
     placement_step: float = FLOAT64_ROUNDING
     deviation: float = 0.0
-    exponent: int = 0
     surface_tolerance: float = 0.0
 
 

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from msgspec import Struct
 
 from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
-from satcheck.core.power_of_two import held_times_power
 from satcheck.scene.errors import MeshFileError
 
 
@@ -20,7 +19,7 @@ class MeshHealth(Struct, frozen=True):
     faces no wider than the precision of the file; they are closed. holes: boundary loops that
     remain after the repair. Loops of flat parts do not count, because these are sheets.
     largest_hole: the extent of the largest hole, file units, 0.0 without holes. volume: signed,
-    file units cubed, 0.0 unless closed and oriented; nan if it is beyond the range of float64.
+    file units cubed, 0.0 unless closed and oriented.
     inside_out: some parts faced inward and were turned. double_sided: each face exists in both
     orientations. flat: all vertices in one plane. solid: after the repair, inside and outside are
     defined, and the inside is not empty.
@@ -73,27 +72,23 @@ def _exact(_: Mesh) -> float:
     return 0.0
 
 
-def examine(
-    mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact, exponent: int = 0
-) -> Examined:
+def examine(mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact) -> Examined:
     """Welds and inspects a mesh. It also orients the mesh, unless its winding is intended.
 
     Vertices and triangles are sorted, so that no answer depends on their order in the file.
     resolution: computes the precision of the coordinates; called only if the mesh has a boundary.
-    exponent: lengths of the mesh times 2**exponent are in file units. Raises MeshFileError (without
-    a file name) when no triangle has an area.
+    Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    return _judged(_sealed(inspect(mesh, orient), orient, resolution), exponent)
+    return _judged(_sealed(inspect(mesh, orient), orient, resolution))
 
 
 def examine_bytes(
     vertices: bytes | memoryview,
     triangles: bytes | memoryview,
     resolution: Resolution = _exact,
-    exponent: int = 0,
 ) -> Examined:
     """Same as examine(Mesh.from_bytes(vertices, triangles)), but builds no temporary mesh."""
-    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution), exponent)
+    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution))
 
 
 def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Inspection:
@@ -103,7 +98,7 @@ def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Ins
     return with_cracks_closed(inspection, orient, CRACK_WIDTH * resolution(inspection.mesh))
 
 
-def _judged(inspection: Inspection, exponent: int) -> Examined:
+def _judged(inspection: Inspection) -> Examined:
     topology, after, turned = inspection.topology, inspection.repaired, inspection.turned
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(
@@ -128,11 +123,11 @@ def _judged(inspection: Inspection, exponent: int) -> Examined:
         duplicate_triangles=topology.duplicate_triangles,
         cracks=cracks,
         holes=inspection.hole_count,
-        largest_hole=math.ldexp(hole[1], exponent) if hole else 0.0,
+        largest_hole=hole[1] if hole else 0.0,
         closed=after.closed if cracks else topology.closed,
         manifold=topology.manifold,
         oriented=topology.oriented,
-        volume=held_times_power(after.volume if cracks else topology.volume, 3 * exponent),
+        volume=after.volume if cracks else topology.volume,
         inside_out=turned and topology.oriented and not copies_dropped,
         double_sided=double_sided,
         flat=not after.solid and inspection.mesh.is_flat(),
@@ -168,8 +163,7 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
     if health.inside_out:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
-        is_known = math.isfinite(health.volume) and health.volume != 0
-        volume = f" (volume {health.volume:g})" if is_known else ""
+        volume = f" (volume {health.volume:g})" if health.volume else ""
         warnings.append(("inside-out", f"{what} faced inward{volume}: turned"))
     if health.flat:
         warnings.append(("flat", f"all triangles lie in one plane: {sheet}"))

@@ -15,7 +15,6 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import mesh_file
 from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
 from satcheck.scene.loading.source import Source
-from satcheck.scene.mesh_units import placing_mesh
 from satcheck.scene.resolution import STEPS
 
 if TYPE_CHECKING:
@@ -89,7 +88,7 @@ def _body(id_: str, mesh: MeshLike, pose: ArrayLike | None) -> Body:
         raise SatcheckError(error.code, error.message, body=id_) from error.__cause__
     except SatcheckError as error:
         raise SatcheckError(error.code, error.message, body=id_) from None
-    return Body(id_, id_, file, placing_mesh(file, transform))
+    return Body(id_, id_, file, transform)
 
 
 def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:

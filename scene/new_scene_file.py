@@ -19,7 +19,6 @@ from satcheck.scene.format.entries import SCENE_1, BodyEntry, MeshPath, SceneFil
 from satcheck.scene.format.text import is_toml
 from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.mesh_units import placing_file, shape_of_file
 from satcheck.scene.motion import Motion, PosePath, Rotation
 from satcheck.scene.path_kind import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector
@@ -125,7 +124,7 @@ def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
         nothing: Any = ()
         builder.add_scene(SceneFile("", "", scene.units, parts, frozenset(), False, *[nothing] * 3))
         for body in builder.scene().bodies:
-            unplaced[body.id] = placing_file(body.file, body.transform) or IDENTITY
+            unplaced[body.id] = body.transform or IDENTITY
     return unplaced
 
 
@@ -138,14 +137,13 @@ def _stated_units(body: Body) -> str | None:
 
 def _entry(output: Path, body: Body, unplaced: Transform, by: Vector) -> dict[str, Any]:
     """unplaced: as of `_without_placements`. by: its translation."""
-    shape = shape_of_file(body.file, body.shape)
-    if shape is None:
+    if body.shape is None:
         entry = _named(output, body.id, body.file.path, body.path)
     else:
-        entry = {"id": body.id, "shape": to_builtins(shape)}
+        entry = {"id": body.id, "shape": to_builtins(body.shape)}
     if units := _stated_units(body):
         entry["units"] = units
-    placement = placing_file(body.file, body.transform) or IDENTITY
+    placement = body.transform or IDENTITY
     entry |= _placement(_after(placement, unplaced), by)
     entry |= _common(body)
     if body.pinned:

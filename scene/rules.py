@@ -14,6 +14,7 @@ from typing import Literal, Protocol, TypeVar, get_args
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.core.errors import SatcheckError
 
 Severity = Literal["error", "warning", "note", "none"]
@@ -164,6 +165,9 @@ class Rule(Struct, frozen=True, kw_only=True):
             value = getattr(self, key)
             if value is not None and not (math.isfinite(value) and value >= 0):
                 raise _refused(f"{key} must be a finite number >= 0, not {value!r}")
+            if value is not None and key in LENGTHS and value > LARGEST_LENGTH:
+                message = f"{key} must be at most {LARGEST_LENGTH:g}, not {value!r}"
+                raise SatcheckError("out-of-range", message)
         require_effect(self, KEYS)
         if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
             raise _refused("an allowed pair is not checked: remove the other keys")

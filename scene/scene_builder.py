@@ -26,7 +26,6 @@ from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.planar.outline import Shape
 from satcheck.scene.read_options import GeometryKind, ReadOptions
@@ -230,7 +229,6 @@ class SceneBuilder:
                 part.id, part.id, place, file, offset, own, part.static, shape, part.piece
             )
             self._entries[id_] = Entry(part.file, line=part.line)
-            offset = placing_mesh(file, offset) or offset
             bodies.append(RobotBody(id_, part.link, offset, part.groups))
         self._robots.append(SceneRobot(robot, tuple(bodies), groups=groups))
 
@@ -288,7 +286,6 @@ class SceneBuilder:
         self._inputs[-1].ids.append(id_)
         if isinstance(file, MeshFile):
             own = stated_unit(units or file.units) or self._inputs[-1].unit
-            transform, shape = placing_mesh(file, transform), shape_of_mesh(file, shape)
             body = Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             self._bodies.append(replace(body, surface_tolerance=surface_tolerance))
         else:

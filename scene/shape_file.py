@@ -8,9 +8,9 @@ import json
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
-from satcheck.core.power_of_two import exponent_into_range, exponent_of
+from satcheck.core.conventions import LARGEST_LENGTH, SMALLEST_SIZE
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
-from satcheck.core.shapes import sizes_of, times_power_of_two, values_of
+from satcheck.core.shapes import Primitive, sizes_of, values_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
@@ -24,23 +24,15 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
     """The mesh of the shape. path: the scene file that states it.
 
     sha256: of the values of the shape and the number of segments. The sizes are exact float64
-    numbers, so the resolution is float64 rounding. Raises MeshFileError if sizes differ too much.
+    numbers, so the resolution is float64 rounding. Raises MeshFileError (`out-of-range`).
     The mesh of a curved shape lies within the shape.
     """
-    exponent = 0
     try:
-        try:
-            if isinstance(shape, Outline):
-                examined = examine(shape.mesh(), orient=False)
-            else:
-                examined = examine(mesh_of(shape, segments))
-        except OverflowError:
-            if isinstance(shape, Outline):
-                raise
-            sizes = sizes_of(shape)
-            exponent = -exponent_into_range(exponent_of(min(sizes)), exponent_of(max(sizes)))
-            scaled = times_power_of_two(shape, -exponent) or shape
-            examined = examine(mesh_of(scaled, segments), exponent=exponent)
+        if isinstance(shape, Outline):
+            examined = examine(shape.mesh(), orient=False)
+        else:
+            _require_in_range(shape, path)
+            examined = examine(mesh_of(shape, segments))
     except OverflowError as error:
         raise MeshFileError("out-of-range", str(error), file=path) from None
     low, high = examined.mesh.bounds
@@ -55,8 +47,17 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
         topology=examined.topology,
         health=examined.health,
         issues=(),
-        exponent=exponent,
     )
+
+
+def _require_in_range(shape: Primitive, path: str) -> None:
+    for size in sizes_of(shape):
+        if not SMALLEST_SIZE <= size <= LARGEST_LENGTH:
+            message = (
+                f"the {type(shape).__name__.lower()} has a size of {size:.3g}, out of range: sizes "
+                f"may be from {SMALLEST_SIZE:g} to {LARGEST_LENGTH:g}; use another unit of length"
+            )
+            raise MeshFileError("out-of-range", message, file=path)
 
 
 def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:

@@ -17,7 +17,6 @@ from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
@@ -153,10 +152,15 @@ class Bodies:
             return replace(unread, reason=f"{file} has changed: its SHA-256 is another")
         primitive = None
         if entry.shape is not None:
-            primitive = shape_of_mesh(shape.file, shape_from(to_builtins(entry.shape)))
-        pose = placing_mesh(shape.file, entry.transform)
+            primitive = shape_from(to_builtins(entry.shape))
         body = Body(
-            name, name, shape.file, pose, entry.groups, static=entry.static, shape=primitive
+            name,
+            name,
+            shape.file,
+            entry.transform,
+            entry.groups,
+            static=entry.static,
+            shape=primitive,
         )
         return body, shape
 
@@ -182,7 +186,6 @@ class Bodies:
             try:
                 shape = shape_from(values)
                 made = shape_file(shape, file)
-                shape = shape_of_mesh(made, shape) or shape
                 self._shapes[key] = (
                     curved_of(made, shape) if is_curved(shape) else _checked_shape(made, False)
                 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.bodies.placed_body import (
     MeshKey,
     PlacedBody,
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 # The code of an issue about a rule that selects no pair.
 UNUSED_RULE = "unused-rule"
+# The largest world coordinate. A body that is moved out of another, by twice this at most, stays in
+# the range of the core.
+LARGEST_PLACED = 2e44
 
 
 class UnusableBody(Struct, frozen=True):
@@ -126,8 +129,8 @@ class BodyCache:
         self.book: RuleBook | None = None
 
     def place(self, body: Body, settings: Settings, bounds: Box | None) -> PlacedBody:
-        """bounds: of its mesh in the world, where known. Raises ValueError or OverflowError where
-        its pose leaves the number range."""
+        """bounds: of its mesh in the world, where known. Raises OverflowError where its pose leaves
+        the number range, ValueError where it has no shape there."""
         earlier = self.placed.get(body.id)
         if earlier is not None and earlier.body is body:
             return earlier
@@ -135,12 +138,18 @@ class BodyCache:
         if key not in self.meshes:
             in_file = bounds if body.transform is None else None
             self.meshes[key] = SharedMesh(body.file, settings, in_file)
-        self.placed[body.id] = PlacedBody(body, self.meshes[key], bounds)
-        return self.placed[body.id]
+        placed = PlacedBody(body, self.meshes[key], bounds)
+        if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
+            raise OverflowError(
+                f"the body reaches {largest:.3g}, and world coordinates may be up to "
+                f"{LARGEST_PLACED:g}; use a larger unit of length"
+            )
+        self.placed[body.id] = placed
+        return placed
 
 
 def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> PlacedBodies:
-    """Put every body into the world; one whose pose leaves the number range is unusable.
+    """Put every body into the world; one that cannot be placed is unusable.
 
     cache: from earlier checks of these bodies; what is new here is added.
     """
@@ -185,7 +194,12 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
 
 
 def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
-    return Issue("unplaceable", "error", body.id, body.file.path, str(error))
+    return Issue(code_of_placing(error), "error", body.id, body.file.path, str(error))
+
+
+def code_of_placing(error: ArithmeticError | ValueError) -> str:
+    """Return the code of an error of `BodyCache.place`."""
+    return "out-of-range" if isinstance(error, OverflowError) else "unplaceable"
 
 
 def _unused(rule: Rule) -> Issue:

@@ -12,6 +12,7 @@ from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.contacts import MAX_TRIANGLE_PAIRS
 from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.request.trace import Trace
+from satcheck.core.conventions import SMALLEST_SIZE
 from satcheck.report.components import Component, Components, Passing
 from satcheck.report.report import OVERLAPS, Vector
 
@@ -54,7 +55,8 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     work = pair.settings.thickness_work
     for place, hull in enumerate(core.component_balls(a, b, overlap)):
         component, ball = components[place], Ball(hull.lower, hull.upper, hull.centre)
-        if component.resolved and ball.upper - ball.lower > width * ball.upper:
+        is_open = ball.upper - ball.lower > width * ball.upper
+        if component.resolved and is_open and _in_range(component.bounds):
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
             with shown(f"component {place + 1} of {len(components)}, thickness", pair) as progress:
@@ -64,6 +66,11 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
             work -= min(work, search.work)
             ball = _narrowed(ball, search, others if overlap.resolved else None)
         yield ball
+
+
+def _in_range(bounds: tuple[Vector, Vector]) -> bool:
+    """Whether a component is not too small to be searched."""
+    return max(high - low for low, high in zip(*bounds, strict=True)) >= SMALLEST_SIZE
 
 
 def _narrowed(

@@ -102,7 +102,5 @@ def _exact(pair: Pair, trace: Trace) -> CommonVolume | None:
 
 def _own_volume(body: PlacedBody) -> CommonVolume:
     volume = body.mesh.topology().volume
-    if not math.isfinite(volume):
-        raise SatcheckError("volume-out-of-range", "its volume is no float64", body=body.id)
     box = math.prod(high - low for low, high in zip(*body.bounds, strict=True))
     return CommonVolume(volume, VOLUME_ROUNDOFFS * UNIT_ROUNDOFF * body.mesh.triangle_count * box)

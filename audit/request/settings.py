@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args, get_type_hints
 
 from msgspec import Struct, ValidationError, convert
 
-from satcheck.core.conventions import PLANES, Plane, axis_across
+from satcheck.core.conventions import LARGEST_LENGTH, PLANES, Plane, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import Accuracy as Accuracy
 from satcheck.report.settings import Method as Method
@@ -139,6 +139,9 @@ class Settings(Struct, frozen=True):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value >= 0):
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
+            if value is not None and value > LARGEST_LENGTH:
+                message = f"{name} must be at most {LARGEST_LENGTH:g}, not {value!r}"
+                raise SatcheckError("out-of-range", message)
         for name in ("part_seconds", "volume_seconds", "seconds_per_file", "cross_check_seconds"):
             if not getattr(self, name) > 0:
                 raise _refused(f"{name} must be more than 0, not {getattr(self, name)!r}")

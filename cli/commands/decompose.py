@@ -46,7 +46,6 @@ from satcheck.report.decomposition import (
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Issue
 from satcheck.scene import Body, Scene, parts_file
-from satcheck.scene.scaled_scene import require_in_range
 from satcheck.scene.units import unit_of
 
 _FILES = ", ".join(parts_file.FORMATS)
@@ -132,7 +131,6 @@ def command(
     form = form_of(form, output)
     document = Document()
     scene = load(inputs, least=1)
-    require_in_range(scene)
     if parts_out is not None:
         scene.require_one_unit()
     if not scene.bodies and form == "table":
@@ -192,7 +190,7 @@ def _split(
         return decompose(
             body.world_mesh(), threshold=threshold, seed=seed, seconds=seconds, cache=cache
         )
-    except ValueError as error:
+    except (OverflowError, ValueError) as error:
         return SatcheckError("out-of-range", str(error))
     except DecompositionError as error:
         return error

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
 from msgspec import Struct
 
@@ -19,13 +16,11 @@ from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import NATIVE_FORMATS, read_native
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.resolution import file_resolution, placement_step
-
-Made = TypeVar("Made")
 
 
 class ReadLimits(Struct, frozen=True):
@@ -117,23 +112,12 @@ def _only_mesh(scene: RawScene) -> RawMesh:
     return part.mesh
 
 
-def mesh_of(source: Source, raw: RawMesh) -> tuple[RawMesh, Mesh]:
-    """The mesh and its source: `raw`, scaled into the range of the core if necessary.
-
-    Raises MeshFileError for errors that a reader does not check.
-    """
+def mesh_of(source: Source, raw: RawMesh) -> Mesh:
+    """Return the mesh as read. Raises MeshFileError for errors that a reader does not check."""
     try:
-        return _in_range(raw, lambda raw: Mesh.from_bytes(raw.vertices, raw.triangles))
+        return Mesh.from_bytes(raw.vertices, raw.triangles)
     except (MemoryError, OverflowError, ValueError) as error:
         raise _refusal(source, error) from error
-
-
-def _in_range(raw: RawMesh, make: Callable[[RawMesh], Made]) -> tuple[RawMesh, Made]:
-    try:
-        return raw, make(raw)
-    except OverflowError:
-        scaled = into_range(raw)
-        return scaled, make(scaled)
 
 
 def mesh_file(
@@ -151,7 +135,7 @@ def mesh_file(
     """
     path = source.path
     try:
-        raw, examined = _in_range(raw, partial(_examined, mesh))
+        examined = _examined(raw, mesh)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:
@@ -170,23 +154,21 @@ def mesh_file(
         ),
         part=part,
         placement_step=placement_step(raw, by_file=placed),
-        exponent=raw.exponent,
-        surface_tolerance=math.ldexp(raw.surface_tolerance, -raw.exponent),
+        surface_tolerance=raw.surface_tolerance,
     )
 
 
-def _examined(mesh: Mesh | None, raw: RawMesh) -> Examined:
+def _examined(raw: RawMesh, mesh: Mesh | None) -> Examined:
     resolution = partial(resolution_of, raw)
     if mesh:
-        return examine(mesh, resolution=resolution, exponent=raw.exponent)
-    return examine_bytes(raw.vertices, raw.triangles, resolution, raw.exponent)
+        return examine(mesh, resolution=resolution)
+    return examine_bytes(raw.vertices, raw.triangles, resolution)
 
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
-    """The precision of the coordinates of the mesh, in its units."""
+    """Return the precision of the coordinates of the mesh."""
     low, high = mesh.bounds
-    largest = math.ldexp(max(map(abs, (*low, *high))), raw.exponent)
-    return math.ldexp(file_resolution(raw, largest), -raw.exponent)
+    return file_resolution(raw, max(map(abs, (*low, *high))))
 
 
 def _refusal(source: Source, error: Exception) -> MeshFileError:

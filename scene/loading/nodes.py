@@ -149,7 +149,7 @@ class _Splitter:
         try:
             if not isinstance(raw, RawMesh):
                 return [("", replace(shape_file(raw, self._source.path), units=self._units))]
-            raw, mesh = mesh_of(self._source, raw)
+            mesh = mesh_of(self._source, raw)
             pieces = self._connected(raw, mesh) if self._components else []
             bodies = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
             return bodies or [("", self._file(part, raw, mesh))]

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
-from msgspec.structs import replace
 
-from satcheck.core.power_of_two import exponent_into_range, exponent_of, times_power
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 
@@ -27,8 +24,7 @@ class RawMesh(Struct, frozen=True, tag=True):
     """A mesh as read, in file units, not welded.
 
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
-    numbers, three a triangle. exponent: vertices times 2**exponent are in file units; 0 unless they
-    are beyond the range of the core. decimals: the largest number of digits after the point in a
+    numbers, three a triangle. decimals: the largest number of digits after the point in a
     coordinate without exponent. significant: the largest number of significant digits in a
     coordinate with an exponent. units: as the file declares them, or None. surface_tolerance:
     how far facets may be off the surfaces for which a reader made them, in file units. warnings:
@@ -42,7 +38,6 @@ class RawMesh(Struct, frozen=True, tag=True):
     significant: int = 0
     units: str | None = None
     warnings: tuple[tuple[str, str], ...] = ()
-    exponent: int = 0
     surface_tolerance: float = 0.0
 
 
@@ -142,25 +137,3 @@ def fan_triangles(fan: Sequence[int]) -> list[int]:
     for b, c in pairwise(fan[1:]):
         corners += (fan[0], b, c)
     return corners
-
-
-def into_range(raw: RawMesh) -> RawMesh:
-    """The mesh scaled by a power of two into the range of the core.
-
-    Raises OverflowError if no power of two suffices, or if a coordinate would lose digits.
-    """
-    coordinates = array("d")
-    coordinates.frombytes(raw.vertices)
-    size = max(_half_extent(coordinates[axis::3]) for axis in range(3))
-    largest = max(map(abs, coordinates), default=0.0)
-    exponent = exponent_into_range(exponent_of(size), exponent_of(largest)) if size > 0 else 0
-    scaled = times_power(coordinates, exponent) if exponent else None
-    if scaled is None:
-        raise OverflowError(
-            f"coordinates up to {largest:.3g} in a mesh {2 * size:.3g} across are out of range"
-        )
-    return replace(raw, vertices=array("d", scaled).tobytes(), exponent=-exponent)
-
-
-def _half_extent(values: array[float]) -> float:
-    return max(values, default=0.0) / 2 - min(values, default=0.0) / 2

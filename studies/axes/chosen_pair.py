@@ -7,7 +7,6 @@ from satcheck.audit.request.settings import Settings
 from satcheck.core.conventions import Plane
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Body, Scene
-from satcheck.scene.scaled_scene import require_in_range
 from satcheck.studies.pair import pair_of
 
 MOST_NAMED = 12  # bodies in a message
@@ -20,7 +19,6 @@ def chosen_pair(
     scene.require_one_unit()
     if planar is None:
         scene.require_in_space("add --planar xy")
-        require_in_range(scene)
     else:
         from satcheck.scene.planar.flat_scene import flat_scene
 
@@ -28,10 +26,7 @@ def chosen_pair(
     a, b = (_usable(scene, id_) for id_ in ids or _only_two(scene))
     if a is b:
         raise SatcheckError("not-a-pair", f"{a.id} is one body: name two")
-    try:
-        return pair_of((a, b), Settings(planar=planar, allow_open=allow_open))
-    except (ValueError, OverflowError) as error:
-        raise SatcheckError("unplaceable", f"cannot be placed: {error}") from None
+    return pair_of((a, b), Settings(planar=planar, allow_open=allow_open))
 
 
 def _only_two(scene: Scene) -> tuple[str, str]:

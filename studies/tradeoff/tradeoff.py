@@ -13,7 +13,6 @@ from satcheck.audit.request.settings import Method, Settings
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.scaled_scene import require_in_range
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
@@ -73,13 +72,18 @@ def tradeoff(
 
 
 def _pairs(scene: Scene) -> list[Bodies]:
-    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet."""
-    if len(scene.bodies) == 2:
-        require_in_range(scene)
-        a, b = scene.bodies
-        return [(a, b)]
+    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet.
+
+    Raises SatcheckError for a body that cannot be placed.
+    """
     settings = Settings()
     placed_bodies = place(scene, settings)
+    for issue in placed_bodies.issues:
+        if issue.severity == "error":
+            raise SatcheckError(issue.code, issue.message, body=issue.body)
+    if len(scene.bodies) == 2:
+        a, b = scene.bodies
+        return [(a, b)]
     near = close_pairs(placed_bodies, Planner(settings, placed_bodies.book, scene.composed))
     met = [(placed_bodies.placed[i], placed_bodies.placed[j]) for i, j in near]
     return [(a.body, b.body) for a, b in met if core.box_gap(a.bounds, b.bounds) == 0]

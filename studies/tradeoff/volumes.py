@@ -17,7 +17,7 @@ def body_volume(body: PlacedBody) -> float | None:
     if body.curved is not None or not body.solid or not body.shared.covers_once():
         return None
     file = body.body.file
-    return math.ldexp(abs(file.health.volume), -3 * file.exponent) * _growth(body)
+    return abs(file.health.volume) * _growth(body)
 
 
 def stand_in_volume(rung: str, body: PlacedBody) -> float | None:

@@ -6,7 +6,8 @@ import random
 
 import pytest
 
-from satcheck.core import Mesh, MeshRelation, Surface, mesh_relation
+from satcheck._native.core import MeshRelation
+from satcheck.core import Mesh, Surface, mesh_relation
 from tests.core.box_sums import TURN, BoxSum, SignedBox, random_sum
 from tests.core.voxel_solids import (
     IDENTITY,

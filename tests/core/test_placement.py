@@ -7,9 +7,9 @@ import random
 import numpy as np
 import pytest
 
+from satcheck._native.core import HullPoints
 from satcheck.core import (
     Hull,
-    HullPoints,
     Mesh,
     PairResult,
     Surface,

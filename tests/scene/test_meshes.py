@@ -96,12 +96,11 @@ def test_arrays_are_as_precise_as_a_file_that_holds_them(dtype: str, tmp_path: A
     assert file.health == body.file.health
 
 
-def test_a_mesh_beyond_the_range_of_the_core_is_scaled_like_a_file() -> None:
-    (body,) = scene_of_meshes({"cube": (VERTICES * 1e100, FACES)}).bodies
-    assert body.file.exponent != 0
-    low, high = body.world_mesh().bounds if body.file.exponent == 0 else body.file.mesh.bounds
-    assert high[0] * 2.0**body.file.exponent == 1e100
-    assert low[0] * 2.0**body.file.exponent == -1e100
+@pytest.mark.parametrize("scale", [1e46, 1e300, 1e-46, 5e-324])
+def test_a_mesh_out_of_range_is_refused_by_its_name(scale: float) -> None:
+    with pytest.raises(SatcheckError, match="out of range") as caught:
+        scene_of_meshes({"cube": (VERTICES * scale, FACES), "other": (VERTICES, FACES)})
+    assert (caught.value.code, caught.value.body) == ("out-of-range", "cube")
 
 
 QUARTER = np.array([[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]])

@@ -63,17 +63,6 @@ def test_each_body_has_its_own_tolerance(tmp_path: Path) -> None:
     assert not verified(made).accepted
 
 
-def test_a_scene_out_of_range_is_scaled_with_its_excuse(tmp_path: Path) -> None:
-    scale = 1e160
-
-    def large(mesh: Mesh) -> Mesh:
-        return [tuple(scale * c for c in p) for p in mesh[0]], mesh[1]
-
-    made = made_of(tmp_path, large(unit_box()), large(wedge()), surface_tolerance=scale * OFF)
-    assert made["findings"][0]["relation"] == "touching"
-    assert verified(made).accepted
-
-
 def numbers(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     if isinstance(value, dict | list):
         for key, member in value.items() if isinstance(value, dict) else enumerate(value):

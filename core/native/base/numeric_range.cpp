@@ -66,9 +66,9 @@ void require_in_range(std::span<const Vec3> points, const char* what) {
     if (in_range(p.x) && in_range(p.y) && in_range(p.z)) continue;
     const std::string where = std::string(what) + " " + std::to_string(i);
     if (!is_finite(p)) throw std::invalid_argument(where + " is not finite");
-    throw std::overflow_error(where + " is out of range: no coordinate is larger than 1e45");
+    throw std::overflow_error(where + " is out of range: a coordinate is beyond 1e45; use a larger unit of length");
   }
-  throw std::overflow_error("the size is out of range: it is below 1e-45");
+  throw std::overflow_error("the size is out of range: it is below 1e-45; use a smaller unit of length");
 }
 
 }  // namespace satcheck

@@ -12,8 +12,9 @@ namespace satcheck {
 
 namespace {
 void require_positive(double value, const char* what) {
-  if (!(value >= kSmallestSize && value <= kLargestCoordinate)) {
-    throw std::invalid_argument(std::string(what) + " must be positive, and between 1e-45 and 1e45");
+  if (!(value > 0 && std::isfinite(value))) throw std::invalid_argument(std::string(what) + " must be positive and finite");
+  if (value < kSmallestSize || value > kLargestCoordinate) {
+    throw std::overflow_error(std::string(what) + " is out of range: it must be between 1e-45 and 1e45");
   }
 }
 

@@ -8,7 +8,7 @@
 namespace satcheck {
 Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {
   for (const double entry : m) {
-    if (!std::isfinite(entry)) throw std::invalid_argument("the matrix is not finite");
+    if (!std::isfinite(entry)) throw std::overflow_error("the matrix is not finite");
   }
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
     throw std::invalid_argument("the matrix is not affine: its last row must be 0 0 0 1");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
 #include "mesh/nearest_point.hpp"
@@ -40,8 +41,9 @@ std::vector<Plane> box_planes(const std::vector<Vec3>& points) {
           {{-1, 0, 0}, -box.min.x}, {{0, -1, 0}, -box.min.y}, {{0, 0, -1}, -box.min.z}};
 }
 
-// Nothing of points in one plane. Of many points, the sides of their box.
+// Nothing of points in one plane, or below the range. Of many points, the sides of their box.
 std::vector<Plane> hull_planes(const std::vector<Vec3>& points) {
+  if (!are_in_range(points)) return {};
   if (points.size() > kMostHullPoints) return box_planes(points);
   const Polytope polytope = convex_hull(points);
   std::vector<Plane> planes;
@@ -108,6 +110,9 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
     ThicknessInterval& interval = intervals.emplace_back();
     interval.stop = ThicknessStop::work_spent;
     interval.upper = 2 * rounding;
+    if (const Vec3 size = box.max - box.min; max_abs(size) < kSmallestSize) {
+      interval.upper += smaller(size.x, smaller(size.y, size.z));
+    }
     if (hulls[k].empty()) continue;
     const InnerBall ball = largest_ball(hulls[k], box);
     interval.upper = 2 * (larger(ball.radius, 0) + rounding);
