@@ -9,7 +9,6 @@ from msgspec import Struct, to_builtins
 
 from satcheck.audit.request.settings import FailOn
 from satcheck.audit.severity import fails
-from satcheck.report.config import StatedConfig
 from satcheck.report.report import (
     OVERLAPS,
     BodyReport,
@@ -31,7 +30,7 @@ from satcheck.report.samples import (
     SamplesSummary,
     SamplesTruncated,
 )
-from satcheck.report.settings import StatedSettings
+from satcheck.report.settings import StatedConfig, StatedSettings
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Posture

@@ -15,7 +15,6 @@ from satcheck.audit.severity import is_failure, is_unmet
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
-from satcheck.report.reading import StatedReading
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
@@ -34,6 +33,7 @@ from satcheck.report.report import (
     Truncated,
     Verdict,
 )
+from satcheck.report.settings import StatedReading
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import FailOn

@@ -8,7 +8,7 @@ from satcheck.audit import Settings
 from satcheck.audit.request.in_units import settings_in_units
 from satcheck.batch.load_options import LoadOptions
 from satcheck.core.errors import SatcheckError
-from satcheck.report.config import StatedConfig
+from satcheck.report.settings import StatedConfig
 from satcheck.scene import Scene
 from satcheck.scene.units import Length
 

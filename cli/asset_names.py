@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
+import sys
 
 import click
 
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import talk
-from satcheck.cli.standard_input import standard_input
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.loader import has_only_rules
@@ -21,7 +21,7 @@ def asset_names(inputs: Inputs) -> list[str]:
     rules is no asset. click.UsageError if there is none."""
     names: list[str] = []
     for name in inputs.paths:
-        names += standard_input() if name == STANDARD_INPUT else [name]
+        names += _standard_input() if name == STANDARD_INPUT else [name]
     files = asset_files(filter(None, names))
     rules = {os.path.realpath(path) for path in inputs.rules}
     assets = [
@@ -41,3 +41,11 @@ def _is_skipped(file: str) -> bool:
     if skipped:
         talk(f"satcheck: {file} has only rules and is no asset: --rules {file} applies them")
     return skipped
+
+
+def _standard_input() -> list[str]:
+    """A name for each line, or with a NUL behind each. click.UsageError if it is closed."""
+    if sys.stdin is None:
+        raise click.UsageError("standard input is closed: give a folder or files")
+    text = os.fsdecode(sys.stdin.buffer.read()).replace(os.linesep, "\n")
+    return text.split("\0" if "\0" in text else "\n")

@@ -12,10 +12,9 @@ from satcheck.audit.sampled import Samples
 from satcheck.cli.format_option import PICTURES
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.ci import pieces as pieces_for_ci
-from satcheck.cli.formats.plain_names import in_one_line_each
 from satcheck.cli.formats.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.titles import with_titles
+from satcheck.cli.formats.titles import in_one_line_each, with_titles
 from satcheck.cli.formats.verdict import next_step, verdict_line
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import Page, talk

@@ -24,8 +24,8 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.core import keep_freed_memory
 from satcheck.report.assets import Asset
-from satcheck.report.config import StatedConfig
 from satcheck.report.json import render_assets
+from satcheck.report.settings import StatedConfig
 from satcheck.scene.loader import read_rules
 
 

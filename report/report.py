@@ -20,12 +20,10 @@ from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
 from satcheck.report.components import Components
-from satcheck.report.config import StatedConfig
 from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
-from satcheck.report.reading import StatedReading
 from satcheck.report.regions import InsideFinding, Regions
-from satcheck.report.settings import StatedSettings
+from satcheck.report.settings import StatedConfig, StatedReading, StatedSettings
 from satcheck.report.statics import Statics, SupportFinding
 from satcheck.report.sweep import Sweep
 from satcheck.report.values import Code, Count, Interval, Length, Value

@@ -8,9 +8,8 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from satcheck.report.bodies import StatedShape
-from satcheck.report.config import StatedConfig
 from satcheck.report.report import Exempt, Finding, Issue, JointValues, RuleReport
-from satcheck.report.settings import StatedSettings
+from satcheck.report.settings import StatedConfig, StatedSettings
 from satcheck.report.values import Count, Sha256, Tool, Value, Verdict
 
 # Numbers of samples start at 1.

@@ -14,9 +14,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import curved_certificate
-from satcheck.audit.certify.excuse import excuse
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.certify.thickness import cells
+from satcheck.audit.certify.thickness import cells, excuse
 from satcheck.audit.certify.values import (
     AXES,
     NoCertificate,

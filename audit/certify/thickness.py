@@ -1,18 +1,31 @@
-"""Why an overlap is no thicker: the cells of the search, as a certificate has them.
+"""Why an overlap is no thicker, and why surfaces that may be off explain one: the cells of the
+search, as a certificate has them.
 
-The checker proves in rationals what they show (`satcheck.verify.thickness`).
+The checker proves in rationals what they show (`satcheck.verify.thickness`). Most searches for an
+excuse leave nothing behind. This one is run again, and writes down its cells.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from msgspec import UNSET
 
 from satcheck import core
-from satcheck.report.certificate import Cells, Face, Plane
+from satcheck.audit.certify.values import NoCertificate
+from satcheck.audit.figures.explained import (
+    ball_in,
+    deeper,
+    limit_of,
+    may_be_explained,
+    surfaces,
+)
+from satcheck.report.certificate import Cells, Excuse, Face, InnerBall, Plane
 from satcheck.verify.partition import MOST_CELLS
+
+if TYPE_CHECKING:
+    from satcheck.audit.bodies.pair import Pair
 
 BODIES: tuple[Literal["a"], Literal["b"]] = ("a", "b")
 
@@ -31,6 +44,26 @@ def cells(proof: core.ThicknessProof) -> Cells | None:
         tuple(proof.cuts),
         tuple(map(tuple, proof.sums)),
     )
+
+
+def excuse(pair: Pair) -> Excuse | NoCertificate:
+    """Return what shows that surfaces which may be off explain the overlap: a ball in each body,
+    and cells."""
+    if not may_be_explained(pair):
+        return NoCertificate("no evidence was found that the overlap is within the touch band")
+    if pair.closer:
+        return NoCertificate("a touch of curves by their thickness is not certified")
+    inner = [ball_in(pair, body, off) for off, body in surfaces(pair)]
+    balls = [InnerBall(one.centre, one.radius) for one in inner if one.centre is not None]
+    interval = deeper(pair, prove=True)
+    if len(balls) < len(inner) or interval.proof is None or interval.upper > limit_of(pair):
+        return NoCertificate(
+            "the budget ends the search for what shows that surfaces may explain it"
+        )
+    shown = cells(interval.proof)
+    if shown is None:
+        return NoCertificate(f"the search for a deeper point has more than {MOST_CELLS:,} cells")
+    return Excuse(balls[0], balls[1], shown)
 
 
 def _patch(bound: core.DepthBound) -> Face | Plane:

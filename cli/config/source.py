@@ -14,7 +14,7 @@ from satcheck.cli.config.search import nearest_config
 
 if TYPE_CHECKING:
     from satcheck.cli.config.file import ConfigFile
-    from satcheck.report.config import StatedConfig
+    from satcheck.report.settings import StatedConfig
 
 # The commands that take options from a config file.
 COMMANDS = ("check", "each", "batch")
@@ -57,7 +57,7 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
     if file is None:
         return None
     from satcheck.cli.config.values import configurable
-    from satcheck.report.config import StatedConfig
+    from satcheck.report.settings import StatedConfig
 
     taken = {
         key: tuple(map(str, raw)) if isinstance(raw := file.values[key], list) else raw

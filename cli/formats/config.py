@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from satcheck.report.config import OptionValue, StatedConfig
     from satcheck.report.report import Report
+    from satcheck.report.settings import OptionValue, StatedConfig
 
 
 def config_lines(reports: Iterable[Report]) -> list[str]:

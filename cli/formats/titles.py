@@ -1,11 +1,14 @@
-"""The names that people know beside ids that only programs know, such as those of IFC elements."""
+"""Names in lines of text: those that people know beside ids that only programs know, as those of
+IFC elements, and none with a line break, which would begin a line that looks like ours."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
+
+from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
     from satcheck.report.report import Report
@@ -37,3 +40,21 @@ def with_titles(report: Report) -> Report:
 
 def _of(shown: Mapping[str, str], body: str | None) -> str | None:
     return None if body is None else shown.get(body, body)
+
+
+def in_one_line_each(report: Report) -> Report:
+    """The report with texts that a terminal can show."""
+    names = ((body.id, body.name, body.file, body.path or "") for body in report.bodies)
+    if all(name.isprintable() for each in names for name in each):
+        return report
+    from msgspec import convert, to_builtins
+
+    return convert(_shown(to_builtins(report)), type(report))
+
+
+def _shown(value: Any) -> Any:
+    if isinstance(value, str):
+        return harmless(value)
+    if isinstance(value, dict):
+        return {key: _shown(member) for key, member in value.items()}
+    return [_shown(member) for member in value] if isinstance(value, list | tuple) else value

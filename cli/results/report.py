@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
 from msgspec import Struct
@@ -14,10 +14,10 @@ from satcheck.cli.formats.ci import pieces as pieces_for_ci
 from satcheck.cli.formats.overview import Overview, overview
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import Document, Page, talk
-from satcheck.cli.results.named_assets import Assets, StoredAssets
 from satcheck.cli.results.worst_findings import Illustrated, with_pictures, worst_findings
-from satcheck.report.assets import AssetVerdict
+from satcheck.report.assets import Asset, AssetVerdict
 from satcheck.report.json import render_assets
+from satcheck.report.report import Report
 
 # Scenes that a table lists without --top, and findings with a picture.
 TOP = 100
@@ -33,6 +33,38 @@ class Chosen(Struct, frozen=True):
     folder: Path | None
     root: Path
     allow_outside: bool
+
+
+class Assets:
+    """The reports of assets by name (`cli.formats.ci.Reports`)."""
+
+    def __init__(self, assets: Collection[Asset]) -> None:
+        self._assets = assets
+
+    def __len__(self) -> int:
+        return len(self._assets)
+
+    def __iter__(self) -> Iterator[Asset]:
+        return iter(self._assets)
+
+    def items(self) -> Iterator[tuple[str, Report]]:
+        return ((asset.file, asset.report) for asset in self)
+
+    def values(self) -> Iterator[Report]:
+        return (asset.report for asset in self)
+
+
+class StoredAssets(Assets):
+    """Each iteration reads the files again."""
+
+    def __init__(self, results: StoredResults) -> None:
+        self._results = results
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def __iter__(self) -> Iterator[Asset]:
+        return (stored.asset for stored in self._results)
 
 
 def report(stored: StoredResults, chosen: Chosen, document: Document) -> AssetVerdict:
