@@ -14,7 +14,7 @@ ACTIVATE := . $(VENV)/bin/activate
 endif
 
 ROOMS := api cli studies batch audit verify report scene decompose core
-LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/*)
+LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/* $(room)/*/*/*/*)
 SOURCES := pyproject.toml CMakeLists.txt \
 	$(wildcard $(foreach kind,.py .pyi .json .html .css .js .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
 CXX_TESTS := $(wildcard core/native/tests/*/*.cpp core/native/tests/*/*.hpp tests/one_definition/*)

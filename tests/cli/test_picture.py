@@ -216,8 +216,8 @@ def test_what_cannot_be_drawn_is_told() -> None:
 
 def test_coordinates_beyond_the_renderer_have_no_picture(tmp_path: Path) -> None:
     text = "v 0 0 0\nv {0} 0 0\nv 0 {0} 0\nv 0 0 {0}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-    (tmp_path / "a.obj").write_text(text.format("1e100"))
-    (tmp_path / "b.obj").write_text(text.format("2e100"))
+    (tmp_path / "a.obj").write_text(text.format("1e42"))
+    (tmp_path / "b.obj").write_text(text.format("2e42"))
     output = tmp_path / "out.html"
     names = (str(tmp_path / "a.obj"), str(tmp_path / "b.obj"))
     assert satcheck(*names, "-o", str(output)).code == 1

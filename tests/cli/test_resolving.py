@@ -52,7 +52,7 @@ def test_a_scene_without_an_input_is_not_written(tmp_path: Path) -> None:
     paths = [str(tmp_path / name) for name in ("box.obj", "lost.obj")]
     ran = satcheck("resolve", *paths, "--scene-out", str(output))
     assert ran.code == 2
-    assert "it would lack lost, which could not be read" in ran.err
+    assert "lost could not be read, and a scene file cannot state it" in ran.err
     assert not output.exists()
 
 

@@ -92,10 +92,13 @@ def test_transforms_keep_the_outside_outside() -> None:
     for bad in (
         (0.0,) * 15 + (1.0,),
         (*SHIFT[:15], 2.0),
-        (math.nan, *SHIFT[1:]),
     ):
         with pytest.raises(ValueError, match="matrix"):
             CUBE.transformed(bad)
+    # Placements that multiply beyond float64 end so.
+    for beyond in (math.nan, math.inf):
+        with pytest.raises(OverflowError, match="matrix"):
+            CUBE.transformed((beyond, *SHIFT[1:]))
     with pytest.raises(ValueError, match="finite"):
         CUBE.translated((math.inf, 0, 0))
 

@@ -160,7 +160,7 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
       .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
       .def("sorted", &sort, ReleaseGil(), "Vertices sorted by coordinates, triangles by corners. The result does not depend on the order in the file.")
       .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
-the winding. ValueError when the matrix is not affine, not finite or singular.)")
+the winding. ValueError when the matrix is not affine or singular, OverflowError when an entry of it is not finite.)")
       .def("translated",
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())

@@ -55,7 +55,7 @@ def cases(kind: str, seed: int, count: int) -> Iterator[tuple[Mesh, Mesh, float,
     while count:
         g = draw.randint(1, 1 << 10) * 2.0 ** -draw.choice((13, 20, 30))
         a, b, times = PAIRS[kind](g)
-        turn, exponent = draw.choice(list(TURNS)), draw.choice((0, 0, -130, -40, 60, 130))
+        turn, exponent = draw.choice(list(TURNS)), draw.choice((0, 0, -130, -40, 60, 120))
         offset = draw.choice((0, 0, 1 << 10, 1 << 18))
         one, other = placed(a, turn, exponent, offset), placed(b, turn, exponent, offset)
         if one is None or other is None:
