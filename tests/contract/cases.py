@@ -16,8 +16,9 @@ SAMPLES = HERE.parent.parent / "sample_meshes"
 DOCS = HERE.parent.parent / "docs"
 # Stands for a folder of the call that is empty at first.
 OUT = "{out}"
-# For every call: no option comes from a file, and the answer is JSON on standard output.
-PLAIN = ("--no-config", "-j", "1")
+# For every call: no option comes from a file, no reader is stopped because a machine is busy, and
+# the answer is JSON on standard output.
+PLAIN = ("--no-config", "-j", "1", "--seconds-per-file", "600")
 JSON = ("--format", "json")
 
 Arguments = tuple[str, ...]
