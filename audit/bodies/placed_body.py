@@ -203,7 +203,7 @@ class PlacedBody:
         if geometry is None:
             with _MAKING:
                 geometry = self._geometry = self._geometry or core.PlacedGeometry(
-                    self.shared.geometry, self.body.transform, self.bounds, self.resolution
+                    self.shared.geometry, self.body.transform, None, self.resolution
                 )
         return geometry
 

@@ -216,14 +216,12 @@ void read_corners(Records& records, const PlyElement& element, std::int64_t vert
 }
 
 template <class Records>
-void read_faces(Records& records, const PlyElement& element, std::int64_t vertex_count, MeshData& mesh) {
-  Polygons polygons;
+void read_faces(Records& records, const PlyElement& element, std::int64_t vertex_count, Polygons& polygons, MeshData& mesh) {
   std::vector<std::uint32_t> face;
   read_corners(records, element, vertex_count, 0, [&](const std::vector<std::int64_t>& corners) {
     face.assign(corners.begin(), corners.end());
     polygons.add(face, records.place(), mesh);
   });
-  polygons.finish(Records::unit, mesh);
 }
 
 // A strip of triangles: each corner forms a triangle with the two before it, and every other triangle is turned over.
@@ -276,12 +274,13 @@ NumberFormat number_format_of(const PlyHeader& header) {
 template <class Records>
 MeshData read_body(Records records, const PlyHeader& header) {
   MeshData mesh;
+  Polygons polygons;
   mesh.number_format = number_format_of(header);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
       read_vertices(records, element, mesh);
     } else if (element.name == "face") {
-      read_faces(records, element, vertex_count_of(header), mesh);
+      read_faces(records, element, vertex_count_of(header), polygons, mesh);
     } else if (element.name == "tristrips") {
       read_strips(records, element, vertex_count_of(header), mesh);
     } else if (element.count > 0 && has_corners(element)) {
@@ -294,6 +293,7 @@ MeshData read_body(Records records, const PlyHeader& header) {
     }
   }
   records.check_end();
+  polygons.finish(Records::unit, mesh);  // faces may stand before the vertices
   require_triangles(mesh);
   return mesh;
 }

@@ -121,6 +121,24 @@ def test_edges_are_a_warning(tmp_path):
     assert set(warnings(file)) == {"ignored-geometry"}
 
 
+@pytest.mark.parametrize("ascii", [True, False])
+def test_faces_may_stand_before_the_vertices(tmp_path, ascii):
+    """A polygon of more than three corners waits for its positions."""
+    head = files.ply_header("ascii" if ascii else "binary_little_endian", 8, 6).decode()
+    first, *elements = head.removesuffix("end_header\n").split("element ")
+    head = "element ".join([first, *reversed(elements)]) + "end_header\n"
+    assert head.index("element face") < head.index("element vertex")
+    if ascii:
+        faces = "".join("4 {} {} {} {}\n".format(*quad) for quad in files.CUBE_QUADS)
+        body = (faces + ascii_points(files.CUBE_POINTS)).encode()
+    else:
+        body = b"".join(struct.pack("<B4i", 4, *quad) for quad in files.CUBE_QUADS)
+        body += b"".join(struct.pack("<3f", *point) for point in files.CUBE_POINTS)
+    file = loaded(tmp_path, "a.ply", head.encode() + body)
+    assert file.health.volume == 1.0
+    assert file.health.oriented
+
+
 def test_blanks_behind_the_first_word(tmp_path):
     content = files.ascii_ply().replace(b"ply\n", b"ply \n", 1)
     assert loaded(tmp_path, "a.ply", content).health.volume == 1.0

@@ -343,7 +343,7 @@ class PlacedGeometry:
         self,
         shared: Geometry,
         transform: Sequence[float] | None,
-        bounds: Box3,
+        bounds: Box3 | None,
         resolution: float,
     ) -> None: ...
     @property

@@ -31,10 +31,7 @@ using Corner = std::array<double, 3>;
 using Box = std::pair<Corner, Corner>;
 using PairTuple = std::tuple<PlacedGeometry*, PlacedGeometry*, double, double, double, double, bool>;
 
-Aabb to_aabb(const Box& box) {
-  const auto& [low, high] = box;
-  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
+Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
 
 Rung rung_from(const std::string& name) {
   constexpr const char* names[] = {"aabb", "obb", "hull", "triangles"};
@@ -69,14 +66,17 @@ world coordinate, so the body in the world is the hull of its world vertices.)")
       .def_prop_ro("refits", &Geometry::refits, "Number of trees fitted again to placed vertices.");
   nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh, and data that are made on demand.
 
-transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: of the body in the world.
-resolution: the precision of its coordinates, world units.)")
+transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: those of the body in the world,
+where they are known: its use raises ValueError if they are not. resolution: the precision of its coordinates, world
+units.)")
       .def("__init__",
            [](PlacedGeometry* self, std::shared_ptr<Geometry> shared, const std::optional<Matrix>& transform,
-              const Box& bounds, double resolution) {
-             new (self) PlacedGeometry(std::move(shared), transform, to_aabb(bounds), resolution);
+              const std::optional<Box>& bounds, double resolution) {
+             std::optional<Aabb> told;
+             if (bounds) told = Aabb{to_vec(bounds->first), to_vec(bounds->second)};
+             new (self) PlacedGeometry(std::move(shared), transform, told, resolution);
            },
-           "shared"_a, "transform"_a.none(), "bounds"_a, "resolution"_a)
+           "shared"_a, "transform"_a.none(), "bounds"_a.none(), "resolution"_a)
       .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "The mesh in the world; each coordinate rounded once. Raises what Mesh.transformed raises.")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
       .def("hull", &PlacedGeometry::hull, ReleaseGil(), "The hull of all vertices, with its faces.")
@@ -184,12 +184,14 @@ band_nanoseconds  the time of the touch band or the gap. stages() describes the 
 // A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
-  Climbing(nb::list pairs, const std::string& last, unsigned threads, bool alone, const std::string& method)
-      : pairs_(std::move(pairs)) {
+  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, bool alone, const std::string& method) {
     const MethodChoice choice = method_from(method);
     std::vector<ClimbRequest> requests;
-    requests.reserve(pairs_.size());
-    for (const nb::handle pair : pairs_) requests.push_back(request_from(nb::cast<PairTuple>(pair), choice, alone));
+    requests.reserve(pairs.size());
+    for (const nb::handle pair : pairs) {
+      pairs_.push_back(nb::tuple(pair));
+      requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, alone));
+    }
     const auto climb = [requests = std::move(requests), rung = rung_from(last), threads] {
       return climb_all(requests, rung, threads);
     };
@@ -211,7 +213,7 @@ class Climbing {
   }
 
  private:
-  nb::list pairs_;  // keeps the bodies
+  std::vector<nb::tuple> pairs_;  // keeps the bodies, whatever the caller does with the list
   std::future<std::vector<std::optional<Climb>>> results_;
 };
 
@@ -227,14 +229,14 @@ beyond gap_limit, or at the rung `last`: "aabb", "obb", "hull" or "triangles". t
 depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
 wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
 alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")
-      .def(nb::init<nb::list, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
+      .def(nb::init<const nb::list&, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
            "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
       .def("results", &Climbing::results,
            R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
-        [](const PairTuple& pair, const std::string& first, const std::string& last, const std::string& method) {
-          const ClimbRequest request = request_from(pair, method_from(method));
+        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method) {
+          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method));
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
           return climb(request, from, to);

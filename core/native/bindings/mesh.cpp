@@ -97,12 +97,21 @@ Mesh mesh_from_bytes(const Bytes& vertices, const Bytes& triangles) {
   return mesh;
 }
 
-Inspection inspect_bytes(const Bytes& vertices, const Bytes& triangles, bool orient) {
+bool is_writable(const nb::object& bytes) {
+  nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu> writable;
+  return nb::try_cast(bytes, writable, false);
+}
+
+// Bytes that somebody may still write are copied: indices that were checked must not change.
+Inspection inspect_bytes(const nb::typed<nb::object, Bytes>& given_vertices, const nb::typed<nb::object, Bytes>& given_triangles, bool orient) {
+  const auto vertices = nb::cast<Bytes>(given_vertices), triangles = nb::cast<Bytes>(given_triangles);
+  const bool is_fixed = !is_writable(given_vertices) && !is_writable(given_triangles);
+  const nb::gil_scoped_release release;
   const auto is_aligned = [](const Bytes& bytes) {
     return reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(Vec3) == 0 && bytes.size() > 0;
   };
   const bool is_whole = vertices.size() % sizeof(Vec3) == 0 && triangles.size() % sizeof(Triangle) == 0;
-  if (!is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
+  if (!is_fixed || !is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
   const MeshView mesh({reinterpret_cast<const Vec3*>(vertices.data()), vertices.size() / sizeof(Vec3)},
                       {reinterpret_cast<const Triangle*>(triangles.data()), triangles.size() / sizeof(Triangle)});
   require_valid(mesh);
@@ -177,9 +186,11 @@ equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
 
 using Bounds = std::pair<Tuple3, Tuple3>;
 
-std::vector<std::optional<Bounds>> bounds_of_placed(const std::vector<const Mesh*>& meshes,
+std::vector<std::optional<Bounds>> bounds_of_placed(const nb::typed<nb::sequence, Mesh>& given,
                                                     const std::vector<std::array<double, 16>>& matrices,
                                                     unsigned threads) {
+  const nb::tuple held(given);
+  const auto meshes = nb::cast<std::vector<const Mesh*>>(held);
   if (meshes.size() != matrices.size()) throw std::invalid_argument("meshes and matrices differ in number");
   constexpr std::size_t kTogether = 64;  // bodies that one thread takes at a time
   std::vector<std::optional<Bounds>> bounds(meshes.size());
@@ -242,7 +253,7 @@ changed the mesh. cracks: the number of closed cracks. topology: before these re
       .def_ro("repaired", &Inspection::repaired);
   m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(),
         "mesh.welded().sorted() and its topology; with `orient` also oriented().");
-  m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a, ReleaseGil(),
+  m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a,
         "inspect(Mesh.from_bytes(vertices, triangles), orient), but faster than both calls.");
   m.def("with_cracks_closed", &with_cracks_closed, "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
         R"(The inspection with cracks closed: gaps between neighbouring faces that are at most `width` wide, file units.

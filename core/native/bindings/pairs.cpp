@@ -26,14 +26,18 @@ nb::tuple to_tuple(Vec3 v) { return nb::make_tuple(v.x, v.y, v.z); }
 
 // Translation, then a quaternion x y z w of any non-zero length.
 Pose pose_from(const double* p) {
-  const double x = p[3], y = p[4], z = p[5], w = p[6];
-  const double norm_squared = x * x + y * y + z * z + w * w;
+  double largest = 0;
   for (int i = 0; i < 7; ++i) {
     if (!std::isfinite(p[i])) throw std::invalid_argument("a pose has a coordinate that is not finite");
     if (i < 3 && !in_range(p[i])) throw std::overflow_error("a pose has a translation that is out of range");
+    if (i >= 3) largest = std::fmax(largest, std::fabs(p[i]));
   }
-  if (!(norm_squared > 0)) throw std::invalid_argument("a pose has a quaternion of length 0");
-  const double k = 2 / norm_squared;
+  if (largest == 0) throw std::invalid_argument("a pose has a quaternion of length 0");
+  // Scaled so that no square is beyond float64. Of usual lengths no bit changes.
+  const int exponent = largest < 0x1p-200 || largest > 0x1p200 ? -std::ilogb(largest) : 0;
+  const auto scaled = [&](int i) { return std::scalbn(p[i], exponent); };
+  const double x = scaled(3), y = scaled(4), z = scaled(5), w = scaled(6);
+  const double k = 2 / (x * x + y * y + z * z + w * w);
   Pose pose;
   pose.rotation = {{{1 - k * (y * y + z * z), k * (x * y - z * w), k * (x * z + y * w)},
                     {k * (x * y + z * w), 1 - k * (x * x + z * z), k * (y * z - x * w)},
@@ -50,6 +54,11 @@ Pose pose_from(const std::optional<std::vector<double>>& values) {
   }
   if (values->size() != 7) throw std::invalid_argument("a pose is (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw)");
   return pose_from(values->data());
+}
+
+// The numbers as they are now: the caller may change the array once the interpreter goes on.
+std::vector<std::uint32_t> copy_of(const Indices& indices) {
+  return {indices.data(), indices.data() + indices.shape(0)};
 }
 
 Query query_from(const std::string& name) {
@@ -169,7 +178,7 @@ that are equal, is not convex, or clockwise. OverflowError for coordinates beyon
          unsigned threads) {
         if (index_a.shape(0) != index_b.shape(0)) throw std::invalid_argument("index_a and index_b differ in length");
         const Query goal = query_from(query);
-        const std::span a(index_a.data(), index_a.shape(0)), b(index_b.data(), index_b.shape(0));
+        const std::vector<std::uint32_t> a = copy_of(index_a), b = copy_of(index_b);
         nb::gil_scoped_release release;
         return check_polygons(polygons, a, b, goal, threads);
       },
@@ -177,16 +186,21 @@ that are equal, is not convex, or clockwise. OverflowError for coordinates beyon
       nb::arg("query") = "depth", nb::arg("threads") = 0);
 }
 
-PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a, Indices index_b, Poses poses_a,
-                       Poses poses_b, const std::string& query, const std::string& method, unsigned threads) {
+PairResults check_many(const nb::typed<nb::sequence, Shape>& given, const Indices& index_a, const Indices& index_b,
+                       const Poses& poses_a, const Poses& poses_b, const std::string& query, const std::string& method,
+                       unsigned threads) {
   const std::size_t count = index_a.shape(0);
   if (index_b.shape(0) != count || poses_a.shape(0) != count || poses_b.shape(0) != count) {
     throw std::invalid_argument("index_a, index_b, poses_a and poses_b differ in length");
   }
+  const nb::tuple held(given);
+  const auto shapes = nb::cast<std::vector<const Shape*>>(held);
+  const std::vector<std::uint32_t> first = copy_of(index_a), second = copy_of(index_b);
   const auto request = [&](std::size_t i) -> PairRequest {
-    const std::uint32_t a = index_a.data()[i], b = index_b.data()[i];
-    if (a >= shapes.size() || b >= shapes.size()) throw std::invalid_argument("a shape index is out of range");
-    return {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
+    if (first[i] >= shapes.size() || second[i] >= shapes.size()) {
+      throw std::invalid_argument("a shape index is out of range");
+    }
+    return {shapes[first[i]], shapes[second[i]], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
   };
   const Query goal = query_from(query);
   const MethodChoice choice = method_from(method);

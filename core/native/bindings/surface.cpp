@@ -30,11 +30,17 @@ namespace {
 
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
+// Queries take the first box of a tree.
+const Mesh& with_triangles(const Mesh& mesh) {
+  if (mesh.triangles.empty()) throw std::invalid_argument("a mesh without triangles has no surface");
+  return mesh;
+}
+
 void bind_one_surface(nb::module_& m) {
   nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
       .def("__init__",
            [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
-             new (self) Surface(make_surface(mesh, solid, sheets ? OpenParts::sheets : OpenParts::filled));
+             new (self) Surface(make_surface(with_triangles(mesh), solid, sheets ? OpenParts::sheets : OpenParts::filled));
            },
            "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: the mesh is closed; ValueError if it is not. sheets: parts with a rim have no inside; other holes have some
 fill.)")
@@ -56,7 +62,7 @@ hulls the winding numbers do not depend on the fill.)")
            },
            "point"_a, ReleaseGil(), R"(The winding number of the sheets of an open surface about a point on none of them: their signed solid angle over
 4 pi, in float64. 0 without sheets.)")
-      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of `mesh`, which is this mesh with moved vertices: the tree is fitted again in linear time. It is built
+      .def("refit", [](const Surface& like, const Mesh& mesh) { return refitted_surface(like, with_triangles(mesh)); }, "mesh"_a, ReleaseGil(), R"(The surface of `mesh`, which is this mesh with moved vertices: the tree is fitted again in linear time. It is built
 anew if the triangles differ, or if rounding has merged two vertices.)")
       .def("winding_number",
            [](const Surface& s, const Tuple3& point) {

@@ -45,7 +45,7 @@ Vec3 nearest_flat_normal(const Shape& shape, Vec3 direction) {
 
 // The normal along a straight line of the mantle, at the azimuth of `direction`; (0, 0, 0) if there is none.
 Vec3 nearest_mantle_normal(const Shape& shape, Vec3 direction) {
-  const double across = std::hypot(direction.x, direction.y);
+  const double across = scaled_norm({direction.x, direction.y, 0});
   if (across == 0) return {0, 0, 0};
   if (shape.kind == ShapeKind::cylinder) return {direction.x, direction.y, 0};
   if (shape.kind != ShapeKind::cone) return {0, 0, 0};

@@ -193,7 +193,7 @@ Shape make_ellipsoid(Vec3 radii) {
 namespace {
 
 Vec3 disc_support(double radius, Vec3 direction, double z) {
-  const double length = std::hypot(direction.x, direction.y);
+  const double length = scaled_norm({direction.x, direction.y, 0});
   if (length == 0) return {radius, 0, z};
   return {radius * (direction.x / length), radius * (direction.y / length), z};
 }

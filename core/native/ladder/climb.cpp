@@ -189,7 +189,7 @@ class Climber {
   }
 
   // The region of surfaces that matter for the relation to this body, and for gaps up to the limit.
-  Aabb reach_of(const PlacedGeometry& body) const {
+  Aabb reach_of(PlacedGeometry& body) const {
     const double reach = 2 * request_.gap_limit;
     return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
   }

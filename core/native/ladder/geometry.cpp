@@ -1,6 +1,9 @@
 #include "convex/convex_hull.hpp"
 #include "mesh/transform.hpp"
 #include "ladder/geometry.hpp"
+#include "ladder/placed_bounds.hpp"
+
+#include <stdexcept>
 
 #include "mesh/convexity.hpp"
 
@@ -17,6 +20,11 @@ std::shared_ptr<T> once(std::recursive_mutex& mutex, std::shared_ptr<T>& kept, M
 }
 
 }  // namespace
+
+Geometry::Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain, OpenParts open)
+    : mesh_(std::move(mesh)), solid_(solid), plain_(plain), open_(open) {
+  if (mesh_->vertices.empty()) throw std::invalid_argument("an empty mesh is no body");
+}
 
 const Aabb& Geometry::bounds() {
   const Lock lock(mutex_);
@@ -69,6 +77,24 @@ std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
   return fitted;
 }
 
+const Aabb& PlacedGeometry::bounds() {
+  std::call_once(bounded_, [&] {
+    Aabb box;
+    if (!transform_) {
+      box = shared_->bounds();
+    } else if (const auto placed = placed_bounds(*shared_->mesh(), *transform_)) {
+      box = *placed;
+    } else {
+      for (const Vec3& p : mesh()->vertices) box.include(p);
+    }
+    if (told_ && !(told_->min == box.min && told_->max == box.max)) {
+      throw std::invalid_argument("the bounds are not those of the mesh as it is placed");
+    }
+    bounds_ = box;
+  });
+  return bounds_;
+}
+
 std::shared_ptr<Mesh> PlacedGeometry::mesh() {
   if (!transform_) return shared_->mesh();
   return once(mutex_, mesh_, [&] { return transform(*shared_->mesh(), *transform_); });
@@ -95,7 +121,7 @@ std::shared_ptr<Shape> PlacedGeometry::hull_shape() {
 }
 
 OrientedBox PlacedGeometry::oriented_box(double pad) {
-  if (!transform_) return carried_box(bounds_, nullptr, pad);
+  if (!transform_) return carried_box(bounds(), nullptr, pad);
   return carried_box(shared_->bounds(), &*transform_, pad);
 }
 

@@ -21,9 +21,8 @@ class Geometry {
  public:
   // solid: the mesh is closed and consistently wound. If that is false, surfaces throw std::invalid_argument.
   // plain: the mesh is the output of inspect(), which proved that it is a plain solid. That is not proven again.
-  // open: what the open parts of its surface mean.
-  Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false, OpenParts open = OpenParts::filled)
-      : mesh_(std::move(mesh)), solid_(solid), plain_(plain), open_(open) {}
+  // open: what the open parts of its surface mean. Throws std::invalid_argument for a mesh without vertices.
+  Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false, OpenParts open = OpenParts::filled);
 
   const std::shared_ptr<Mesh>& mesh() const { return mesh_; }
   bool solid() const { return solid_; }
@@ -66,13 +65,14 @@ class Geometry {
 // One body in the world. Its data can be released and are made again on demand.
 class PlacedGeometry {
  public:
-  // transform: affine and not singular; empty: the identity. bounds: of the body. resolution: the precision of its
-  // coordinates, world units.
-  PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, Aabb bounds, double resolution)
-      : shared_(std::move(shared)), transform_(transform), bounds_(bounds), resolution_(resolution) {}
+  // transform: affine and not singular; empty: the identity. told: the bounds of the body, which are compared with its
+  // own when these are made. resolution: the precision of its coordinates, world units.
+  PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, std::optional<Aabb> told, double resolution)
+      : shared_(std::move(shared)), transform_(transform), told_(told), resolution_(resolution) {}
 
   Geometry& shared() const { return *shared_; }
-  const Aabb& bounds() const { return bounds_; }
+  // Throws what transform() throws, and std::invalid_argument for other bounds than were told.
+  const Aabb& bounds();
   double resolution() const { return resolution_; }
 
   std::shared_ptr<Mesh> mesh();  // each coordinate rounded once
@@ -88,8 +88,10 @@ class PlacedGeometry {
  private:
   std::shared_ptr<Geometry> shared_;
   std::optional<Matrix> transform_;
-  Aabb bounds_;
+  std::optional<Aabb> told_;
   double resolution_;
+  std::once_flag bounded_;
+  Aabb bounds_;
   std::recursive_mutex mutex_;  // of all below
   std::shared_ptr<Mesh> mesh_;
   std::shared_ptr<Surface> surface_;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -31,7 +33,7 @@ class Solver {
       push(walls[k], multipliers_[k]);
     }
     const auto chain = static_cast<double>(std::min(walls.size(), longest_chain));
-    relaxation_ = 2 / (1 + std::sin(std::numbers::pi / (2 * chain + 1)));
+    relaxation_ = 2 / (1 + cosine_of(std::numbers::pi / 2 - std::numbers::pi / (2 * chain + 1)));
   }
 
   LeastMotion solve() {

@@ -70,7 +70,7 @@ OrientedBox carried_box(const Aabb& box, const std::array<double, 16>* matrix, d
   carried.turned = !(along_one_axis(column[0]) && along_one_axis(column[1]) && along_one_axis(column[2]));
   double stretch[3];
   for (int axis = 0; axis < 3; ++axis) {
-    stretch[axis] = std::hypot(column[axis].x, column[axis].y, column[axis].z);
+    stretch[axis] = scaled_norm(column[axis]);
     const Vec3 c = column[axis];
     carried.axis[axis] = {c.x / stretch[axis], c.y / stretch[axis], c.z / stretch[axis]};
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/angle.hpp"
+
 namespace satcheck {
 
 double largest_stretch(const std::array<double, 16>& m) {
@@ -24,7 +26,7 @@ double largest_stretch(const std::array<double, 16>& m) {
   xy /= radius, xz /= radius, yz /= radius;
   const double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   const double half = std::clamp(determinant / 2, -1.0, 1.0);
-  const double stretch = std::scalbn(std::sqrt(mean + 2 * radius * std::cos(std::acos(half) / 3)), exponent);
+  const double stretch = std::scalbn(std::sqrt(mean + 2 * radius * cosine_of(angle_of_cosine(half) / 3)), exponent);
   if (!std::isfinite(stretch)) throw std::overflow_error("the placement stretches lengths out of range");
   return stretch;
 }

@@ -117,7 +117,7 @@ class Search {
     for (const Vec3 candidate : {move, on_grid(move)}) {
       const bool is_short = moves_within(of_a_->mesh.vertices, candidate, tolerance_) &&
                             moves_within(of_b_->mesh.vertices, -candidate, tolerance_);
-      if (!is_short && (hidden_ || !(std::hypot(candidate.x, candidate.y, candidate.z) <= tolerance_ * kToRounding))) {
+      if (!is_short && (hidden_ || !(scaled_norm(candidate) <= tolerance_ * kToRounding))) {
         continue;
       }
       if (!is_free(trials_.after(candidate)) || !is_free(Trials(*of_b_, *of_a_).after(-candidate))) continue;
@@ -144,7 +144,7 @@ class Search {
       const auto c = corners(surface.mesh, triangle);
       const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
       if (normal == Vec3{}) return;
-      const Vec3 unit = normal * (1 / std::hypot(normal.x, normal.y, normal.z));
+      const Vec3 unit = normal * (1 / scaled_norm(normal));
       ways.push_back(unit * sign);
       if (!surface.solid) ways.push_back(unit * -sign);
     };

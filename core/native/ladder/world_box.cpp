@@ -12,8 +12,8 @@ double box_gap(const Aabb& a, const Aabb& b) {
   };
   const Vec3 gap{along(0), along(1), along(2)};
   // The largest is rounded once, and so is its product with the factor below 1. The root has roundings of each
-  // difference, its quotient by the largest, the squares, two sums, the root and the product: less than 8.
-  const double diagonal = std::hypot(gap.x, gap.y, gap.z);
+  // difference, 4 of the norm, and that of the product: less than 8.
+  const double diagonal = scaled_norm(gap);
   return std::fmax(max_abs(gap) * (1 - kUnitRoundoff), diagonal * (1 - 8 * kUnitRoundoff));
 }
 

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/angle.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -35,7 +37,8 @@ Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt) {
   const double size = std::fmax(max_abs(extent), std::numeric_limits<double>::min());
   const int axis = (first.axis + attempt % 6 / 2) % 3;
   const bool upward = (attempt % 2 == 0) == first.upward;
-  const double slope = kFirstSlope * std::pow(kSlopeGrowth, attempt);
+  double slope = kFirstSlope;
+  for (int k = 0; k < attempt; ++k) slope *= kSlopeGrowth;
   const double s = slope * (2 * fraction(0.5 + kStep1 * (attempt + 1)) - 1);
   const double t = slope * (2 * fraction(0.5 + kStep2 * (attempt + 1)) - 1);
   // Beyond the wall by half the size, so that `far` is outside the box in spite of rounding.
@@ -54,7 +57,7 @@ double generalized_winding_number(const Mesh& mesh, const std::vector<std::uint3
     const Triangle& t = mesh.triangles[number];
     const Vec3 a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point, c = mesh.vertices[t[2]] - point;
     const double x = norm(a), y = norm(b), z = norm(c);
-    sum += std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+    sum += direction_angle(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
   }
   return sum / (2 * std::numbers::pi);
 }

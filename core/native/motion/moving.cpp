@@ -2,16 +2,17 @@
 
 #include <numbers>
 
+#include "base/angle.hpp"
 #include "base/rounding.hpp"
 
 namespace satcheck {
 namespace {
 
 // Rounding of the height of a point, in roundoffs of its distance from the origin and of that of the centre: a dot
-// product 4, the axis and the products of `a` and `b` 16 each. The angle has an error of 16 roundoffs, 4 of them from
-// each function and the rest from half a turn, and with it the point moves by so many roundoffs of its radius. The
-// cosine of the angle between the top of the circle and the height has an error of 8, which is a height of 8 roundoffs
-// of the radius. The radius is at most the sum of both distances.
+// product 4, the axis and the products of `a` and `b` 16 each. Each of the two angles has an error of 16 roundoffs and their
+// sum one of 8, and with it the point moves by so many roundoffs of its radius. The cosine of the angle between the top
+// of the circle and the height has an error of 8, which is a height of 8 roundoffs of the radius. The radius is at most
+// the sum of both distances.
 constexpr double kHeightError = 128 * kUnitRoundoff;
 // Rounding of the angular velocity: the unit axis 4, the rate 4. The rate of the gap allows for it at the body that
 // turns; a body at rest that is seen as turning may be far larger, and the angle is not limited here.
@@ -48,10 +49,10 @@ double time_below(Vec3 p, const Moving& turning, Vec3 n, double height, double l
   const double error = (kHeightError + kSpinError * speed * limit) * (norm(p) + norm(turning.centre));
   const double room = height - dot(n, p) - error;
   if (!(room > 0)) return 0;
-  const double radius = std::hypot(a, b);
+  const double radius = scaled_norm({a, b, 0});
   if (a + room >= radius) return limit;
   // The height is reached this angle before the top of the circle.
-  const double before_top = std::acos((a + room) / radius), top = std::atan2(b, a);
+  const double before_top = angle_of_cosine((a + room) / radius), top = direction_angle(b, a);
   const double angle = top > 0 ? std::fmax(top - before_top, 0.0) : top - before_top + 2 * std::numbers::pi;
   return std::fmin(angle / speed, limit);
 }
