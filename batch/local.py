@@ -4,32 +4,42 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from queue import Queue
 from threading import Thread
 
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.limits import Limits
 from satcheck.batch.pace import Pace
-from satcheck.batch.slot import Slot
-from satcheck.batch.slot_server import Answer
+from satcheck.batch.slot import RESULTS, Slot
+from satcheck.batch.slot_server import Answer, Wanted
+from satcheck.core.worker_errors import WorkerNotStarted
 
+# A process takes about this long to start: few worlds are checked before a second one would help.
+# After each such time there are twice as many.
+_SECONDS_BEFORE_MORE = 0.5
 # Work of a slot between two questions to this process. Short, so that little is lost with it.
 _CHUNK_SECONDS = 0.2
 _LARGEST_CHUNK = 64
 
 
 def check_locally(
-    worlds: Sequence[World], options: CheckOptions, limits: Limits, slots: int
+    worlds: Sequence[World],
+    options: CheckOptions,
+    limits: Limits,
+    slots: int,
+    wanted: Wanted = RESULTS,
 ) -> Generator[list[Answer]]:
     """The answers, as they come: all that are there at a time. Raises WorkerNotStarted. If the
     iteration is left early, the slots end."""
     waiting = deque(worlds)
     answers: Queue[Answer | BaseException] = Queue(maxsize=1000)
-    made = [Slot(options, limits) for _ in range(min(slots, len(worlds)))]
-    for slot in made:
-        Thread(target=_serve, args=(slot, waiting, answers), daemon=True).start()
+    made = [Slot(options, limits, wanted=wanted) for _ in range(min(slots, len(worlds)))]
+    # What no file keeps is asked for one by one: what is done is then known, whatever comes next.
+    largest = _LARGEST_CHUNK if wanted.kept else 1
     try:
+        for number, slot in enumerate(made):
+            _start(_serve, slot, number, largest, waiting, answers)
         due = len(worlds)
         while due:
             come = [
@@ -44,8 +54,23 @@ def check_locally(
             slot.stop()
 
 
-def _serve(slot: Slot, waiting: deque[World], answers: Queue[Answer | BaseException]) -> None:
-    pace = Pace(_LARGEST_CHUNK)
+def _start(work: Callable[..., None], *arguments: object) -> None:
+    try:
+        Thread(target=work, args=arguments, daemon=True).start()
+    except RuntimeError as error:  # the system grants no more threads
+        raise WorkerNotStarted(_start.__module__, str(error)) from error
+
+
+def _serve(
+    slot: Slot,
+    number: int,
+    largest: int,
+    waiting: deque[World],
+    answers: Queue[Answer | BaseException],
+) -> None:
+    """number: of the slot, from 0 on. largest: worlds of a chunk at most."""
+    time.sleep(number.bit_length() * _SECONDS_BEFORE_MORE)
+    pace = Pace(largest)
     try:
         while chunk := _next(waiting, pace.size):
             began = time.monotonic()

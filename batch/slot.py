@@ -20,6 +20,7 @@ from satcheck.batch.slot_server import (
     STEP_LINE,
     Answer,
     Chunk,
+    Wanted,
     answer,
     answers_in,
     request_of,
@@ -37,6 +38,7 @@ from satcheck.core.worker_errors import (
 from satcheck.report.batch import Result
 
 _SERVER = "satcheck.batch.slot_server"
+RESULTS = Wanted()
 # Steps of one world that are left out, before the world is given up.
 _MOST_LEFT_OUT = 3
 # A step is to blame for the end at the time limit only if it took more than this share of it.
@@ -45,11 +47,18 @@ _SHARE_OF_TIME = 0.5
 
 class Slot:
     """Checks one chunk of worlds after another. Stop it after use. folder: to which the names of
-    files are relative; None: the working directory."""
+    files are relative; None: the working directory. wanted: of each check."""
 
-    def __init__(self, options: CheckOptions, limits: Limits, folder: str | None = None) -> None:
+    def __init__(
+        self,
+        options: CheckOptions,
+        limits: Limits,
+        folder: str | None = None,
+        wanted: Wanted = RESULTS,
+    ) -> None:
         self._options = options
         self._limits = limits
+        self._wanted = wanted
         self._copies: TemporaryDirectory[str] | None = None
         self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True, folder=folder)
 
@@ -103,8 +112,10 @@ class Slot:
     def _ask(
         self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
     ) -> list[Answer]:
-        copies = self._folder_of_copies() if any(map(is_remote, worlds)) else None
-        request = request_of(Chunk(tuple(worlds), self._options, self._limits, left_out, copies))
+        fetches = self._wanted.kept and any(map(is_remote, worlds))
+        copies = self._folder_of_copies() if fetches else None
+        chunk = Chunk(tuple(worlds), self._options, self._limits, self._wanted, left_out, copies)
+        request = request_of(chunk)
         return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
 
     def _folder_of_copies(self) -> str:

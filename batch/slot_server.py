@@ -7,7 +7,7 @@ import json
 import os
 import re
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
 from typing import NoReturn
@@ -27,7 +27,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict
 from satcheck.report.batch import InputFile, Result
-from satcheck.report.json import line_without_times
+from satcheck.report.json import line_of
 from satcheck.scene.files_read import FilesRead, files_read, note
 from satcheck.scene.known_meshes import KnownMeshes
 
@@ -48,6 +48,16 @@ _meshes = KnownMeshes(_KEPT_TRIANGLES)
 _digests = Digests()
 
 
+class Wanted(Struct, frozen=True):
+    """What is wanted of a check beside its answer. kept: the result is for a file that a later run
+    resumes: it has its inputs, its key and no times. hashed: state the SHA-256 of the mesh files.
+    threads: for one check, as the other slots have the other cores."""
+
+    kept: bool = True
+    hashed: bool = True
+    threads: int = 1
+
+
 class Chunk(Struct, frozen=True):
     """left_out: None: a plain check. Else a careful one, without these steps. copies: a folder for
     copies of remote files, the same for each chunk of a slot."""
@@ -55,6 +65,7 @@ class Chunk(Struct, frozen=True):
     worlds: tuple[World, ...]
     options: CheckOptions
     limits: Limits
+    wanted: Wanted = Wanted()
     left_out: Mapping[str, Loss] | None = None
     copies: str | None = None
 
@@ -83,14 +94,27 @@ def serve(request: bytes) -> bytes:
     gc.set_threshold(_GARBAGE)
     end_at_memory_error(_end)
     chunk = msgspec.convert(json.loads(request), Chunk)
-    # A slot is one thread: the others have the other cores.
-    options = replace(chunk.options, settings={**chunk.options.settings, "jobs": 1})
-    terms = terms_of(options, chunk.limits if chunk.left_out else None)
+    settings = {**chunk.options.settings, "jobs": chunk.wanted.threads}
+    options = replace(chunk.options, settings=settings)
     care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
-    copies = None if chunk.copies is None else _copies(chunk.copies)
     with careful(care):
-        answers = [_answer(world, options, terms, copies=copies) for world in chunk.worlds]
+        answers = list(_answers(chunk, options))
     return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
+
+
+def _answers(chunk: Chunk, options: CheckOptions) -> Iterator[Answer]:
+    if not chunk.wanted.kept:
+        yield from (_answer_of_now(world, options, chunk.wanted) for world in chunk.worlds)
+        return
+    terms = terms_of(options, chunk.limits if chunk.left_out else None)
+    copies = None if chunk.copies is None else _copies(chunk.copies)
+    yield from (_answer(world, options, terms, copies=copies) for world in chunk.worlds)
+
+
+def _answer_of_now(world: World, options: CheckOptions, wanted: Wanted) -> Answer:
+    checked = check_world(world, options, hashed=wanted.hashed, known=_meshes)
+    line = line_of(_result(world, checked, (), None), timings=True)
+    return Answer(world, checked.verdict, line)
 
 
 @cache
@@ -165,4 +189,4 @@ def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: st
 
 
 def answer(result: Result) -> Answer:
-    return Answer(result.files, result.verdict, line_without_times(result))
+    return Answer(result.files, result.verdict, line_of(result))

@@ -34,7 +34,7 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from satcheck.audit import Settings, check
-from satcheck.report.json import line_without_times
+from satcheck.report.json import line_of
 
 ROOT = Path(__file__).resolve().parent.parent
 PLANTED = ROOT / "tests" / "batch" / "planted"
@@ -52,11 +52,11 @@ SHELL_SCENES = 25
 PLAIN_LOOP = """
 import sys
 from satcheck.audit import Settings, check
-from satcheck.report.json import line_without_times
+from satcheck.report.json import line_of
 settings = Settings(jobs=1)
 with open("loop.jsonl", "wb") as lines:
     for name in sys.stdin.read().split():
-        lines.write(line_without_times(check([name], settings)))
+        lines.write(line_of(check([name], settings)))
 """
 
 
@@ -186,7 +186,7 @@ def _names_the_file(result: Any, word: str, code: str) -> bool:
 
 
 def _findings(name: str, settings: Settings) -> object:
-    return json.loads(line_without_times(check([name], settings)))["findings"]
+    return json.loads(line_of(check([name], settings)))["findings"]
 
 
 def cost(words: list[str], scenes: int, given: str = "") -> Cost:

@@ -11,6 +11,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.command import satcheck
+from satcheck.cli.interrupts import end, hear_interrupts
 from satcheck.cli.output import abandon, cannot_write, harmless, talk
 from satcheck.core.errors import SatcheckError
 
@@ -18,10 +19,10 @@ COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
 
 
 def main() -> None:
+    hear_interrupts()
     code = _run()
     if code == exit_codes.INTERRUPTED:
-        # Threads may still be at work: the interpreter would wait for them.
-        os._exit(code)
+        end(code)
     # All that is left goes with the process: the interpreter's last search for cycles finds nothing
     # worth a tenth of a small check.
     gc.freeze()

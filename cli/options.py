@@ -12,6 +12,7 @@ from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
+from satcheck.batch.limits import Limits
 from satcheck.cli.lengths import length
 from satcheck.core.conventions import PLANES
 
@@ -88,6 +89,22 @@ def seconds_option(name: str, default: float, text: str) -> Callable[[_Command],
         default=default,
         show_default=True,
         help=text,
+    )
+
+
+def limits_of_worlds(what: str) -> Callable[[_Command], _Command]:
+    """What the check of a scene or an asset may cost. what: it is called."""
+    limits = Limits()
+    return together(
+        seconds_option("--scene-seconds", limits.seconds, f"The most time for {what}."),
+        click.option(
+            "--scene-megabytes",
+            type=click.IntRange(min=256),
+            metavar="MIB",
+            default=limits.megabytes,
+            show_default=True,
+            help="The most memory for a process that checks scenes.",
+        ),
     )
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import closing
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -11,22 +14,31 @@ from msgspec.structs import asdict
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.check_world import check_world
+from satcheck.batch.limits import Limits
+from satcheck.batch.local import check_locally
+from satcheck.batch.slot_server import Answer, Wanted
 from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.ci import pieces as pieces_for_ci
 from satcheck.cli.formats.overview import Overview, overview
-from satcheck.cli.formats.words import issue_line
+from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.inputs import Inputs
+from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.lengths import names_of_lengths
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.core import keep_freed_memory
-from satcheck.report.assets import Asset
-from satcheck.report.json import render_assets
+from satcheck.report.assets import Asset, AssetVerdict
+from satcheck.report.batch import Result
+from satcheck.report.json import read_line, render_assets
+from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.loader import read_rules
+
+INTERRUPTED = "interrupted"
+_LIMITS = Limits()
+# Of one asset. Each needs address space, which the limit of a process counts.
+_MOST_THREADS = 8
 
 
 def check_worlds(
@@ -36,22 +48,31 @@ def check_worlds(
     baseline: Path | None,
     delivery: Delivery,
     config: StatedConfig | None,
+    limits: Limits = _LIMITS,
     *,
     complete: bool = True,
 ) -> int:
     """The exit code, that of the worst world. inputs: how files are read. options: those of
-    `audit.Settings`. config: the options that come from a config file. complete: these are all
-    worlds; a rule that none of them needs is unused.
+    `audit.Settings`. config: the options that come from a config file. limits: for each world.
+    complete: these are all worlds; a rule that none of them needs is unused. After Ctrl-C the
+    report has the worlds that are done, and says how many are not. Raises KeyboardInterrupt if none
+    is.
     """
     terms = check_options(inputs, options, baseline, config, places=delivery.form != "table")
     document = Document()
-    assets = _check(worlds, terms, delivery.form)
+    jobs = options["jobs"] or os.cpu_count() or 1
+    assets = _check(worlds, terms, limits, jobs, hashed=delivery.form == "json")
+    interrupted = _interrupted(len(worlds) - len(assets), len(worlds))
     shared = frozenset(map(str, inputs.rules))
-    unused = unused_rules(assets, shared) if complete else ()
+    unused = unused_rules(assets, shared) if complete and not interrupted else ()
     assets = [without_unused_rules(each, shared) for each in assets]
-    seen = overview(assets, unused, top=delivery.top)
+    least: AssetVerdict = "incomplete" if interrupted else "pass"
+    seen = overview(assets, interrupted or unused, least=least, top=delivery.top)
     _deliver(document, seen, assets, delivery, timings=options["timings"])
     _tell(seen, assets, None if delivery.quiet else delivery.output)
+    if interrupted:
+        talk(f"satcheck: {interrupted[0].message}")
+        return exit_codes.INTERRUPTED
     return exit_codes.for_assets(seen.verdict, exit_zero=delivery.exit_zero)
 
 
@@ -79,15 +100,39 @@ def check_options(
     )
 
 
-def _check(worlds: Sequence[World], options: CheckOptions, form: str) -> list[Asset]:
-    keep_freed_memory()
-    assets = []
+def _check(
+    worlds: Sequence[World], options: CheckOptions, limits: Limits, jobs: int, *, hashed: bool
+) -> list[Asset]:
+    """In the order of the worlds; after Ctrl-C those that are done. Raises KeyboardInterrupt if
+    none is."""
+    threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
+    wanted = Wanted(kept=False, hashed=hashed, threads=threads)
+    assets: dict[World, Asset] = {}
     with Bar("assets") as bar:
-        for number, world in enumerate(worlds):
-            assets.append(check_world(world, options, hashed=form == "json"))
-            if bar is not None:
-                bar(number + 1, len(worlds))
-    return assets
+        try:
+            with closing(check_locally(worlds, options, limits, jobs, wanted)) as answers:
+                for each in chain.from_iterable(answers):
+                    assets[each.world] = _asset(each)
+                    if bar is not None:
+                        bar(len(assets), len(worlds))
+        except KeyboardInterrupt:
+            if not assets:
+                raise
+            write_before_the_end()
+    return [assets[world] for world in worlds if world in assets]
+
+
+def _asset(answer: Answer) -> Asset:
+    report = read_line(answer.line, Result).report
+    return Asset(answer.world[0], answer.verdict, report)
+
+
+def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:
+    if not not_checked:
+        return ()
+    were = "was" if not_checked == 1 else "were"
+    message = f"interrupted: {not_checked:,} of {counted(total, 'asset')} {were} not checked"
+    return (Issue(INTERRUPTED, "warning", None, None, message),)
 
 
 def _deliver(

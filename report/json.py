@@ -96,21 +96,23 @@ def line(values: Any) -> str:
     return _INDENTATION.sub("", document(values)) + "\n"
 
 
-def line_without_times(value: Value) -> bytes:
-    """A struct as one line of compact JSON, for JSON Lines: the same input, the same bytes. Raises
-    ValueError as `document` does."""
+def line_of(value: Value, *, timings: bool = False) -> bytes:
+    """A struct as one line of compact JSON, for JSON Lines; without timings the same input makes
+    the same bytes. Raises ValueError as `document` does."""
     try:
         _require_finite(value)
-        text = _TIMES.sub(b"", msgspec_json.encode(value))
+        text = msgspec_json.encode(value)
+        text = text if timings else _TIMES.sub(b"", text)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
         text = b"-0.0,"
     if _PERHAPS_NEGATIVE_ZERO.search(text):
-        return line(without_timings(to_builtins(value))).encode()
+        values = to_builtins(value)
+        return line(values if timings else without_timings(values)).encode()
     return text + b"\n"
 
 
 def read_line(line: bytes, type: type[Read]) -> Read:
-    """What `line_without_times` wrote, or a struct with some of its fields. Raises
+    """What `line_of` wrote, or a struct with some of its fields. Raises
     msgspec.DecodeError."""
     if _NOT_UTF8 not in line:
         return msgspec_json.decode(line, type=type)

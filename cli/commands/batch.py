@@ -32,7 +32,8 @@ from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import options_of, paths_argument, seconds_option
+from satcheck.cli.interrupts import write_before_the_end
+from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
@@ -56,7 +57,6 @@ _NOT_HERE = (
     "quiet",
     "version",
 )
-_LIMITS = Limits()
 _PATTERN = frozenset("*?[")
 
 
@@ -101,15 +101,7 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
-@seconds_option("--scene-seconds", _LIMITS.seconds, "The most time for a scene.")
-@click.option(
-    "--scene-megabytes",
-    type=click.IntRange(min=256),
-    metavar="MIB",
-    default=_LIMITS.megabytes,
-    show_default=True,
-    help="The most memory for a process that checks scenes.",
-)
+@limits_of_worlds("a scene")
 @options_of(check_command, but=_NOT_HERE)
 def command(
     manifest: str | None,
@@ -151,6 +143,8 @@ def command(
         try:
             tally = run(worlds, terms, limits, made, results, watch)
         except (KeyboardInterrupt, SatcheckError):
+            if is_url(output):
+                write_before_the_end()
             if watch.tally.done:
                 place = output if is_url(output) else str(results.part)
                 talk(f"satcheck: {_recorded(watch.tally, place)}")

@@ -8,13 +8,14 @@ from typing import Any
 
 import click
 
+from satcheck.batch.limits import Limits
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.format_option import REPORT_FORMATS, form_of, reports_form_option
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import options_of, paths_argument
+from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worlds import check_worlds
@@ -44,6 +45,7 @@ _NOT_HERE = (
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
 @reports_form_option
+@limits_of_worlds("an asset")
 @options_of(check_command, but=(*_NOT_HERE, "version"))
 def command(
     form: str | None,
@@ -52,6 +54,8 @@ def command(
     exit_zero: bool,
     top: int | None,
     changed_since: str | None,
+    scene_seconds: float,
+    scene_megabytes: int,
     baseline: Path | None,
     **options: Any,
 ) -> int:
@@ -60,7 +64,8 @@ def command(
     An asset is a mesh file, a scene or a robot. A folder stands for all assets below it, and a
     pattern ("props/**/*.glb") for files. - reads names of files from standard input, one per line,
     or each ended by a NUL. Bodies of different assets are never compared. An asset with
-    one body passes if that body can be read. A URDF is read without its SRDF.
+    one body passes if that body can be read. A URDF is read without its SRDF. If a process crashes,
+    hangs or needs too much memory, the other assets still get their answers.
 
     The exit code is that of the worst asset: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0. Options that both commands have mean what they mean in
@@ -85,6 +90,7 @@ def command(
         baseline,
         Delivery(form, output, quiet, exit_zero, top),
         config,
+        Limits(scene_seconds, scene_megabytes),
         complete=changed_since is None,
     )
 

@@ -107,14 +107,17 @@ std::variant<nb::bytes, ReadError> unpack_buffer_view(const nb::bytes& stream, c
   const MeshoptMode known = mode == "ATTRIBUTES"  ? MeshoptMode::attributes
                             : mode == "TRIANGLES" ? MeshoptMode::triangles
                                                   : MeshoptMode::indices;
+  const std::string_view packed(stream.c_str(), stream.size());
+  std::string elements;
   try {
-    std::string elements = unpack_meshopt({stream.c_str(), stream.size()}, known, count, stride);
+    const nb::gil_scoped_release release;
+    elements = unpack_meshopt(packed, known, count, stride);
     if (filter == "EXPONENTIAL") undo_exponential_filter(elements);
     if (filter == "QUATERNION") undo_quaternion_filter(elements);
-    return nb::bytes(elements.data(), elements.size());
   } catch (ReadError& error) {
     return std::move(error);
   }
+  return nb::bytes(elements.data(), elements.size());
 }
 
 template <class T>
@@ -127,11 +130,12 @@ std::vector<T> to_vector(const nb::bytes& bytes) {
 std::variant<nb::bytes, ReadError> cut_polygons(const nb::bytes& vertices, const nb::bytes& corners, const nb::bytes& lengths) {
   MeshData mesh;
   mesh.vertices = to_vector<double>(vertices);
-  const std::vector<std::uint32_t> all = to_vector<std::uint32_t>(corners);
+  const std::vector<std::uint32_t> all = to_vector<std::uint32_t>(corners), counts = to_vector<std::uint32_t>(lengths);
   Polygons polygons;
   std::size_t at = 0;
   try {
-    for (const std::uint32_t length : to_vector<std::uint32_t>(lengths)) {
+    const nb::gil_scoped_release release;
+    for (const std::uint32_t length : counts) {
       const std::size_t end = std::min(at + length, all.size());
       const std::vector<std::uint32_t> polygon(all.begin() + static_cast<std::ptrdiff_t>(at),
                                                all.begin() + static_cast<std::ptrdiff_t>(end));

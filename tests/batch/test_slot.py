@@ -216,7 +216,7 @@ def test_a_stop_during_a_careful_check_ends_it(slot: Callable[[Limits], Slot]) -
     assert answered == worlds[:1]
 
 
-def _marked(mark: str) -> list[int]:
+def marked(mark: str) -> list[int]:
     """The processes with this variable in their environment."""
     found = []
     for place in Path("/proc").iterdir():
@@ -226,7 +226,7 @@ def _marked(mark: str) -> list[int]:
     return found
 
 
-def _until(holds: Callable[[], bool]) -> bool:
+def until(holds: Callable[[], bool]) -> bool:
     """Whether it comes to hold. The time is that of a machine that has stopped."""
     for _ in range(600):
         if holds():
@@ -262,10 +262,10 @@ def test_no_process_outlives_a_killed_parent_in_native_code(
 ) -> None:
     shutil.copy(SAMPLES / "box.obj", "hang.obj")
     parent, mark = batch("hang.obj")
-    assert _until(lambda: len(_marked(mark)) == 2)
+    assert until(lambda: len(marked(mark)) == 2)
     parent.kill()
     parent.wait()
-    assert _until(lambda: not _marked(mark))
+    assert until(lambda: not marked(mark))
 
 
 @on_linux
@@ -277,15 +277,15 @@ def test_no_child_of_a_worker_outlives_it(
     Path("hang").mkdir()
     shutil.copy(SAMPLES / "rack.3mf", "hang")
     parent, mark = batch("hang/rack.3mf")
-    assert _until(lambda: len(_marked(mark)) == 3)
-    _, worker, reader = sorted(_marked(mark))
+    assert until(lambda: len(marked(mark)) == 3)
+    _, worker, reader = sorted(marked(mark))
     if victim == "parent":
         parent.kill()
         parent.wait()
     else:
         os.kill(worker, signal.SIGKILL)
-    assert _until(lambda: reader not in _marked(mark))
-    assert _until(lambda: not _marked(mark))
+    assert until(lambda: reader not in marked(mark))
+    assert until(lambda: not marked(mark))
 
 
 def test_a_mesh_of_many_scenes_is_split_once(

@@ -14,7 +14,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.batch import Result
-from satcheck.report.json import line_without_times
+from satcheck.report.json import line_of
 from tests.cli.reports import PENETRATING, report
 
 
@@ -22,7 +22,7 @@ def line(*files: str, key: str | None = "0", reason: str = "lost") -> bytes:
     report = lost_asset(files[0], Loss("worker-died", reason)).report
     made = None if key is None else key * 64
     result = Result(files=files, key=made, verdict="incomplete", inputs=(), report=report)
-    return line_without_times(result)
+    return line_of(result)
 
 
 def write(path: Path, *lines: bytes) -> Path:
@@ -128,7 +128,7 @@ def test_a_finding_about_no_body_is_an_error(tmp_path: Path) -> None:
     result = Result(
         files=("a",), key=None, verdict="fail", inputs=(), report=report(PENETRATING, bodies=())
     )
-    (stored,), _, _ = read(write(tmp_path / "1", line_without_times(result)))
+    (stored,), _, _ = read(write(tmp_path / "1", line_of(result)))
     assert stored.asset.verdict == "error"
     assert "no body is block" in reason(stored)
 

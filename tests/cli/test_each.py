@@ -8,6 +8,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from junitparser import JUnitXml
 
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.schema import text
+from tests.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 
 
@@ -317,3 +319,44 @@ def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Pat
     words = shlex.split(line)
     assert words == ["a b.glb", "--no-depth", "--rules", "allowed.toml", "--clearance", "2mm"]
     assert satcheck(*words, cwd=tmp_path).code == 1
+
+
+@on_posix
+@pytest.mark.parametrize(
+    ("word", "code", "how"),
+    [
+        ("segfault", "worker-crashed", "died (SIGSEGV)"),
+        ("hang", "worker-timeout", "was stopped after 3 s"),
+        ("bomb", "worker-out-of-memory", "needed more than 1024 MiB"),
+    ],
+)
+def test_a_native_fault_takes_no_other_asset_down(
+    tmp_path: Path, word: str, code: str, how: str
+) -> None:
+    names = ("a.obj", f"{word}.obj", "z.obj")
+    for name in names:
+        shutil.copy(SAMPLES / "box.obj", tmp_path / name)
+    limits = ("--scene-seconds", "3", "--scene-megabytes", "1024")
+    options = ("-j", "1", "--format", "json", *limits)
+    ran = satcheck("each", ".", *options, cwd=tmp_path, env={"PYTHONPATH": str(PLANTED)})
+    assert ran.code == 3
+    assert verdicts(ran.out) == {"a.obj": "pass", f"{word}.obj": "incomplete", "z.obj": "pass"}
+    lost = ran.document["assets"][1]["report"]
+    (issue,) = (each for each in lost["issues"] if each["code"] == code)
+    assert issue["message"].endswith(how)
+
+
+def test_a_report_in_json_has_times_and_sums_where_they_are_wanted(assets: Path) -> None:
+    given = ("each", str(assets), "--format", "json")
+    text_of = {timed: satcheck(*given, *timed).out for timed in ((), ("--no-timings",))}
+    has_times = {timed: '"microseconds"' in out for timed, out in text_of.items()}
+    assert has_times == {(): True, ("--no-timings",): False}
+    assert all('"sha256"' in out for out in text_of.values())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
+def test_assets_of_odd_names_come_back_from_their_process(assets: Path) -> None:
+    (assets / "props" / "box.obj").rename(assets / "props" / os.fsdecode(b"b\xff.obj"))
+    ran = satcheck("each", str(assets), "--format", "json")
+    assert ran.code == 1
+    assert verdicts(ran.out) == {"gripper.glb": "fail", os.fsdecode(b"b\xff.obj"): "pass"}

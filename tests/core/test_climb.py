@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import random
+from threading import Event, Thread
+from time import sleep
 
 import numpy as np
 import pytest
@@ -108,6 +110,28 @@ def test_threads_change_nothing(threads: int) -> None:
 
     many, one = core.Climbing(pairs, threads=threads), core.Climbing(pairs, threads=1)
     assert said(many.results()) == said(one.results())
+
+
+def test_python_goes_on_while_a_batch_that_nobody_takes_ends() -> None:
+    """Else no thread would hear Ctrl-C meanwhile."""
+    climbing = core.Climbing(questions(crowd(150)), threads=2)
+    turns, ended = 0, Event()
+
+    def count() -> None:
+        nonlocal turns
+        while not ended.is_set():
+            turns += 1
+
+    other = Thread(target=count)
+    other.start()
+    while not turns:
+        sleep(0)
+    before = turns
+    del climbing
+    after = turns
+    ended.set()
+    other.join()
+    assert after > before
 
 
 def test_a_capped_climb_settles_nothing_that_it_cannot_prove() -> None:

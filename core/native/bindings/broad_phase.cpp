@@ -53,7 +53,7 @@ void bind_broad_phase(nb::module_& m) {
           for (const Box& box : boxes) aabbs.push_back(to_aabb(box));
           return order_along_curve(aabbs);
         },
-        "boxes"_a, "The numbers of the boxes along a curve on which neighbours are close: that of Morton, through their centres.");
+        "boxes"_a, nb::call_guard<nb::gil_scoped_release>(), "The numbers of the boxes along a curve on which neighbours are close: that of Morton, through their centres.");
   m.def("close_pairs", &find_close_pairs, "boxes"_a, "reach"_a, "kinds"_a, "exempt_kinds"_a = std::vector<IndexPair>{},
         "exempt"_a = std::vector<IndexPair>{},
         R"(Pairs (i, j), i < j, sorted, of boxes that are close: box_gap(boxes[i], boxes[j]) <= reach[i] + reach[j].

@@ -58,7 +58,7 @@ plain solid, which is not proven again. sheets: open parts of the mesh have no i
            "mesh"_a, "solid"_a, "plain"_a = false, "sheets"_a = false)
       .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps a mesh convex up to the rounding of each
 world coordinate, so the body in the world is the hull of its world vertices.)")
-      .def_prop_ro("known_convex", &Geometry::known_convex, "None until a pair needs it.")
+      .def_prop_ro("known_convex", &Geometry::known_convex, ReleaseGil(), "None until a pair needs it.")
       .def("surface", &Geometry::surface, ReleaseGil())
       .def("hull", &Geometry::hull, ReleaseGil())
       .def("hull_shape", &Geometry::hull_shape, ReleaseGil())
@@ -81,7 +81,7 @@ units.)")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
       .def("hull", &PlacedGeometry::hull, ReleaseGil(), "The hull of all vertices, with its faces.")
       .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The hull as a shape, usually without faces.")
-      .def("release", &PlacedGeometry::release, "Releases the data; they are made again on demand.");
+      .def("release", &PlacedGeometry::release, ReleaseGil(), "Releases the data; they are made again on demand.");
 }
 
 const char* name_of(BoxOutcome outcome) {
@@ -198,6 +198,14 @@ class Climbing {
     // Deferred too where the system grants no thread.
     const auto when = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
     results_ = std::async(when, climb);
+  }
+  Climbing(const Climbing&) = delete;
+  Climbing& operator=(const Climbing&) = delete;
+
+  // Nobody takes the results: the threads still have to end, and Python goes on meanwhile.
+  ~Climbing() {
+    const nb::gil_scoped_release release;
+    results_ = {};
   }
 
   nb::list results() {

@@ -85,16 +85,21 @@ void def_init(nb::class_<Kind, Shape>& shape, const char* signature, Make make) 
       nb::sig(signature));
 }
 
+Shape unlocked_hull(const std::vector<Vec3>& points) {
+  const nb::gil_scoped_release release;
+  return make_hull(points);
+}
+
 Shape hull_of(const nb::args& args, const nb::kwargs& kwargs) {
   const Arguments given("Hull", {"points"}, args, kwargs);
   if (nb::isinstance<Polytope>(given[0])) return make_hull(nb::cast<const Polytope&>(given[0]));
   Points array;
-  if (nb::try_cast(given[0], array, false)) return make_hull(to_points(array));
+  if (nb::try_cast(given[0], array, false)) return unlocked_hull(to_points(array));
   std::vector<Triple> rows;
   if (!nb::try_cast(given[0], rows)) given.refuse(0, "an (n, 3) array of float64, rows of three numbers or a Polytope");
   std::vector<Vec3> points;
   for (const Triple& row : rows) points.push_back(to_vec(row));
-  return make_hull(points);
+  return unlocked_hull(points);
 }
 
 constexpr const char* kRound = "def __init__(self, radius: float, half_height: float) -> None";

@@ -74,7 +74,7 @@ margin, and in the closed mesh of the geometry `around`; the balls `inner`, ((x,
              for (const auto& [centre, radius] : inner) balls.push_back({to_vec(centre), radius});
              new (self) PosedBody(points, margin, std::move(balls), std::move(around), std::move(within));
            },
-           "corners"_a, "margin"_a, "inner"_a, "around"_a, "within"_a)
+           "corners"_a, "margin"_a, "inner"_a, "around"_a, "within"_a, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("around", [](const PosedBody& self) { return std::make_pair(to_tuple(self.around().centre), self.around().radius); },
                    "A ball that holds the body: its centre and its radius.");
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),

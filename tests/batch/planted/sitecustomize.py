@@ -21,7 +21,21 @@ from typing import Any
 
 def _hang() -> None:
     """As native code that never gives Python a turn."""
+    _begun()
     ctypes.PyDLL(None).pause()
+
+
+def _deaf() -> None:
+    """As native code that gives other threads their turn, and hears no signal."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    _begun()
+    while True:
+        ctypes.CDLL(None).pause()
+
+
+def _begun() -> None:
+    if told := os.environ.get("PLANTED_BEGUN"):
+        Path(told).touch()
 
 
 def _segfault() -> None:
@@ -32,6 +46,7 @@ _ENDS: dict[str, Callable[[], object]] = {
     "segfault": _segfault,
     "abort": os.abort,
     "hang": _hang,
+    "deaf": _deaf,
     "nap": lambda: time.sleep(0.6),
     "bomb": lambda: bytearray(1 << 50),
 }
