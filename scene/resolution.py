@@ -39,8 +39,12 @@ def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     the last digit of the most precise number, but no less than for float64 and no more than for
     float32. The digits of a number with an exponent are relative to its own size, so they are
     counted down from the largest coordinate: many files write -4.4e-08 for 0, which does not
-    promise eight decimals.
+    promise eight decimals. Integers and packed data: half their step, if that is more.
     """
+    return max(_of_the_format(raw, max_coordinate), raw.rounding)
+
+
+def _of_the_format(raw: RawMesh, max_coordinate: float) -> float:
     if raw.number_format in STEPS:
         return max_coordinate * STEPS[raw.number_format]
     float32 = max_coordinate * FLOAT32_STEP
