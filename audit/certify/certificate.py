@@ -15,7 +15,6 @@ from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import curved_certificate
 from satcheck.audit.certify.excuse import excuse
-from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.certify.thickness import cells
 from satcheck.audit.certify.values import (
     AXES,
@@ -25,6 +24,7 @@ from satcheck.audit.certify.values import (
     leading_axes,
     or_unset,
 )
+from satcheck.audit.figures.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.finding import Examined
 from satcheck.core.conventions import axis_across
 from satcheck.report.certificate import (
