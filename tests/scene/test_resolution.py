@@ -87,6 +87,32 @@ def test_formats(tmp_path):
     )
 
 
+def needle_out(far):
+    """The cube with one corner pulled far out."""
+    return [(far, far, -far) if point == (1, 1, 1) else point for point in files.CUBE_POINTS]
+
+
+def test_a_far_vertex_that_makes_the_precision_coarse_is_named(tmp_path):
+    file = loaded(tmp_path, "a.ply", files.binary_ply(needle_out(4096.0)))
+    assert file.resolution == 4096 * FLOAT32_STEP
+    ((code, message),) = ((issue.code, issue.message) for issue in file.issues)
+    assert code == "far-vertex"
+    assert "the vertex (4096, 4096, -4096) makes the precision 0.000488" in message
+    assert "beyond 1" in message
+    digits = files.obj(needle_out(4096.0))
+    assert [issue.code for issue in loaded(tmp_path, "a.obj", digits).issues] == ["far-vertex"]
+
+
+def test_no_vertex_is_named_that_costs_little(tmp_path):
+    for name, content in (
+        ("a.ply", files.binary_ply(needle_out(15.0))),
+        ("b.ply", files.binary_ply(needle_out(4096.0), double=True)),
+        ("c.ply", files.integer_ply("ascii", needle_out(4096))),
+        ("d.ply", files.binary_ply([(x + 4096.0, y, z) for x, y, z in files.CUBE_POINTS])),
+    ):
+        assert loaded(tmp_path, name, content).issues == ()
+
+
 @pytest.mark.parametrize("kind", ["ascii", "binary_little_endian"])
 def test_integers_of_ply_are_off_by_half_a_unit(tmp_path, kind):
     points = [(100 * x, 100 * y, 100 * z) for x, y, z in files.CUBE_POINTS]
