@@ -174,11 +174,11 @@ class _Report:
             return Checked(a, b, relation, "open", str(finding.reason))
         left = _left(finding, proven)
         thick = finding.thickness is not None and proven.ball and proven.thickness
-        error = None if finding.distance is None else proven.distance
+        off = None if finding.distance is None else proven.distance
         return Checked(
             *(a, b, relation, "accepted", None),
             *(proven.depth, proven.mtv, thick),
-            None if error is None else float(error),
+            None if off is None else float(off),
             left,
         )
 

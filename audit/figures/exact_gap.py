@@ -4,8 +4,9 @@ that are very close for their size."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from typing import Any
 
 from msgspec import Struct
 
@@ -52,8 +53,8 @@ def gap_of_triangles(pair: Pair, near: core.MeshDistance) -> ExactGap | None:
         _exact(pair.b.mesh.corners(near.triangle_b)),
     )
     ends = [(i, j) for i in range(3) for j in range(3)]
-    weights: Mapping[int, Fraction]
-    _, weights = nearest_to_origin([sub(corners[0][i], corners[1][j]) for i, j in ends])  # type: ignore[misc]
+    steps: Any = [sub(corners[0][i], corners[1][j]) for i, j in ends]  # type: ignore[arg-type]
+    _, weights = nearest_to_origin(steps)
     return _of_points(
         _blend(((w, corners[0][ends[k][0]]) for k, w in weights.items()), 1),
         _blend(((w, corners[1][ends[k][1]]) for k, w in weights.items()), 1),
@@ -85,7 +86,7 @@ def _exact(points: Sequence[Vector]) -> list[Point]:
     return [(Fraction(x), Fraction(y), Fraction(z)) for x, y, z in points]
 
 
-def _blend(points: Iterable[tuple[Fraction, Point]], unit: int) -> Point:
+def _blend(points: Iterable[tuple[Fraction, Sequence[Any]]], unit: int) -> Point:
     x = y = z = Fraction(0)
     for weight, p in points:
         x, y, z = x + weight * p[0], y + weight * p[1], z + weight * p[2]

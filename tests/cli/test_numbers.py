@@ -67,7 +67,9 @@ def test_vectors_are_rounded_as_a_whole(values: tuple[float, float, float], text
         (None, ""),
     ],
 )
-def test_a_vector_that_is_not_as_shown_is_named(values, said):
+def test_a_vector_that_is_not_as_shown_is_named(
+    values: tuple[float, float, float] | None, said: str
+) -> None:
     assert after_rounding(values) == said
 
 
