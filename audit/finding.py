@@ -265,9 +265,14 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
         shown = False
         if pair.tolerance < pair.closer:
             proven, reason = False, reason or _within_curves(pair)
-    at_best: Quality = "bounded" if pair.closer and _is_shown(pair, gap) else "exact"
+    at_best: Quality = "bounded" if _has_bounds(pair, gap) else "exact"
     quality = at_best if proven else "estimate"
     return Answer(relation, verdict.relation if shown else None, quality, reason, gap=gap)
+
+
+def _has_bounds(pair: Pair, gap: Gap) -> bool:
+    """Whether the finding states bounds of the gap."""
+    return _is_shown(pair, gap) and (pair.closer > 0 or not gap.exact)
 
 
 def _is_shown(pair: Pair, gap: Gap) -> bool:
@@ -294,6 +299,7 @@ def _open_gap(pair: Pair) -> str:
 def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
     depth, thick, volume = answer.depth, answer.thickness, answer.volume
     gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
+    bounds = gap is not None and _has_bounds(pair, gap)
     figure = gap if depth is None else depth  # a pair has at most one of them
     return Finding(
         id=finding_id(pair.a.id, pair.b.id),
@@ -306,7 +312,7 @@ def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> 
         exact_relation=answer.exact_relation,
         tolerance=pair.tolerance,
         distance=None if gap is None else gap.distance,
-        distance_bounds=(gap.lower, gap.upper) if gap is not None and pair.closer else None,
+        distance_bounds=None if gap is None or not bounds else (gap.lower, gap.upper),
         depth=None if depth is None else depth.upper,
         depth_bounds=None if depth is None else (depth.lower, depth.upper),
         quality=answer.quality,

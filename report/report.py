@@ -175,7 +175,8 @@ class Finding(Value, frozen=True, kw_only=True):
     undecided: the question that could not be decided; the severity is then at least a warning.
     distance: the gap of bodies without a common interior; also None if it was not requested, or if
     it is known to exceed the clearance without being measured. distance_bounds: contain the true
-    gap if polygons replace curves in a check in a plane; distance is then the gap of the polygons.
+    gap where the distance is not exact: polygons replace curves in a check in a plane, and distance
+    is the gap of the polygons; the fill of a hole may be nearer; the gap of curved shapes is tiny.
     thickness: of an overlap, the diameter of the largest ball that lies in both bodies, stated as
     the upper end of thickness_bounds, which contain it. ball: a ball of their lower end; None if
     that is 0. Both are also None if they were not requested, or if a body is not closed. volume: of

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from msgspec import UNSET, Meta, UnsetType
 
 from satcheck.report.statics import State
-from satcheck.report.values import Count, Tool, Value
+from satcheck.report.values import Count, Length, Tool, Value
 
 Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
 # proven: from the mesh files and the certificates. follows: checked against proven values. stated:
@@ -21,7 +21,8 @@ class Checked(Value, frozen=True):
 
     outcome: open: the report states that the pair is indeterminate, which claims nothing. no file:
     the file of a body is missing, so nothing is known. reason: why it is not accepted. depth, mtv,
-    thickness: whether that figure is proven too. left: fields of the finding with a value that is
+    thickness: whether that figure is proven too. distance_error: how far the proven distance may be
+    off, world units; None: no distance is proven. left: fields of the finding with a value that is
     not proven.
     """
 
@@ -33,6 +34,7 @@ class Checked(Value, frozen=True):
     depth: bool = False
     mtv: bool = False
     thickness: bool = False
+    distance_error: Length | None = None
     left: tuple[str, ...] = ()
 
 

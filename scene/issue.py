@@ -67,6 +67,7 @@ _ALL = (
     Code("ignored-opinion", "warning", "A part of the file that moves no body was ignored."),
     Code("rest-shape", "warning", "A deformable mesh is checked in its stored shape."),
     Code("left-out", "note", "What is no body of a document was left out, or is not applied."),
+    Code("far-vertex", "note", "A vertex far from most others makes the precision coarse."),
     Code("faceted", "note", "Curved surfaces are checked as the facets that replace them."),
     Code("cracks", "warning", "Faces miss each other by the precision of the file; closed."),
     Code(

@@ -35,8 +35,12 @@ def check_curved(
     beyond, least = (tolerance if separated else Fraction(0)), least_gap(finding, request)
     pair.prove(exact, certificate.relation, beyond, least)
     mtv = check_mtv(finding, certificate, a, b)
-    distance = spanned(finding, rounding_of(a, b), lambda n, length: pair.gap(n, length) >= 0)
-    proven = ProvenFields(False, mtv, distance or exact == "touching", distance or mtv)
+    rounding = rounding_of(a, b)
+    spans = spanned(finding, rounding, lambda n, length: pair.gap(n, length) >= 0)
+    error = 2 * rounding.of(Fraction(finding.distance or 0.0)) if spans else None
+    if exact == "touching":
+        error = Fraction(0)
+    proven = ProvenFields(False, mtv, error, spans or mtv)
     if relation != exact:
         band = tolerance * (1 + EXACT_WIDTH)
         if exact == "separated" and relation in ("touching", "near"):

@@ -1,8 +1,9 @@
 """The proof of the distance of two bodies.
 
-For convex bodies, curved shapes included, the planes normal to the axis prove that nothing is
-nearer, and the witness points prove that the gap is no larger. For other meshes the certificate
-names a point of each boundary, and every triangle that could be nearer is checked.
+The certificate names a point of each mesh. For convex meshes the planes normal to the step between
+them prove that nothing is nearer; for other meshes every triangle that could be nearer is checked.
+The distance may be off by the last rounding of a figure, and by no more. For curved shapes the
+normal and the witness points of the finding are the proof, up to their own rounding.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from satcheck.report.report import Finding
 from satcheck.verify.boundary import boundary_point
 from satcheck.verify.evidence import gap_along, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
-from satcheck.verify.figures import Rounding
+from satcheck.verify.figures import EXACT_WIDTH, Rounding
 from satcheck.verify.relations import Pair
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
@@ -59,13 +60,21 @@ def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
     return is_apart
 
 
-def check_distance(distance: float, ends: Ends, pair: Pair, rounding: Rounding) -> None:
-    """Checks the distance of meshes. ends: points of them with that distance."""
+def check_distance(distance: float, ends: Ends, pair: Pair) -> Fraction:
+    """Returns how far the distance of meshes may be off. ends: points of them with that
+    distance."""
     length = Fraction(distance)
-    slack = rounding.of(length)
-    if squared_gap(ends, pair) > (length + slack) ** 2:
+    error = EXACT_WIDTH * length
+    p = boundary_point(ends.a, pair.a, of_hull=pair.convex)
+    q = boundary_point(ends.b, pair.b, of_hull=pair.convex)
+    step: Point = sub(q, p)  # type: ignore[arg-type, assignment]
+    if Fraction(dot(step, step)) / (1 << 2 * pair.a.k) > (length + error) ** 2:
         raise Rejected("the points of the distance are further apart than that")
-    nothing_nearer(pair.a, pair.b, length - slack)
+    if not pair.convex:
+        nothing_nearer(pair.a, pair.b, length - error)
+    elif not hulls_are_apart(pair)(step, length - error):
+        raise Rejected("the bodies are closer than the distance")
+    return error
 
 
 def nothing_nearer(a: Exact, b: Exact, length: Fraction) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -173,7 +174,13 @@ class _Report:
             return Checked(a, b, relation, "open", str(finding.reason))
         left = _left(finding, proven)
         thick = finding.thickness is not None and proven.ball and proven.thickness
-        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv, thick, left)
+        off = None if finding.distance is None else proven.distance
+        return Checked(
+            *(a, b, relation, "accepted", None),
+            *(proven.depth, proven.mtv, thick),
+            None if off is None else float(off),
+            left,
+        )
 
     def _list(self, *names: str) -> tuple[Placed, Placed]:
         """The bodies of a finding, from now on one of the pairs that are listed."""
@@ -284,8 +291,8 @@ def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
     least = finding.thickness_bounds and finding.thickness_bounds[0]
     is_left = {
         "undecided": finding.undecided == "limit",
-        "distance": finding.distance is not None and not proven.distance,
-        "distance_bounds": finding.distance_bounds is not None and not proven.distance,
+        "distance": finding.distance is not None and proven.distance is None,
+        "distance_bounds": not _bounds_follow(finding, proven.distance),
         "depth": finding.depth is not None and not (proven.depth or proven.mtv),
         "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
         "normal": finding.normal is not None and not proven.normal,
@@ -298,6 +305,18 @@ def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
         "contacts": finding.contacts is not None and not proven.contacts,
     }
     return tuple(f"findings[].{key}" for key, left in is_left.items() if left)
+
+
+def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
+    """Whether bounds of the distance, if the finding has any, are as wide as the proof of it.
+    error: how far it may be off; None: it is not proven."""
+    bounds, distance = finding.distance_bounds, finding.distance
+    if bounds is None or distance is None:
+        return True
+    if error is None:
+        return False
+    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
+    return low <= max(length - error, Fraction(0)) and length + error <= high
 
 
 def _faults_of_issues(report: Report, bodies: dict[str, Placed]) -> list[str]:

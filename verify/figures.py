@@ -110,7 +110,7 @@ def check_figures(finding: Finding, a: Placed, b: Placed) -> None:
     if finding.exact_relation in OVERLAPS:
         _check_overlap(finding, rounding)
     else:
-        _check_gap(finding, rounding)
+        _check_gap(finding)
     _check_distance_bounds(finding, a, b, rounding)
     _check_witness(finding, (a, b), rounding)
     _check_quality(finding)
@@ -148,7 +148,7 @@ def _check_overlap(finding: Finding, rounding: Rounding) -> None:
         raise Rejected("the MTV does not run against the normal")
 
 
-def _check_gap(finding: Finding, rounding: Rounding) -> None:
+def _check_gap(finding: Finding) -> None:
     there = [key for key in DEPTH_FIGURES if key != "normal" and getattr(finding, key) is not None]
     if there:
         raise Rejected(f"bodies without a common interior have no {there[0]!r}")
@@ -166,9 +166,7 @@ def _check_gap(finding: Finding, rounding: Rounding) -> None:
         if finding.normal is not None or finding.witness is not None:
             raise Rejected("a direction or witness points without the distance")
         return
-    if distance < 0 or (
-        finding.exact_relation == "touching" and Fraction(distance) > rounding.of(Fraction(0))
-    ):
+    if distance < 0 or (finding.exact_relation == "touching" and distance > 0):
         raise Rejected("the distance does not fit the relation")
 
 
@@ -238,14 +236,24 @@ def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
 
 
 def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:
-    """Checks that the bounds of the distance of curves include the deviation of their polygons."""
+    """Checks that the bounds of the distance of curves include the deviation of their polygons.
+    Other bounds contain the distance, and are of bodies whose gap may stay open: curved shapes, and
+    meshes with holes."""
     bounds, distance = finding.distance_bounds, finding.distance
     closer = Fraction(a.deviation) + Fraction(b.deviation)
-    if (bounds is not None) is not (distance is not None and closer > 0):
-        raise Rejected("bounds come with the distance of polygons that stand for curves")
-    if bounds is None or distance is None:
+    if bounds is None:
+        if distance is not None and closer > 0:
+            raise Rejected("the distance of polygons that stand for curves has bounds")
         return
+    if distance is None:
+        raise Rejected("bounds of a distance come with the distance")
     low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
+    if closer == 0:
+        if not low <= length <= high:
+            raise Rejected("the bounds of the distance leave it out")
+        if all(body.curved is None and not body.holed for body in (a, b)):
+            raise Rejected("bounds of a distance that is exact")
+        return
     slack = rounding.of(length)
     if low > max(length - closer + slack, Fraction(0)) or high < length - slack:
         raise Rejected("the bounds of the distance leave out how far the curves may be off")
@@ -302,8 +310,11 @@ def _unit(direction: Vector) -> Point:
 
 
 def _length(v: Sequence[Fraction | int]) -> Fraction:
+    return square_root(Fraction(sum(c * c for c in v)))
+
+
+def square_root(squared: Fraction) -> Fraction:
     """To a relative 2**-60."""
-    squared = Fraction(sum(c * c for c in v))
     if squared == 0:
         return Fraction(0)
     shift = max(squared.denominator.bit_length() - squared.numerator.bit_length(), 0) // 2 + 64

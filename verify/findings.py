@@ -66,15 +66,13 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     covered = _check_cover(finding, certificate, pair)
     rounding = rounding_of(a, b)
     if pair.convex:
-        distance = directed = spanned(finding, rounding, hulls_are_apart(pair))
+        directed = spanned(finding, rounding, hulls_are_apart(pair))
     else:
-        distance = _check_distance(finding, certificate, pair, rounding)
-        distance = distance and not (a.holed or b.holed)
         directed = mtv or shows_direction(finding, a, b)
-    distance = distance and not closer
-    proven = ProvenFields(
-        depth or (covered and mtv), mtv, distance or exact == "touching", directed or mtv
-    )
+    error = _check_distance(finding, certificate, pair)
+    if closer or a.holed or b.holed:
+        error = None
+    proven = ProvenFields(depth or (covered and mtv), mtv, error, directed or mtv)
     most = proven_depth(finding, replace(proven, depth=depth))
     thickest = _check_thickness(finding, certificate, pair, closer, most)
     proven = _with_thickness(proven, finding, closer, thickest, rounding)
@@ -141,13 +139,13 @@ def _prove_relation(
     return prove(relation, proof, ends, max(beyond, closer), least)
 
 
-def _check_distance(
-    finding: Finding, certificate: Certificate, pair: Pair, rounding: Rounding
-) -> bool:
+def _check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
+    """How far the distance may be off; None: it is not proven."""
+    if finding.exact_relation == "touching":
+        return Fraction(0)
     if isinstance(certificate.distance, UnsetType) or finding.distance is None:
-        return False
-    check_distance(finding.distance, certificate.distance, pair, rounding)
-    return True
+        return None
+    return check_distance(finding.distance, certificate.distance, pair)
 
 
 def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, closer: Fraction) -> bool:

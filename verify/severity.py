@@ -20,12 +20,12 @@ CLEARANCE = "clearance"
 
 @dataclass(frozen=True, slots=True)
 class ProvenFields:
-    """Which fields of an accepted finding are proven. ball: with the lower end of the thickness.
-    thickness: its upper end."""
+    """Which fields of an accepted finding are proven. distance: how far it may be off; None: it is
+    not proven. ball: with the lower end of the thickness. thickness: its upper end."""
 
     depth: bool = False
     mtv: bool = False
-    distance: bool = False
+    distance: Fraction | None = None
     normal: bool = False
     contacts: bool = False
     ball: bool = False

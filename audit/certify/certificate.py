@@ -14,7 +14,6 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import curved_certificate
-from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.certify.thickness import cells, excuse
 from satcheck.audit.certify.values import (
     AXES,
@@ -24,6 +23,7 @@ from satcheck.audit.certify.values import (
     leading_axes,
     or_unset,
 )
+from satcheck.audit.figures.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.finding import Examined
 from satcheck.core.conventions import axis_across
 from satcheck.report.certificate import (
@@ -48,7 +48,7 @@ from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
-from satcheck.verify.figures import EXACT_WIDTH, rounding_of
+from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.relations import pair_of
@@ -295,12 +295,11 @@ class _Maker:
 
     def _distance(self) -> Ends | None:
         """Points next to each other, where few triangles could be nearer than these."""
-        if not self.finding.distance or self.placed.convex or self.closer:
+        if not self.finding.distance or self.closer:
             return None
-        ends = self._nearest()
-        rounding = rounding_of(self.a, self.b)
+        ends = self._gap()
         try:
-            check_distance(self.finding.distance or 0.0, ends, self.placed, rounding)
+            check_distance(self.finding.distance, ends, self.placed)
         except Rejected:
             return None
         return ends

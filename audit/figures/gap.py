@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -11,7 +12,7 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import keeps
+from satcheck.audit.rounding import EXACT_WIDTH, keeps
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Vector, Witness
 
@@ -41,13 +42,18 @@ class Gap(Struct, frozen=True):
     normal: Vector | None = None
     witness: Witness | None = None
 
+    @property
+    def exact(self) -> bool:
+        """Whether only rounding is between the bounds."""
+        return _is_narrow(self.lower, self.upper)
+
 
 def measure_gap(pair: Pair, verdict: Verdict, trace: Trace) -> Gap:
     """The distance of a separated or touching pair, as far as the clearance or the band asks."""
     if verdict.signed_distance is not None:
         if pair.request.wants("distance"):
             trace.record("distance", "measured", "with the hulls")
-        return _convex_gap(pair, verdict.signed_distance)
+        return _convex_gap(pair, verdict, verdict.signed_distance)
     if verdict.relation == "touching":
         witness = verdict.point and Witness(verdict.point, verdict.point)
         return Gap(0.0, 0.0, True, not pair.request.clearance, 0.0, None, witness)
@@ -77,6 +83,22 @@ def _surface_gap(pair: Pair, climb: core.Climb, surfaces: core.MeshDistance, tra
         sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
         return sign if hole_gap is None or sign in sure else None
 
+    distance = surfaces.distance
+    normal = _direction(surfaces.witness_a, surfaces.witness_b)
+    witness = Witness(surfaces.witness_a, surfaces.witness_b)
+    if asked and hole_gap is None and not _is_narrow(lower, upper):
+        from satcheck.audit.figures.exact_gap import gap_of_triangles, narrowed
+
+        nearest_points = gap_of_triangles(pair, surfaces)
+        if nearest_points is not None:
+            normal, witness = nearest_points.normal, nearest_points.witness
+            upper = nearest_points.upper
+            least = nearest_points.lower
+            if side(least, sure=(-1, 0, 1)) in (0, 1):
+                lower = least
+            lower, upper = narrowed(min(lower, least), upper, partial(side, sure=(-1, 0, 1)))
+            distance = min(max(nearest_points.distance, lower), upper)
+
     tolerance, clearance = pair.tolerance, pair.request.clearance
     within = _is_within(lower, upper, tolerance, lambda length: side(length, sure=(-1, 0)))
     kept = _is_kept(lower, upper, clearance, lambda length: side(length, sure=(-1,)))
@@ -85,18 +107,30 @@ def _surface_gap(pair: Pair, climb: core.Climb, surfaces: core.MeshDistance, tra
         upper,
         within,
         kept,
-        _on_its_side(surfaces.distance, pair, within, kept),
-        _direction(surfaces.witness_a, surfaces.witness_b),
-        Witness(surfaces.witness_a, surfaces.witness_b),
+        _on_its_side(distance, pair, within, kept),
+        normal,
+        witness,
     )
 
 
-def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
+def _convex_gap(pair: Pair, verdict: Verdict, result: core.PairResult | Signed) -> Gap:
     distance = max(result.distance or 0.0, 0.0)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
     lower, upper = max(result.lower or 0.0, 0.0), max(result.upper or 0.0, distance)
+    normal = result.normal
+    if verdict.relation == "touching" and verdict.proven:
+        lower = upper = distance = 0.0
+    elif pair.wants_distance and not (pair.curved or _is_narrow(lower, upper)):
+        from satcheck.audit.figures.exact_gap import gap_of_hulls, narrowed
+
+        nearest = None if pair.settings.planar else gap_of_hulls(pair)
+        if nearest is not None:
+            lower, upper, distance = nearest.lower, nearest.upper, nearest.distance
+            normal, witness = nearest.normal, nearest.witness
+        lower, upper = narrowed(lower, upper, partial(compare_convex, pair))
+        distance = min(max(distance, lower), upper)
 
     def compare(length: float) -> int | None:
         return compare_convex(pair, length)
@@ -104,7 +138,11 @@ def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
     within = _is_within(lower, upper, pair.tolerance, compare)
     kept = _is_kept(lower, upper, pair.request.clearance, compare)
     distance = _on_its_side(distance, pair, within, kept)
-    return Gap(lower, upper, within, kept, distance, result.normal, witness)
+    return Gap(lower, upper, within, kept, distance, normal, witness)
+
+
+def _is_narrow(lower: float, upper: float) -> bool:
+    return upper - lower <= EXACT_WIDTH * upper
 
 
 def _at_least(pair: Pair, lower: float) -> Gap:

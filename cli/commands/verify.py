@@ -13,6 +13,7 @@ from satcheck._version import __version__
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.formats.numbers import number
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import color_option, debug_option, output_option, root_option
@@ -179,5 +180,9 @@ def _summary(result: Verification) -> str:
         for key, words in _FIGURES.items()
         if (count := sum(getattr(f, key) for f in accepted))
     ]
+    errors = [f.distance_error for f in accepted if f.distance_error is not None]
+    if errors:
+        distances = counted(len(errors), "distance", "distances")
+        proven.append(f"{distances} to within {number(max(errors))}" if any(errors) else distances)
     extra = f" Also proven: {', '.join(proven)}." if proven else ""
     return ", ".join(parts) + "." + extra

@@ -15,7 +15,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from rich.cells import cell_len, chop_cells
 
-from satcheck.cli.formats.numbers import bounds, duration, number, vector
+from satcheck.cli.formats.numbers import after_rounding, bounds, duration, number, vector
 from satcheck.cli.formats.words import contacts, in_motion, interval, is_hit
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
@@ -68,6 +68,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
     it is that of the relation, the quality where all is exact."""
     known = unit_of(units)
     unit = f" ({known})" if known else ""
+    rounded = max((after_rounding(finding.mtv) for finding in findings), default="")
     placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
     def column(
@@ -87,7 +88,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"gap{unit}", _gap, right=True, folds=True),
         column(f"thickness{unit}", _overlap("thickness", findings), right=True, folds=True),
         column(f"depth{unit}", _overlap("depth", findings), right=True, folds=True),
-        column(f"move A by{unit}", _mtv, folds=True),
+        column(f"move A by{unit}{rounded}", _mtv, folds=True),
         column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
         column(f"contact{placed}", contacts, folds=True),
         column("in motion", lambda finding: in_motion(finding, known), folds=True),

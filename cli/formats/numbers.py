@@ -33,11 +33,22 @@ def at_most(value: float) -> str:
 
 def vector(values: tuple[float, float, float]) -> str:
     """Rounded relative to the longest component: no 1e-17 beside a 1."""
+    return f"({', '.join(_components(values))})"
+
+
+def after_rounding(values: tuple[float, float, float] | None) -> str:
+    """` after rounding` where `vector` does not show the numbers themselves, else nothing."""
+    if values is None or tuple(map(float, _components(values))) == values:
+        return ""
+    return " after rounding"
+
+
+def _components(values: tuple[float, float, float]) -> list[str]:
     longest = max(abs(value) for value in values)
     if longest == 0:
-        return "(0, 0, 0)"
+        return ["0", "0", "0"]
     places = DIGITS - 1 - math.floor(math.log10(longest))
-    return f"({', '.join(number(round(value, places)) for value in values)})"
+    return [number(round(value, places)) for value in values]
 
 
 def duration(microseconds: float) -> str:

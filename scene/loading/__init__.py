@@ -20,7 +20,7 @@ from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.resolution import file_resolution, placement_step
+from satcheck.scene.resolution import far_vertex, file_resolution, placement_step
 
 
 class ReadLimits(Struct, frozen=True):
@@ -140,6 +140,8 @@ def mesh_file(
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:
         raise _refusal(source, error) from error
+    far = far_vertex(raw, examined.mesh)
+    said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
     return MeshFile(
         path=path,
         sha256=source.sha256,
@@ -149,9 +151,7 @@ def mesh_file(
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,
-        issues=tuple(
-            issue(code, message, file=path) for code, message in (*raw.warnings, *examined.warnings)
-        ),
+        issues=tuple(issue(code, message, file=path) for code, message in said),
         part=part,
         placement_step=placement_step(raw, by_file=placed),
         surface_tolerance=raw.surface_tolerance,

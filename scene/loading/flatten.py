@@ -60,6 +60,7 @@ def flattened(scene: RawScene) -> RawMesh:
         units=meshes[0].units,
         warnings=tuple(warnings.items()),
         surface_tolerance=max(mesh.surface_tolerance * _stretch(matrix) for mesh, matrix in placed),
+        rounding=max(mesh.rounding * _stretch(matrix) for mesh, matrix in placed),
     )
 
 

@@ -78,6 +78,30 @@ class Accessors:
         stands = accessor.get("normalized") is True
         return _LARGEST.get(self._type(accessor)) if stands else None
 
+    def rounding(self, index: int) -> float:
+        """How far the integers or the filter of packed data may put a number off: half a step;
+        0.0: floats."""
+        accessor = member(self._accessors, index, "accessor")
+        if self._type(accessor) != "f":
+            return 0.5 / (self.largest_integer(index) or 1)
+        owners = [accessor]
+        if "sparse" in accessor:
+            owners.append(member([accessor["sparse"].get("values")], 0, "sparse data"))
+        return max(self._rounding_of_filter(owner, accessor) for owner in owners)
+
+    def _rounding_of_filter(self, owner: dict[str, Any], accessor: dict[str, Any]) -> float:
+        """The largest of the numbers that the owner's view holds for the accessor."""
+        words = None
+        if "bufferView" in owner:
+            words = self._views.scaled_words(integer(owner, "bufferView", 0))
+        if words is None:
+            return 0.0
+        columns = _COLUMNS[accessor["type"]]
+        count = integer(owner if owner is accessor else accessor["sparse"], "count", 0)
+        rows = self._rows(owner, "packed data", count, columns, "i", words)
+        # The exponent is in the highest byte.
+        return max((math.ldexp(0.5, word >> 24) for word in rows), default=0.0)
+
     def bytes_of_view(self, number: int) -> bytes:
         return bytes(self._views.view(number))
 
@@ -110,12 +134,20 @@ class Accessors:
         return values
 
     def _rows(
-        self, owner: dict[str, Any], what: str, count: int, columns: int, code: str
+        self,
+        owner: dict[str, Any],
+        what: str,
+        count: int,
+        columns: int,
+        code: str,
+        view: memoryview | None = None,
     ) -> array[Any]:
-        """The elements in the range that the owner states."""
+        """The elements in the range that the owner states. view: the bytes instead of those of its
+        buffer view."""
         values = array(code)
         number, row = integer(owner, "bufferView", 0), columns * values.itemsize
-        view, stride = self._views.view(number), self._views.stride(number, row)
+        view = self._views.view(number) if view is None else view
+        stride = self._views.stride(number, row)
         start = integer(owner, "byteOffset", 0)
         needed = start + (count - 1) * stride + row if count else start
         if needed > len(view):

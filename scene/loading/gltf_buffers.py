@@ -154,6 +154,16 @@ class BufferViews:
                 return self._unpacked[number]
         return self._range(view, f"buffer view {number}")
 
+    def scaled_words(self, number: int) -> memoryview | None:
+        """A view whose floats are packed as integers of 24 bits times a power of two: these words,
+        with the exponent in the highest byte; None: another view."""
+        view = member(self._views, number, "buffer view")
+        for name in _MESHOPT:
+            packed = extension(view, name)
+            if packed is not None and packed.get("filter") == "EXPONENTIAL":
+                return memoryview(self._unpack(number, view, {**packed, "filter": "NONE"}))
+        return None
+
     def stride(self, number: int, row: int) -> int:
         """Bytes from one element of the view to the next; row: those of an element."""
         stride = integer(member(self._views, number, "buffer view"), "byteStride", row)

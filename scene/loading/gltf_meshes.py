@@ -71,10 +71,12 @@ class Meshes:
         warnings: dict[str, str] = {}
         where = f"mesh {shape.mesh}"
         parts: list[tuple[Block, Block, None]] = []
+        rounding = 0.0
         for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives"):
             part = self._primitive(primitive, shape, skin, where, warnings)
             if part is not None:
                 parts.append((part[0].tobytes(), part[1].tobytes(), None))
+                rounding = max(rounding, part[2])
         vertices, triangles = concatenate(parts)
         if not triangles:
             raise MeshFileError(NO_SURFACE, f"{where} has no triangles, only lines or points")
@@ -84,6 +86,7 @@ class Meshes:
             number_format="float32",
             units="meter",
             warnings=tuple(warnings.items()),
+            rounding=rounding,
         )
 
     def _primitive(
@@ -93,8 +96,9 @@ class Meshes:
         skin: Skin | None,
         where: str,
         warnings: dict[str, str],
-    ) -> tuple[array[float], array[int]] | None:
-        """x, y, z of each vertex and the corners of each triangle; None without triangles."""
+    ) -> tuple[array[float], array[int], float] | None:
+        """x, y, z of each vertex, the corners of each triangle, and how far integers and packed
+        data may put a vertex off; None without triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
         if mode in NO_TRIANGLES:
             warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
@@ -110,22 +114,28 @@ class Meshes:
 
             unpacked = Unpacked(self._accessors, packed, attributes)
             positions, triangles = unpacked.positions(), unpacked.triangles
+            rounding = unpacked.rounding(positions)
             columns: Columns = unpacked.columns
         else:
             self._refuse_unread(primitive, attributes, where)
-            positions = self._accessors.positions(integer(attributes, "POSITION", -1))
+            number = integer(attributes, "POSITION", -1)
+            positions = self._accessors.positions(number)
+            rounding = self._accessors.rounding(number)
             triangles = self._triangles(primitive, mode, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
             warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
-                positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
+                targets = self._targets(items(primitive, "targets"), shape.weights)
+                positions, off = self._morphed(positions, targets)
+                rounding += off
         if skin is not None:
             from satcheck.scene.loading.gltf_shapes import skinned
 
             warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
-            positions = skinned(positions, columns, skin.joints, skin.bound, where)
-        return positions, triangles
+            positions, stretch = skinned(positions, columns, skin.joints, skin.bound, where)
+            rounding *= stretch
+        return positions, triangles, rounding
 
     def _packed(
         self, primitive: dict[str, Any], attributes: dict[str, Any]
@@ -160,19 +170,26 @@ class Meshes:
             )
         return _as_list(corners, mode, where)
 
-    def _morphed(
-        self, positions: array[float], targets: list[Any], weights: Sequence[float]
-    ) -> array[float]:
-        from satcheck.scene.loading.gltf_shapes import morphed
-
+    @staticmethod
+    def _targets(targets: list[Any], weights: Sequence[float]) -> list[tuple[float, int]]:
+        """(weight, number of the accessor of the displacements) of each target that counts."""
         if len(targets) != len(weights):
             raise MeshFileError("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
-        moves = [
-            (weight, self._accessors.positions(integer(target, "POSITION", -1)))
+        return [
+            (weight, integer(target, "POSITION", -1))
             for weight, target in zip(weights, targets, strict=True)
             if weight and isinstance(target, dict) and "POSITION" in target
         ]
-        return morphed(positions, moves)
+
+    def _morphed(
+        self, positions: array[float], targets: list[tuple[float, int]]
+    ) -> tuple[array[float], float]:
+        """The moved positions, and how far integers and packed data may put their moves off."""
+        from satcheck.scene.loading.gltf_shapes import morphed
+
+        moves = [(weight, self._accessors.positions(number)) for weight, number in targets]
+        off = sum(abs(weight) * self._accessors.rounding(number) for weight, number in targets)
+        return morphed(positions, moves), off
 
 
 def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:

@@ -30,8 +30,9 @@ def skinned(
     joints: Sequence[Transform],
     bound: array[float] | None,
     where: str,
-) -> array[float]:
-    """Each vertex where its joints put it, in world coordinates.
+) -> tuple[array[float], float]:
+    """Each vertex where its joints put it, in world coordinates, and how far these joints stretch
+    a length at most.
 
     positions: x, y, z of each vertex. columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and
     so on. joints: row-major 4x4, from each joint to the world. bound: column-major 4x4, from the
@@ -43,6 +44,7 @@ def skinned(
     if bound is not None:
         matrices = matrices @ np.array(bound).reshape(-1, 4, 4)[: len(joints)].transpose(0, 2, 1)
     blended = np.zeros((len(points), 4, 4))
+    used = np.zeros(len(matrices), bool)
     number = 0
     while (indices := columns(f"JOINTS_{number}", "VEC4")) is not None:
         shares = columns(f"WEIGHTS_{number}", "VEC4")
@@ -54,13 +56,15 @@ def skinned(
             raise MeshFileError(
                 "index-out-of-range", f"{where}: joint {numbers.max()} of {len(matrices)}"
             )
+        used[numbers[weights != 0]] = True
         for k in range(4):
             blended += weights[:, k, None, None] * matrices[numbers[:, k]]
         number += 1
     placed = np.einsum("nij,nj->ni", blended[:, :, :3], points) + blended[:, :, 3]
     if not (placed[:, 3] > 0).all():
         raise MeshFileError("bad-record", f"{where}: a vertex of the skin has no joint")
-    return _finite(placed[:, :3] / placed[:, 3:])
+    stretch = np.linalg.norm(matrices[used, :3, :3], 2, axis=(1, 2)).max(initial=0.0)
+    return _finite(placed[:, :3] / placed[:, 3:]), float(stretch)
 
 
 def _finite(points: NDArray[np.float64]) -> array[float]:

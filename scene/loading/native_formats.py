@@ -28,6 +28,7 @@ def read_native(source: Source) -> RawMesh:
         number_format=outcome.number_format,
         decimals=outcome.decimals,
         significant=outcome.significant,
+        rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
 

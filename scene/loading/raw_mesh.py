@@ -26,9 +26,10 @@ class RawMesh(Struct, frozen=True, tag=True):
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
     numbers, three a triangle. decimals: the largest number of digits after the point in a
     coordinate without exponent. significant: the largest number of significant digits in a
-    coordinate with an exponent. units: as the file declares them, or None. surface_tolerance:
-    how far facets may be off the surfaces for which a reader made them, in file units. warnings:
-    (code, message).
+    coordinate with an exponent. rounding: how far a coordinate may be off because integers or
+    packed data hold it, in file units; 0: as the number format says. units: as the file declares
+    them, or None. surface_tolerance: how far facets may be off the surfaces for which a reader made
+    them, in file units. warnings: (code, message).
     """
 
     vertices: Block
@@ -39,6 +40,7 @@ class RawMesh(Struct, frozen=True, tag=True):
     units: str | None = None
     warnings: tuple[tuple[str, str], ...] = ()
     surface_tolerance: float = 0.0
+    rounding: float = 0.0
 
 
 class Refusal(Struct, frozen=True, tag=True):

@@ -181,6 +181,8 @@ void satcheck::bind_readers(nb::module_& m) {
               "Most digits after the point in a coordinate written without an exponent.")
       .def_ro("significant", &MeshData::significant,
               "Most significant digits in a coordinate written with an exponent.")
+      .def_ro("rounding", &MeshData::rounding,
+              "How far a coordinate may be off that the file stores as an integer: half a unit; else 0.")
       .def_ro("warnings", &MeshData::warnings);
 
   nb::class_<ReadError>(m, "ReadError", "Why and where a file cannot be used; returned, not raised.")

@@ -259,23 +259,24 @@ std::int64_t vertex_count_of(const PlyHeader& header) {
   return 0;
 }
 
-NumberFormat number_format_of(const PlyHeader& header) {
-  if (header.ascii) return NumberFormat::written_digits;
-  NumberFormat format = NumberFormat::float64;
+// The precision of the coordinates: that of the coarsest type.
+void set_precision(MeshData& mesh, const PlyHeader& header) {
+  mesh.number_format = header.ascii ? NumberFormat::written_digits : NumberFormat::float64;
   for (const PlyElement& element : header.elements) {
+    if (element.name != "vertex") continue;
     for (const PlyProperty& property : element.properties) {
-      const bool coarse = element.name == "vertex" && axis_of(property) >= 0 && property.type == PlyType::float32;
-      if (coarse) format = NumberFormat::float32;
+      if (axis_of(property) < 0) continue;
+      if (!is_float(property.type)) mesh.rounding = 0.5;
+      if (!header.ascii && property.type == PlyType::float32) mesh.number_format = NumberFormat::float32;
     }
   }
-  return format;
 }
 
 template <class Records>
 MeshData read_body(Records records, const PlyHeader& header) {
   MeshData mesh;
   Polygons polygons;
-  mesh.number_format = number_format_of(header);
+  set_precision(mesh, header);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
       read_vertices(records, element, mesh);

@@ -23,6 +23,7 @@ struct MeshData {
   NumberFormat number_format = NumberFormat::written_digits;
   int decimals = 0;     // most digits after the point in a coordinate written without exponent
   int significant = 0;  // most significant digits in a coordinate written with an exponent
+  double rounding = 0;  // how far a coordinate may be off that is stored as an integer
   std::vector<Warning> warnings;
 };
 

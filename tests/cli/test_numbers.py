@@ -6,7 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.cli.formats.numbers import ROUNDOFF, bounds, duration, mebibytes, number, vector
+from satcheck.cli.formats.numbers import (
+    ROUNDOFF,
+    after_rounding,
+    bounds,
+    duration,
+    mebibytes,
+    number,
+    vector,
+)
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 
@@ -47,6 +55,22 @@ def test_rounding_errors_are_not_shown() -> None:
 )
 def test_vectors_are_rounded_as_a_whole(values: tuple[float, float, float], text: str) -> None:
     assert vector(values) == text
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ((0.0, 0.0, 0.0), ""),
+        ((-0.5, 0.0, 1e-3), ""),
+        ((1 / 3, 0.0, 0.0), " after rounding"),
+        ((1.0, 1e-17, 0.0), " after rounding"),
+        (None, ""),
+    ],
+)
+def test_a_vector_that_is_not_as_shown_is_named(
+    values: tuple[float, float, float] | None, said: str
+) -> None:
+    assert after_rounding(values) == said
 
 
 @pytest.mark.parametrize(

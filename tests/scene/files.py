@@ -89,6 +89,16 @@ def binary_ply(
     return header + b"".join(body)
 
 
+def integer_ply(kind: str, points: Points) -> bytes:
+    """The cube with corners of type short. kind: the format in the header."""
+    content = ply_header(kind, len(points), len(CUBE_QUADS), "short")
+    if kind == "ascii":
+        rows = [*points, *((len(face), *face) for face in CUBE_QUADS)]
+        return content + "".join(" ".join(map(str, row)) + "\n" for row in rows).encode()
+    content += b"".join(struct.pack("<3h", *point) for point in points)
+    return content + b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in CUBE_QUADS)
+
+
 def off(points: Points = CUBE_POINTS, faces: Faces = CUBE_QUADS) -> bytes:
     lines = ["OFF", "# made for a test", f"{len(points)} {len(faces)} 0"]
     lines += [" ".join(map(str, point)) for point in points]

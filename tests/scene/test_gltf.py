@@ -281,6 +281,77 @@ def test_meshopt_filters():
     assert struct.unpack("<4h", found) == (0, 0, 0, 32767)
 
 
+def test_integer_positions_are_off_by_half_a_step(tmp_path):
+    document = Document()
+    positions = document.json["accessors"][document.primitive["attributes"]["POSITION"]]
+    rows = b"".join(struct.pack("<3h2x", *(127 * c for c in point)) for point in files.CUBE_POINTS)
+    positions |= {"bufferView": document.view(rows, byteStride=8), "componentType": SHORT}
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 0.5
+    positions["normalized"] = True
+    assert loaded(tmp_path, "b.glb", document.glb()).resolution == 0.5 / 32767
+    document.json["nodes"] = [{"mesh": 0, "scale": [5, 5, 5], "translation": [1, 0, 0]}]
+    (flat,) = load_scene([tmp_path / "b.glb"]).bodies
+    assert flat.file.resolution == 0.5 / 32767
+    (tmp_path / "c.glb").write_bytes(document.glb())
+    (node,) = load_scene([tmp_path / "c.glb"], split="nodes").bodies
+    assert node.resolution_world == pytest.approx(2.5 / 32767, rel=1e-2)
+    (flat,) = load_scene([tmp_path / "c.glb"], split="none").bodies
+    assert flat.resolution_world == pytest.approx(2.5 / 32767, rel=1e-9)
+
+
+def test_integer_targets_add_their_step(tmp_path):
+    document = Document()
+    rows = b"".join(struct.pack("<3b", *point) for point in files.CUBE_POINTS)
+    target = document.accessor(rows, "VEC3", 8, BYTE)
+    document.primitive["targets"] = [{"POSITION": target}]
+    document.json["meshes"][0]["weights"] = [0.25]
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 0.125
+
+
+def test_joints_stretch_the_step(tmp_path):
+    document = Document()
+    positions = document.json["accessors"][document.primitive["attributes"]["POSITION"]]
+    rows = b"".join(struct.pack("<3b", *point) for point in files.CUBE_POINTS)
+    positions |= {"bufferView": document.view(rows), "componentType": BYTE}
+    ones = [(1.0, 0.0, 0.0, 0.0)] * 8
+    joints = struct.pack("<4H", 0, 1, 0, 0) * 8  # the second joint moves nothing
+    document.primitive["attributes"] |= {
+        "JOINTS_0": document.accessor(joints, "VEC4", 8, USHORT),
+        "WEIGHTS_0": document.floats(ones, "VEC4"),
+    }
+    document.json["skins"] = [{"joints": [1, 2]}]
+    document.json["nodes"] = [{"mesh": 0, "skin": 0}, {"scale": [3, 3, 3]}, {"scale": [9, 9, 9]}]
+    document.json["scenes"] = [{"nodes": [0, 1, 2]}]
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 1.5
+
+
+def test_the_exponential_filter_of_meshopt_leaves_its_step(tmp_path):
+    document = Document()
+    positions = document.json["accessors"][document.primitive["attributes"]["POSITION"]]
+    exponent = -6
+    words = b"".join(
+        struct.pack("<3i", *((exponent << 24) | (64 * c) for c in point))
+        for point in files.CUBE_POINTS
+    )
+    stream = meshopt.attributes(words, 12)
+    packed = {
+        "buffer": 0,
+        "byteOffset": len(document.buffer),
+        "byteLength": len(stream),
+        "byteStride": 12,
+        "count": 8,
+        "mode": "ATTRIBUTES",
+        "filter": "EXPONENTIAL",
+    }
+    extensions = {"EXT_meshopt_compression": packed}
+    number = document.view(stream)
+    document.json["bufferViews"][number] |= {"byteLength": 96, "extensions": extensions}
+    positions["bufferView"] = number
+    file = loaded(tmp_path, "a.glb", document.glb())
+    assert file.mesh.bounds == ((0, 0, 0), (1, 1, 1))
+    assert file.resolution == 2.0 ** (exponent - 1)
+
+
 def test_meshopt_does_not_unpack_more_than_the_limit(tmp_path):
     document = packed_with_meshopt("EXT_meshopt_compression", 0, True)
     view = document.json["bufferViews"][0]
@@ -289,11 +360,11 @@ def test_meshopt_does_not_unpack_more_than_the_limit(tmp_path):
     assert refusal(tmp_path, "a.glb", document.glb())[0] == "too-large"
 
 
-def packed_with_draco(required: bool = True) -> Document:
+def packed_with_draco(required: bool = True, bits: int = 14, **options: Any) -> Document:
     draco = pytest.importorskip("DracoPy")
     document = Document()
     points = [(x - 0.5, y - 0.5, z - 0.5) for x, y, z in files.CUBE_POINTS]
-    data = draco.encode(points, files.CUBE, quantization_bits=14)
+    data = draco.encode(points, files.CUBE, quantization_bits=bits, **options)
     packed = {"bufferView": document.view(data), "attributes": {"POSITION": 0}}
     document.primitive["extensions"] = {"KHR_draco_mesh_compression": packed}
     document.json["extensionsUsed"] = ["KHR_draco_mesh_compression"]
@@ -308,6 +379,21 @@ def test_draco(tmp_path):
     file = loaded(tmp_path, "a.glb", packed_with_draco().glb())
     assert file.mesh.triangle_count == 12
     assert file.mesh.bounds == ((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+
+
+@pytest.mark.parametrize("bits", [6, 11, 16])
+@pytest.mark.parametrize("box", [{}, {"quantization_range": 8.0, "quantization_origin": [-4] * 3}])
+def test_draco_leaves_its_step(tmp_path, bits, box):
+    document = packed_with_draco(bits=bits, **box)
+    step = box.get("quantization_range", 1.0) / (2**bits - 1)
+    expected = 0.5 * step + 0.5 * 2.0**-24  # and the decoder rounds to float32
+    file = loaded(tmp_path, "a.glb", document.glb())
+    assert file.resolution == pytest.approx(expected, rel=1e-2)
+
+
+def test_draco_with_about_the_bits_of_float32_is_as_precise(tmp_path):
+    file = loaded(tmp_path, "a.glb", packed_with_draco(bits=25).glb())
+    assert file.resolution == pytest.approx(2.0**-24, rel=1e-6)
 
 
 def test_what_is_there_unpacked_as_well_needs_no_draco(tmp_path):

@@ -20,8 +20,8 @@ from tests.scene import files, graphs
 from tests.scene.loading import loaded
 
 
-def raw(number_format, decimals=0, significant=0):
-    return RawMesh(b"", b"", number_format, decimals, significant)
+def raw(number_format, decimals=0, significant=0, rounding=0.0):
+    return RawMesh(b"", b"", number_format, decimals, significant, rounding=rounding)
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,8 @@ def raw(number_format, decimals=0, significant=0):
         (raw("written-digits", significant=7), 0.5, 0.5e-7),
         (raw("written-digits", decimals=9, significant=3), 8.0, 0.5e-9),
         (raw("written-digits", decimals=3), 0.0, 0.0),
+        (raw("float32", rounding=0.25), 8.0, 0.25),
+        (raw("float32", rounding=2.0**-30), 8.0, 2.0**-20),
     ],
 )
 def test_file_resolution(mesh, largest, resolution):
@@ -83,6 +85,38 @@ def test_formats(tmp_path):
     assert loaded(tmp_path, "a.3mf", files.threemf(model)).resolution == pytest.approx(
         0.5e-8, rel=1e-12, abs=0.0
     )
+
+
+def needle_out(far):
+    """The cube with one corner pulled far out."""
+    return [(far, far, -far) if point == (1, 1, 1) else point for point in files.CUBE_POINTS]
+
+
+def test_a_far_vertex_that_makes_the_precision_coarse_is_named(tmp_path):
+    file = loaded(tmp_path, "a.ply", files.binary_ply(needle_out(4096.0)))
+    assert file.resolution == 4096 * FLOAT32_STEP
+    ((code, message),) = ((issue.code, issue.message) for issue in file.issues)
+    assert code == "far-vertex"
+    assert "the vertex (4096, 4096, -4096) makes the precision 0.000488" in message
+    assert "beyond 1" in message
+    digits = files.obj(needle_out(4096.0))
+    assert [issue.code for issue in loaded(tmp_path, "a.obj", digits).issues] == ["far-vertex"]
+
+
+def test_no_vertex_is_named_that_costs_little(tmp_path):
+    for name, content in (
+        ("a.ply", files.binary_ply(needle_out(15.0))),
+        ("b.ply", files.binary_ply(needle_out(4096.0), double=True)),
+        ("c.ply", files.integer_ply("ascii", needle_out(4096))),
+        ("d.ply", files.binary_ply([(x + 4096.0, y, z) for x, y, z in files.CUBE_POINTS])),
+    ):
+        assert loaded(tmp_path, name, content).issues == ()
+
+
+@pytest.mark.parametrize("kind", ["ascii", "binary_little_endian"])
+def test_integers_of_ply_are_off_by_half_a_unit(tmp_path, kind):
+    points = [(100 * x, 100 * y, 100 * z) for x, y, z in files.CUBE_POINTS]
+    assert loaded(tmp_path, "a.ply", files.integer_ply(kind, points)).resolution == 0.5
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from satcheck.verify import distances
+from tests.audit.figures.test_exact_gap import needles
 from tests.audit.shapes import Mesh, bracket, unit_box
 from tests.verify.honest import document, honest, write
 from tests.verify.reports import Json, pieces, verified, wall
@@ -59,10 +60,45 @@ def test_witness_points_that_fit_a_false_distance_do_not_help(by: float) -> None
         assert verified(made).findings[0].outcome == "rejected"
 
 
-def test_a_distance_without_evidence_is_named() -> None:
-    made = honest("near")
+@pytest.mark.parametrize("convex", [True, False])
+def test_a_distance_is_right_to_the_last_rounding(tmp_path: Path, convex: bool) -> None:
+    """1e-12 is far below the rounding of coordinates near 10, but the points are there."""
+    a, b = needles(1e-12)
+    if not convex:
+        a, b = pieces(a, unit_box(50.0)), pieces(b, unit_box(-60.0))
+    made = document(write(tmp_path, a=a, b=b), clearance=4e-12, tolerance=0.0)
+    (finding,), (found,) = made["findings"], verified(made).findings
+    assert found.distance_error == pytest.approx(3e-21)
+    for distance in (3e-12 * (1 - 1e-8), 3e-12 * (1 + 1e-8), 4e-12):
+        finding["distance"] = distance
+        assert verified(made).findings[0].outcome == "rejected"
+    finding["distance"] = 4e-12
+    finding["certificate"].pop("distance")
+    assert "findings[].distance" in left(made)
+
+
+def test_the_error_of_a_proven_distance_is_said() -> None:
+    for name in APART:
+        for finding, found in zip(
+            honest(name)["findings"], verified(honest(name)).findings, strict=True
+        ):
+            error = found.distance_error
+            assert (error is None) is (finding["distance"] is None)
+            assert error is None or error <= 1e-8 * (1 + finding["distance"])
+
+
+@pytest.mark.parametrize("name", ["near", "apart in a notch"])
+def test_a_distance_without_evidence_is_named(name: str) -> None:
+    made = honest(name)
     made["findings"][0]["certificate"].pop("distance")
     assert "findings[].distance" in left(made)
+
+
+def test_exact_figures_have_no_bounds() -> None:
+    made = honest("near")
+    distance = made["findings"][0]["distance"]
+    made["findings"][0] |= {"distance_bounds": [0.5 * distance, distance], "quality": "bounded"}
+    assert verified(made).findings[0].outcome == "rejected"
 
 
 def test_a_wall_of_no_thickness_is_near(tmp_path: Path) -> None:

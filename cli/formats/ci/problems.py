@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
-from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.numbers import after_rounding, number, vector
 from satcheck.cli.formats.order import rank, severity
 from satcheck.cli.formats.words import in_motion, interval, is_hit, with_unit
 from satcheck.report.bodies import Place
@@ -100,7 +100,8 @@ def sentence(finding: Finding, unit: str | None) -> str:
     overlap.`"""
     text = f"{finding.a} and {finding.b}: {measured(finding, unit)}"
     if finding.mtv is not None and finding.mtv_verified:
-        text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"
+        way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
+        text += f"; moving {finding.a} by {way} ends the overlap"
     if finding.baseline_state is not None:
         text += f" [baseline: {finding.baseline_state}]"
     if finding.reason is not None:

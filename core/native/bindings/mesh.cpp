@@ -179,6 +179,12 @@ dropped if that closes the surface.)")
       .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
 first triangle. crack_width: points this close may be the same point; edges along such a crack count as shared.)")
       .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly. True if no triangle has an area.")
+      .def("far_vertex",
+           [](const Mesh& mesh) {
+             const FarVertex far = far_vertex(mesh);
+             return std::make_tuple(to_tuple(far.at), far.median);
+           },
+           ReleaseGil(), "The vertex with the largest |coordinate|, and the median of that of all vertices; needs no numpy.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
       .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");

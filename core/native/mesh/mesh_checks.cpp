@@ -48,4 +48,15 @@ bool is_flat(const Mesh& mesh) {
   return is_flat(mesh, all);
 }
 
+FarVertex far_vertex(const Mesh& mesh) {
+  if (mesh.vertices.empty()) return {};
+  std::vector<double> largest;
+  largest.reserve(mesh.vertices.size());
+  for (const Vec3& p : mesh.vertices) largest.push_back(max_abs(p));
+  const auto far = std::max_element(largest.begin(), largest.end()) - largest.begin();
+  const auto middle = largest.begin() + static_cast<std::ptrdiff_t>(largest.size() / 2);
+  std::nth_element(largest.begin(), middle, largest.end());
+  return {mesh.vertices[static_cast<std::size_t>(far)], *middle};
+}
+
 }  // namespace satcheck

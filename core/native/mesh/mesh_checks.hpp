@@ -14,4 +14,11 @@ bool is_flat(const Mesh& mesh);
 // The same for some of its triangles.
 bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
+// The vertex with the largest |coordinate|, the first of equals, and the median of that of all vertices.
+struct FarVertex {
+  Vec3 at;
+  double median = 0;
+};
+FarVertex far_vertex(const Mesh& mesh);
+
 }  // namespace satcheck

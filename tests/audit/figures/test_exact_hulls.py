@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import convert
 
 from satcheck import core
-from satcheck.audit.certify.hulls import expanded, nearest_point
+from satcheck.audit.figures.exact_hulls import expanded, nearest_point
 from satcheck.report.certificate import Polytope
 from satcheck.verify.exact import dot, lattice
 from satcheck.verify.findings import depth_at_most
