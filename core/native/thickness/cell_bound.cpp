@@ -59,7 +59,10 @@ class CellBound {
   void run() {
     floor_ = -std::fmax(bodies_.less(0), bodies_.less(1));
     for (const Cell::Corner& corner : cell_.corners) middle_ = middle_ + corner.at;
-    middle_ = middle_ * (1.0 / static_cast<double>(cell_.corners.size()));
+    const double share = 1.0 / static_cast<double>(cell_.corners.size());
+    middle_ = middle_ * share;
+    point_ = middle_;
+    shares_.assign(cell_.corners.size(), share);
     for (const Cell::Corner& corner : cell_.corners) radius_ = larger(radius_, norm(corner.at - middle_));
     if (record_ == nullptr && is_crowded()) return;
     for (int body = 0; body < 2; ++body) {
@@ -207,22 +210,29 @@ class CellBound {
     floor_of_game_ = floor_ - diagonal;
     game_.emplace(cell_.corners.size(), floor_of_game_, diagonal + open_.bound - floor_);
     for (const Column& column : open_.columns) add(column.plane ? column : best_column(column.body, column.patch));
-    if (columns_.empty() && !add_nearest(box_.min * 0.5 + box_.max * 0.5)) return INFINITY;
+    // Where the point is as deep as the bound from before, nothing is nearer, and there is no game to play.
+    if (columns_.empty() && !add_nearest(point_)) return INFINITY;
     double bound = INFINITY;
     while (true) {
-      game_->solve();
-      work_done += kGameWork * cell_.corners.size();
+      play();
       const double shown = proven();
       if (record_ != nullptr && shown < bound) keep_terms();
       bound = std::fmin(bound, shown);
       if (bound <= enough_) return bound;
-      point_ = {};
-      for (std::size_t k = 0; k < cell_.corners.size(); ++k) point_ = point_ + cell_.corners[k].at * game_->row_weights()[k];
       const double before = depth_;
       if (!add_nearest(point_)) return bound;
       if (columns_.size() >= (only_planes_ ? kMostPlanes : kMostColumns)) return bound;
       if (!only_planes_ && before < INFINITY && bound - depth_ < kHopeless * (bound - enough_)) return bound;
     }
+  }
+
+  // Solves the game.
+  void play() {
+    game_->solve();
+    work_done += kGameWork * cell_.corners.size();
+    shares_ = game_->row_weights();
+    point_ = {};
+    for (std::size_t k = 0; k < cell_.corners.size(); ++k) point_ = point_ + cell_.corners[k].at * shares_[k];
   }
 
   double rounding_of_sum() const { return bodies_.rounding() * (1 + kSumRounding * static_cast<double>(columns_.size() + 3)); }
@@ -328,11 +338,11 @@ class CellBound {
   // What makes the bound larger than the depth of the game's point: columns that are not linear, those that the bound rests
   // on and the one that is the depth of that point.
   CellGap gap() const {
-    CellGap gap{bodies_, axes_, cell_, {}, game_->row_weights(), point_};
+    CellGap gap{bodies_, axes_, cell_, {}, shares_, point_};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const Column& column = columns_[c];
       const Nearest& nearest = nearest_[static_cast<std::size_t>(column.body)];
-      const bool is_depth = nearest.depth <= depth_ && nearest.patch == column.patch;
+      const bool is_depth = nearest.depth < INFINITY && nearest.depth <= depth_ && nearest.patch == column.patch;
       const double weight = game_->column_weights()[c] + (is_depth ? kNearestWeight : 0);
       if (!column.plane && weight > 0) gap.terms.push_back({column, weight});
     }
@@ -373,7 +383,9 @@ class CellBound {
   std::vector<double> values_;  // of each column at all corners
   std::vector<Term> terms_;     // of the least sum, for the record
   bool only_planes_ = true;
-  Vec3 point_;  // where the game's other player expects the deepest point
+  // Where the game's other player expects the deepest point, and its shares of the corners; the middle before the game.
+  Vec3 point_;
+  std::vector<double> shares_;
   std::array<Nearest, 2> nearest_;
   double depth_ = INFINITY;  // of that point, if it is inside both
   int outside_ = -1;
