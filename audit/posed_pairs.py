@@ -26,6 +26,7 @@ from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.half_spaces import corners_of, holds, is_half_space, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
@@ -128,7 +129,22 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
+        self._open_beyond_reach(codes, matrices)
         return codes
+
+    def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> None:
+        """Opens pairs with a half space whose block does not stand for it there."""
+        balls = self.around() if any(is_half_space(body.body) for body in self._bodies) else []
+        for column, pair in enumerate(self._places if balls else ()):
+            for floor, other in (pair, pair[::-1]):
+                if not is_half_space(self._bodies[floor].body):
+                    continue
+                _, reach = reach_in_world(self._bodies[floor].body)
+                centre, radius = balls[other]
+                rows = matrices[:, other].reshape(-1, 3, 4)
+                at = rows[:, :, :3] @ np.array(centre) + rows[:, :, 3]
+                apart = np.linalg.norm(at - matrices[:, floor, 3::4], axis=1)
+                codes[~(apart + radius <= reach), column] = OPEN
 
     def _resolution(self, k: int, matrices: Numbers) -> float:
         """An upper bound of the precision of the coordinates of a body in all of these poses."""
@@ -155,6 +171,10 @@ class PosedPairs:
             k: PlacedBody(body, self._bodies[k].shared, box)
             for k, body, box in zip(needed, moved, bounds, strict=True)
         }
+        for a, b in (self._places[n] for n in numbers):
+            for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
+                if is_half_space(floor.body) and not holds(floor.body, corners_of(*other.bounds)):
+                    raise ValueError(f"{other.id} lies beyond the reach of the half space")
         settings, pairs = self._settings, self.pairs
         return [
             Pair(placed[a], placed[b], settings, pairs[n].request, meter)

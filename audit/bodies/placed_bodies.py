@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
+from satcheck.scene.half_spaces import corners_of, holds, is_half_space
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -177,6 +178,11 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
                 body.id, body.file.path, reason, body.groups, body.path, body.static
             )
             issues.append(_unplaceable(body, error))
+    for index, reason in _too_short(placed):
+        body = placed.pop(index).body
+        unusable[index] = UnusableBody(
+            body.id, body.file.path, reason, body.groups, body.path, body.static
+        )
     cache.book = cache.book or RuleBook(
         [Subject(body.id, body.groups, body.static) for body in members],
         scene.rules,
@@ -191,6 +197,22 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
         issues=(*map(_unused, cache.book.unused()), *issues),
         units={k: body.body.units for k, body in placed.items()},
     )
+
+
+def _too_short(placed: Mapping[int, PlacedBody]) -> list[tuple[int, str]]:
+    """Half spaces whose block does not stand for them beside all other bodies, and why."""
+    boxes = [
+        (other.id, corners_of(*other.bounds))
+        for other in placed.values()
+        if not is_half_space(other.body)
+    ]
+    short = []
+    for index, floor in placed.items():
+        if is_half_space(floor.body):
+            beyond = next((id_ for id_, corners in boxes if not holds(floor.body, corners)), None)
+            if beyond is not None:
+                short.append((index, f"{beyond} lies beyond the reach of the half space"))
+    return short
 
 
 def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:

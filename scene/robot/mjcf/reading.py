@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -138,8 +139,7 @@ class _Reader:
                 start = inverse(pose_of(place))
                 return MeshReference(file, scale, start=start, hull=self._hulls)
             case Plane():
-                reason = f"plane {geom.name} is a half space, not a finite body: it is not checked"
-                return RefusedShape("half-space", reason)
+                return HalfSpace()
         return geom.shape
 
     def _issues(self) -> Iterator[Issue]:
