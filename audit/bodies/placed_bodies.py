@@ -59,10 +59,10 @@ class PlacedBodies(Struct, frozen=True):
     @property
     def undecidable_count(self) -> int:
         """The number of `undecidable_pairs`, without a visit to each."""
-        alike = self._alike()
+        alike, endless = self._alike(), sum(1 for _ in self.endless_pairs())
         if not self.unusable and len(alike) < 2:
-            return 0
-        return self._checked_count(None) - sum(map(self._checked_count, alike))
+            return endless
+        return self._checked_count(None) - sum(map(self._checked_count, alike)) + endless
 
     @property
     def several_units_count(self) -> int:
@@ -88,10 +88,25 @@ class PlacedBodies(Struct, frozen=True):
         reason."""
         yield from self._pairs_of_unusable_bodies()
         yield from self.pairs_of_several_units()
+        yield from self.endless_pairs()
 
     def is_comparable(self, i: int, j: int) -> bool:
         """Whether two placed bodies may have the same unit of length."""
         return self.units.get(i) == self.units.get(j)
+
+    def endless_pairs(self) -> Iterator[tuple[int, int, str]]:
+        """Pairs of half spaces that do not face each other with a gap: blocks cannot stand for
+        them."""
+        floors = [k for k, body in self.placed.items() if is_half_space(body.body)]
+        if len(floors) < 2:
+            return
+        from satcheck.core.half_space import gap_of_planes, plane_of
+
+        for i, j in combinations(floors, 2):
+            if self.is_comparable(i, j) and self.book.is_checked(i, j):
+                gap = gap_of_planes(*(plane_of(self.placed[k].body.transform) for k in (i, j)))
+                if gap is None or gap < 0:
+                    yield i, j, "two half spaces that share a region without end are not measured"
 
     def _pairs_of_unusable_bodies(self) -> Iterator[tuple[int, int, str]]:
         for k, body in self.unusable.items():
