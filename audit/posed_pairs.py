@@ -129,13 +129,14 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
-        self._open_beyond_reach(codes, matrices)
+        if any(is_half_space(body.body) for body in self._bodies):
+            return self._open_beyond_reach(codes, matrices)
         return codes
 
-    def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> None:
+    def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""
-        balls = self.around() if any(is_half_space(body.body) for body in self._bodies) else []
-        for column, pair in enumerate(self._places if balls else ()):
+        codes, balls = codes.copy(), self.around()
+        for column, pair in enumerate(self._places):
             for floor, other in (pair, pair[::-1]):
                 if not is_half_space(self._bodies[floor].body):
                     continue
@@ -145,6 +146,7 @@ class PosedPairs:
                 at = rows[:, :, :3] @ np.array(centre) + rows[:, :, 3]
                 apart = np.linalg.norm(at - matrices[:, floor, 3::4], axis=1)
                 codes[~(apart + radius <= reach), column] = OPEN
+        return codes
 
     def _resolution(self, k: int, matrices: Numbers) -> float:
         """An upper bound of the precision of the coordinates of a body in all of these poses."""

@@ -53,7 +53,7 @@ class HalfSpace(Sized, frozen=True, tag="half-space"):
     @property
     def reaches(self) -> float:
         """How far from the origin the points of another body may be, in the frame of the shape."""
-        return self.reach / 4
+        return self.reach * 3 / 8
 
 
 class Sphere(Sized, frozen=True):

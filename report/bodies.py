@@ -38,7 +38,7 @@ class Ellipsoid(Value, frozen=True, tag_field="type", tag="ellipsoid"):
 
 class HalfSpace(Value, frozen=True, tag_field="type", tag="half-space"):
     """All points with z <= 0. It is checked as the block |x|, |y| <= reach, -reach <= z <= 0, which
-    is the same to every body within a quarter of the reach of the origin."""
+    is the same to every body within 3/8 of the reach of the origin."""
 
     reach: Size
 

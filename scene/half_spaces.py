@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from satcheck.core.conventions import Vector
     from satcheck.scene.robot import Joint, SceneRobot
 
-# Two points of the scene are apart by twice its radius at most, and bodies lie within a quarter of
-# the reach.
-_ROOM = 8.0
+# Two points of the scene are apart by twice its radius at most, and bodies lie within 3/8 of the
+# reach.
+_ROOM = 6.0
 _LARGEST = 2.0**149  # below LARGEST_LENGTH
 
 
@@ -76,7 +76,7 @@ def _fitted(floor: Body, radius: float) -> Body:
     if floor.shape.reach >= min(needed, _LARGEST):
         return floor
     # A power of two, so that turning it about an axis of the frame is exact.
-    shape = HalfSpace(min(2.0 ** (math.frexp(needed)[1] + 1), _LARGEST))
+    shape = HalfSpace(min(2.0 ** (math.frexp(needed)[1]), _LARGEST))
     file = replace(shape_file(shape, floor.file.path), units=floor.file.units)
     return replace(floor, shape=shape, file=file)
 

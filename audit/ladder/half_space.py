@@ -15,7 +15,6 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.core.curved.signed import Outcome, Signed
 from satcheck.core.half_space import (
@@ -25,7 +24,6 @@ from satcheck.core.half_space import (
     heights_of_shape,
     plane_of,
 )
-from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.shapes import HalfSpace
 
 if TYPE_CHECKING:
@@ -38,9 +36,6 @@ if TYPE_CHECKING:
     from satcheck.report.report import Relation
 
 STAGE = "half-space"
-# The distance of a rounded corner from the true one, in roundoffs of its largest coordinate: at
-# most sqrt(3), and as much again for the tilt of the plane through three corners.
-_CORNER_ROUNDOFFS = 4
 
 
 class Above(Struct, frozen=True):
@@ -138,10 +133,10 @@ def settle_half_space(
 
 
 def _slack(floor: PlacedBody, plane: Plane) -> float:
+    """How far the triangles on top of the placed block are off the plane: no farther than their
+    corners."""
     corners = np.asarray(floor.mesh.vertices)
     unplaced = np.asarray(floor.body.file.mesh.vertices)
     top = corners[unplaced[:, 2] == 0.0]
     low, high = heights_of_points(plane, top)
-    if low.compare(0.0) == 0 and high.compare(0.0) == 0:
-        return 0.0
-    return _CORNER_ROUNDOFFS * UNIT_ROUNDOFF * largest_coordinate(floor.bounds)
+    return math.nextafter(max(-low.value(), high.value()), math.inf) if low.p or high.p else 0.0

@@ -44,9 +44,9 @@ def _slab(floor: Body, boxes: Floats) -> Body:
     size = float((high - low).max()) or 1.0
     middle, half = (low + high) / 2, _WIDE * size / 2
     thick = max(_THICK * size, _BEYOND * size - min(float(low[2]), 0.0))
-    cube = mesh_of(Box((2 * half, 2 * half, thick)))
-    corners = np.asarray(cube.vertices) + [middle[0], middle[1], -thick / 2]
-    corners[:, 2] = np.where(np.asarray(cube.vertices)[:, 2] > 0, 0.0, -thick)
+    cube = mesh_of(Box((2 * half, 2 * half, 2 * thick)))
+    corners = np.minimum(np.asarray(cube.vertices), [np.inf, np.inf, 0.0])
+    corners[:, :2] += middle[:2]
     return replace(floor, file=replace(floor.file, mesh=Mesh(corners, cube.triangles)))
 
 
