@@ -14,10 +14,13 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Finding, Report, Settings, check
+from satcheck.audit.resolve import resolve
 from satcheck.audit.samples import check_poses
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.new_scene_file import new_scene_file
 from tests.oracles.half_space import Matrix, heights_of_shape, heights_of_vertices
 from tests.verify.reports import verified
 
@@ -391,3 +394,61 @@ def test_a_half_space_is_pinned_and_static(tmp_path: Path) -> None:
     assert is_half_space(floor)
     assert isinstance(floor.shape, HalfSpace)
     assert (floor.static, floor.pinned) == (True, True)
+
+
+SDF = (
+    '<?xml version="1.0"?><sdf version="1.9"><world name="w"><model name="ground_plane">'
+    '<static>true</static><link name="link"><collision name="c"><geometry><plane>'
+    "<normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link></model>"
+    '<model name="crate"><pose>0 0 {height} 0 0 0</pose><link name="l"><collision name="c">'
+    "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>"
+)
+
+
+@pytest.mark.parametrize(
+    ("height", "relation", "verdict"),
+    [(1.5, "separated", "pass"), (0.5, "touching", "pass"), (0.2, "penetrating", "fail")],
+)
+def test_a_crate_and_the_ground_plane_of_gazebo(
+    tmp_path: Path, height: float, relation: str, verdict: str
+) -> None:
+    path = tmp_path / "w.sdf"
+    path.write_text(SDF.format(height=height))
+    report = check(load_scene([path]))
+    assert relations(report) == {("ground_plane::link", "crate::l"): relation}
+    assert report.summary.verdict == verdict
+
+
+@pytest.mark.parametrize(("height", "answer"), [(0.5, "yes"), (1.5, "no")])
+def test_a_floor_holds_what_rests_on_it(tmp_path: Path, height: float, answer: str) -> None:
+    path = tmp_path / "w.sdf"
+    path.write_text(SDF.format(height=height))
+    rules = tmp_path / "rules.toml"
+    rules.write_text('[[rules]]\nbodies = "crate::l"\nsupported = true\nstable = true\n')
+    statics = check(load_scene([path], rules=[rules])).to_dict()["statics"]
+    assert {one["answer"] for one in statics["findings"]} == {answer}
+
+
+def test_an_open_mesh_meets_a_floor_whatever_fills_its_hole(tmp_path: Path) -> None:
+    """A box without its bottom, as a mesh."""
+    lines = ["OFF", "8 5 0"]
+    lines += [f"{x} {y} {z}" for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    lines += ["4 4 5 7 6", "4 0 1 5 4", "4 2 6 7 3", "4 0 4 6 2", "4 1 3 7 5"]
+    (tmp_path / "lid.off").write_text("\n".join(lines) + "\n")
+    for z, relation in ((0, "touching"), (0.5, "near"), (-0.5, "penetrating"), (-3, "contains")):
+        floor = {"id": "floor", "shape": {"type": "half-space"}}
+        lid = {"id": "lid", "mesh": "lid.off", "position": [0, 0, z]}
+        finding = examined(written(tmp_path, [floor, lid]))
+        assert (finding.relation, finding.quality) == (relation, "exact")
+        assert finding.depth == (-z if z < 0 else None)
+
+
+def test_resolve_lifts_what_is_sunk_and_a_new_scene_has_no_reach(tmp_path: Path) -> None:
+    floor = {"id": "floor", "shape": {"type": "half-space"}}
+    body = {"id": "body", "shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 0, 0.25]}
+    scene = written(tmp_path, [floor, body])
+    (move,) = resolve(scene).moves
+    assert move.body == "body"
+    assert move.translation == pytest.approx((0, 0, 0.25), abs=1e-12)
+    stated = json.loads(new_scene_file(tmp_path / "new.json", scene, MeshFiles()))
+    assert stated["bodies"][0]["shape"] == {"type": "half-space"}
