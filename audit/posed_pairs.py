@@ -26,7 +26,7 @@ from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.half_spaces import corners_of, holds, is_half_space, reach_in_world
+from satcheck.scene.half_spaces import holds, is_half_space, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
@@ -175,7 +175,7 @@ class PosedPairs:
         }
         for a, b in (self._places[n] for n in numbers):
             for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
-                if is_half_space(floor.body) and not holds(floor.body, corners_of(*other.bounds)):
+                if is_half_space(floor.body) and not holds(floor.body, other.bounds):
                     raise ValueError(f"{other.id} lies beyond the reach of the half space")
         settings, pairs = self._settings, self.pairs
         return [

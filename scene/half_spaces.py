@@ -8,8 +8,7 @@ half space: the corners of a block that is turned are rounded as those of any me
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import product
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -25,10 +24,12 @@ if TYPE_CHECKING:
     from satcheck.core.conventions import Vector
     from satcheck.scene.robot import Joint, SceneRobot
 
+Box = tuple["Vector", "Vector"]  # the least and the greatest corner
+
 # Two points of the scene are apart by twice its radius at most, and bodies lie within 3/8 of the
 # reach.
 _ROOM = 6.0
-_LARGEST = 2.0**149  # below LARGEST_LENGTH
+_LARGEST = 2.0**146  # a placed body reaches no farther than 2e44
 
 
 def is_half_space(body: Body) -> bool:
@@ -48,24 +49,25 @@ def with_reach(scene: Scene) -> Scene:
     return replace(scene, bodies=tuple(fitted.get(body.id, body) for body in scene.bodies))
 
 
-def holds(floor: Body, corners: Iterable[Sequence[float]]) -> bool:
-    """Whether the block of a half space is the same as the half space to a body whose box has these
-    corners, world units."""
-    assert isinstance(floor.shape, HalfSpace)
-    origin = _origin(floor)
-    farthest = max((math.dist(origin, corner) for corner in corners), default=0.0)
-    return farthest <= floor.shape.reaches * _least_stretch(floor)
-
-
-def corners_of(low: Vector, high: Vector) -> list[Vector]:
-    """The corners of a box."""
-    return list(product(*zip(low, high, strict=True)))  # type: ignore[arg-type]
+def holds(floor: Body, box: Box) -> bool:
+    """Whether the block of a half space is the same as the half space to a body in this box, world
+    units."""
+    origin, reach = reach_in_world(floor)
+    return farthest(origin, box) <= reach
 
 
 def reach_in_world(floor: Body) -> tuple[Vector, float]:
     """The origin of a half space, and how far from it other bodies may be, world units."""
     assert isinstance(floor.shape, HalfSpace)
     return _origin(floor), floor.shape.reaches * _least_stretch(floor)
+
+
+def farthest(origin: Vector, box: Box) -> float:
+    """The distance of the farthest corner of a box."""
+    low, high = box
+    return math.hypot(
+        *(max(abs(a - o), abs(b - o)) for o, a, b in zip(origin, low, high, strict=True))
+    )
 
 
 def _fitted(floor: Body, radius: float) -> Body:
@@ -106,13 +108,10 @@ def _placed_radius(body: Body) -> float:
     return origin + _own_radius(body.file.mesh.bounds, body.transform or IDENTITY)
 
 
-def _own_radius(bounds: tuple[Vector, Vector], transform: Transform) -> float:
+def _own_radius(bounds: Box, transform: Transform) -> float:
     """How far the points in the box of a file are from the image of its origin. The mesh of a
     curved shape reaches its bounds along each axis, and the shape lies within them."""
-    low, high = bounds
-    return largest_stretch(transform) * math.hypot(
-        *(max(abs(a), abs(b)) for a, b in zip(low, high, strict=True))
-    )
+    return largest_stretch(transform) * farthest((0.0, 0.0, 0.0), bounds)
 
 
 def _least_stretch(body: Body) -> float:

@@ -6,7 +6,6 @@ import json
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -205,7 +204,7 @@ def _require_reach(placed: list[Placed], k: int, floor: Body) -> None:
     for number, other in enumerate(placed):
         if number != k and other.bounds is not None and not other.endless:
             low, high = (tuple(map(float, corner)) for corner in other.bounds)
-            if not holds(floor, product(*zip(low, high, strict=True))):
+            if not holds(floor, (low, high)):  # type: ignore[arg-type]
                 placed[k] = _lost(floor, f"{other.id} lies beyond the reach of the half space")
                 return
 

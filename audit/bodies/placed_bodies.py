@@ -20,7 +20,7 @@ from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
-from satcheck.scene.half_spaces import corners_of, holds, is_half_space
+from satcheck.scene.half_spaces import farthest, is_half_space, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -216,15 +216,12 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
 
 def _too_short(placed: Mapping[int, PlacedBody]) -> list[tuple[int, str]]:
     """Half spaces whose block does not stand for them beside all other bodies, and why."""
-    boxes = [
-        (other.id, corners_of(*other.bounds))
-        for other in placed.values()
-        if not is_half_space(other.body)
-    ]
+    others = [body for body in placed.values() if not is_half_space(body.body)]
     short = []
     for index, floor in placed.items():
         if is_half_space(floor.body):
-            beyond = next((id_ for id_, corners in boxes if not holds(floor.body, corners)), None)
+            origin, reach = reach_in_world(floor.body)
+            beyond = next((o.id for o in others if not farthest(origin, o.bounds) <= reach), None)
             if beyond is not None:
                 short.append((index, f"{beyond} lies beyond the reach of the half space"))
     return short

@@ -65,8 +65,8 @@ def test_of_a_scene_in_other_units(tmp_path: Path) -> None:
     """The block is as large as the bodies, whatever the scale of its placement is."""
     for units in ("um", "m"):
         scene = scene_of(tmp_path, {"shape": UNIT, "position": [5, 0, 0]}, units=units)
-        assert holds(scene.bodies[0], [(5.5, 0.5, 0.5), (-9.0, 0.0, -9.0)])
-        assert not holds(scene.bodies[0], [(999.0, 0.0, 0.0)])
+        assert holds(scene.bodies[0], ((-5.5, -0.5, -9.0), (5.5, 0.5, 0.5)))
+        assert not holds(scene.bodies[0], ((0.0, 0.0, 0.0), (999.0, 0.0, 0.0)))
 
 
 def arm(folder: Path, joint: str) -> Scene:
