@@ -54,23 +54,33 @@ class Plane(Struct, frozen=True):
 
 
 class Height(Struct, frozen=True):
-    """The height (p + q sqrt(w)) / sqrt(square). point: rounded, of the body, at this height."""
+    """The height (p + q sqrt(w)) / sqrt(square). point: of the body, at this height, rounded.
+    value: the height, rounded once."""
 
     p: Fraction
     q: Fraction
     w: Fraction
     square: Fraction
     point: Vector
+    value: float
 
     def compare(self, length: float) -> int:
         """The sign of (height - length)."""
+        if self.value > math.nextafter(length, math.inf):
+            return 1
+        if self.value < math.nextafter(length, -math.inf):
+            return -1
         return _sign_of_three(self.p, self.q, self.w, -Fraction(length), self.square)
 
-    def value(self) -> float:
-        """Rounded once."""
-        if self.compare(0.0) == 0:
-            return 0.0
-        return float((self.p + self.q * _root(self.w)) / _root(self.square))
+
+def _height(p: Fraction, q: Fraction, w: Fraction, square: Fraction, point: Vector) -> Height:
+    if _sign_of_one(p, q, w) == 0:
+        value = 0.0
+    elif q == 0 and square == 1:
+        value = float(p)
+    else:
+        value = float((p + q * _root(w)) / _root(square))
+    return Height(p, q, w, square, point, value)
 
 
 def plane_of(transform: Transform | None) -> Plane:
@@ -121,7 +131,7 @@ def heights_of_shape(plane: Plane, image: ShapeImage) -> tuple[Height, Height]:
             float(o) + sum(c[k] * y for c, y in zip(image.columns, at, strict=True))
             for k, o in enumerate(image.origin)
         )
-        return Height(middle + sign * p, sign * q, w, square, point)  # type: ignore[arg-type]
+        return _height(middle + sign * p, sign * q, w, square, point)  # type: ignore[arg-type]
 
     return extreme(-1), extreme(1)
 
@@ -183,14 +193,12 @@ def _supports(
 def _extreme(plane: Plane, points: NDArray[np.float64], sign: int) -> Height:
     """sign: 1, the least height; -1, the greatest."""
     square, none = _dot(plane.normal, plane.normal), Fraction(0)
-    found: Height | None = None
-    for x, y, z in points.tolist():
-        over = _over(plane, (Fraction(x), Fraction(y), Fraction(z)))
-        if found is None or sign * over < sign * found.p:
-            found = Height(over, none, none, square, (x, y, z))
-    if found is None:
-        raise ValueError("a body without points has no height")
-    return found
+    heights = [
+        (_over(plane, (Fraction(x), Fraction(y), Fraction(z))), (x, y, z))
+        for x, y, z in points.tolist()
+    ]
+    over, point = min(heights, key=lambda height: sign * height[0])
+    return _height(over, none, none, square, point)
 
 
 def _over(plane: Plane, point: Sequence[Fraction]) -> Fraction:

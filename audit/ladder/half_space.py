@@ -9,6 +9,7 @@ plane through them: heights within this rounding are left to the block.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,15 +25,16 @@ from satcheck.core.half_space import (
     heights_of_shape,
     plane_of,
 )
+from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import HalfSpace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from satcheck.audit.bodies.pair import Pair
-    from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.request.trace import Trace
     from satcheck.core.conventions import Vector
+    from satcheck.core.transform import Transform
     from satcheck.report.report import Relation
 
 STAGE = "half-space"
@@ -51,7 +53,7 @@ class Above(Struct, frozen=True):
 
     def signed(self) -> Signed:
         """The signed distance of the pair."""
-        value, side = self.low.value(), self.side
+        value, side = self.low.value, self.side
         lower, upper = (math.nextafter(value + s * self.slack, s * math.inf) for s in (-1, 1))
         if self.slack == 0.0 and self.low.compare(value) == 0:
             lower = upper = value
@@ -88,12 +90,13 @@ def above(pair: Pair) -> Above:
     """The height of the body that is not the half space."""
     floor_is_a = isinstance(pair.a.body.shape, HalfSpace)
     floor, other = (pair.a, pair.b) if floor_is_a else (pair.b, pair.a)
-    plane = plane_of(floor.body.transform)
+    assert isinstance(floor.body.shape, HalfSpace)
+    plane, slack = _plane(floor.body.transform, floor.body.shape)
     if other.curved is not None:
         low, high = heights_of_shape(plane, other.curved.image)
     else:
         low, high = heights_of_points(plane, np.asarray(other.mesh.vertices))
-    return Above(plane, low, high, _slack(floor, plane), floor_is_a)
+    return Above(plane, low, high, slack, floor_is_a)
 
 
 def settle_half_space(
@@ -106,7 +109,7 @@ def settle_half_space(
     by_block: makes it, if it is needed."""
     over = above(pair)
     signed = over.signed()
-    heights = f"least height {signed.distance:.6g}, greatest {over.high.value():.6g}"
+    heights = f"least height {signed.distance:.6g}, greatest {over.high.value:.6g}"
     if not over.decides:
         trace.record(STAGE, "undecided", f"{heights}: within the rounding of the block")
         if verdict is None and by_block is not None:
@@ -132,11 +135,13 @@ def settle_half_space(
     )
 
 
-def _slack(floor: PlacedBody, plane: Plane) -> float:
-    """How far the triangles on top of the placed block are off the plane: no farther than their
-    corners."""
-    corners = np.asarray(floor.mesh.vertices)
-    unplaced = np.asarray(floor.body.file.mesh.vertices)
-    top = corners[unplaced[:, 2] == 0.0]
+@lru_cache(maxsize=64)
+def _plane(transform: Transform | None, block: HalfSpace) -> tuple[Plane, float]:
+    """The plane of a half space, and how far the triangles on top of its placed block are off: no
+    farther than their corners."""
+    plane, mesh = plane_of(transform), mesh_of(block)
+    placed = mesh if transform is None else mesh.transformed(transform)
+    top = np.asarray(placed.vertices)[np.asarray(mesh.vertices)[:, 2] == 0.0]
     low, high = heights_of_points(plane, top)
-    return math.nextafter(max(-low.value(), high.value()), math.inf) if low.p or high.p else 0.0
+    off = max(-low.value, high.value)
+    return plane, math.nextafter(off, math.inf) if low.p or high.p else 0.0
