@@ -39,6 +39,7 @@ from satcheck.audit.summary import (
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Finding, Issue, Report
+from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
     from satcheck.audit.joint_path.movers import JointMovers
@@ -159,6 +160,7 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
             seconds_per_file=settings.seconds_per_file,
             megabytes_per_file=settings.megabytes_per_file,
         )
+    scene = with_reach(scene)
     if settings.planar is None:
         scene.require_in_space("add --planar xy")
         return scene

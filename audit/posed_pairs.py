@@ -26,6 +26,7 @@ from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.half_spaces import holds, is_half_space, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
@@ -128,6 +129,23 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
+        if any(is_half_space(body.body) for body in self._bodies):
+            return self._open_beyond_reach(codes, matrices)
+        return codes
+
+    def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
+        """Opens pairs with a half space whose block does not stand for it there."""
+        codes, balls = codes.copy(), self.around()
+        for column, pair in enumerate(self._places):
+            for floor, other in (pair, pair[::-1]):
+                if not is_half_space(self._bodies[floor].body):
+                    continue
+                _, reach = reach_in_world(self._bodies[floor].body)
+                centre, radius = balls[other]
+                rows = matrices[:, other].reshape(-1, 3, 4)
+                at = rows[:, :, :3] @ np.array(centre) + rows[:, :, 3]
+                apart = np.linalg.norm(at - matrices[:, floor, 3::4], axis=1)
+                codes[~(apart + radius <= reach), column] = OPEN
         return codes
 
     def _resolution(self, k: int, matrices: Numbers) -> float:
@@ -155,6 +173,10 @@ class PosedPairs:
             k: PlacedBody(body, self._bodies[k].shared, box)
             for k, body, box in zip(needed, moved, bounds, strict=True)
         }
+        for a, b in (self._places[n] for n in numbers):
+            for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
+                if is_half_space(floor.body) and not holds(floor.body, other.bounds):
+                    raise ValueError(f"{other.id} lies beyond the reach of the half space")
         settings, pairs = self._settings, self.pairs
         return [
             Pair(placed[a], placed[b], settings, pairs[n].request, meter)
@@ -182,7 +204,7 @@ def _moved(body: Body, rows: Numbers) -> Body:
 def same_way(scene: Scene, settings: Settings, bodies: PlacedBodies) -> bool:
     """Whether every pose asks the same question of every pair: nothing moves while it is checked,
     nothing is projected, no body has to stand, and every body can be used and compared."""
-    special = bodies.unusable or scene.motions or scene.body_rules
+    special = bodies.unusable or scene.motions or scene.body_rules or any(bodies.endless_pairs())
     everywhere = not special and settings.planar is None
     extras = settings.certificate or settings.cross_check
     alike = len(set(bodies.units.values())) == 1

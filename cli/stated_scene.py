@@ -67,7 +67,8 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Me
 
 
 def _placed(entry: BodyReport, file: MeshFile) -> Body:
-    return Body(entry.id, entry.name, file, entry.transform, path=entry.path)
+    shape = None if entry.shape is None else shape_from(to_builtins(entry.shape))
+    return Body(entry.id, entry.name, file, entry.transform, shape=shape, path=entry.path)
 
 
 def _issue(code: str, entry: BodyReport, message: str) -> Issue:

@@ -14,6 +14,7 @@ from satcheck.core.shapes import (
     Cone,
     Cylinder,
     Ellipsoid,
+    HalfSpace,
     Primitive,
     Sphere,
     support,
@@ -29,10 +30,11 @@ _LARGER, _SMALLER = 1 + 1e-9, 1 - 1e-9
 def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
     """The hull of points on the surface: closed, wound outward, and exactly convex.
 
-    A box is exact, with 8 vertices and 12 triangles. A curved shape has `segments` points on each
-    of its circles, including those on its axes, and half as many bands from pole to pole. segments:
-    a multiple of 4, at least 8. Vertices lie on the surface up to the rounding of their coordinates
-    to float64. Raises OverflowError for sizes beyond the range of exact arithmetic.
+    A box is exact, with 8 vertices and 12 triangles, and so is the block of a half space. A curved
+    shape has `segments` points on each of its circles, including those on its axes, and half as
+    many bands from pole to pole. segments: a multiple of 4, at least 8. Vertices lie on the surface
+    up to the rounding of their coordinates to float64. Raises OverflowError for sizes beyond the
+    range of exact arithmetic.
     """
     if segments < 8 or segments % 4:
         raise ValueError(f"segments should be a multiple of 4 from 8 on, not {segments}")
@@ -49,7 +51,7 @@ def sag_of(shape: Primitive, segments: int) -> float:
     / segments) squared from the centre. The other shapes are stretched or extruded balls and discs.
     """
     match shape:
-        case Box():
+        case Box() | HalfSpace():
             return 0.0
         case Ellipsoid(radii):
             radius = max(radii)
@@ -91,6 +93,8 @@ def _surface_points(shape: Primitive, segments: int) -> Iterator[Vector]:
         case Box(size):
             x, y, z = (c / 2 for c in size)
             return ((i * x, j * y, k * z) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1))
+        case HalfSpace(r):
+            return ((i * r, j * r, k * r) for i in (-1, 1) for j in (-1, 1) for k in (-1, 0))
         case Sphere(radius):
             return _ball((radius, radius, radius), segments)
         case Ellipsoid(radii):

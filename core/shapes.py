@@ -1,6 +1,7 @@
-"""Shapes defined by their sizes: a box and five curved shapes.
+"""Shapes defined by their sizes: a box, five curved shapes, and a half space.
 
-Each is convex and centred at its own origin, with its axis along z. The apex of a cone is at +z.
+Each is convex. All but the half space are centred at their own origin, with their axis along z. The
+apex of a cone is at +z.
 """
 
 from __future__ import annotations
@@ -39,6 +40,22 @@ class Box(Sized, frozen=True):
     size: Vector
 
 
+class HalfSpace(Sized, frozen=True, tag="half-space"):
+    """All points with z <= 0.
+
+    A check replaces it by a block: |x|, |y| <= reach, -reach <= z <= 0. Both are the same to every
+    body that `reaches` holds: any way out of the block but through z = 0 is longer, and no ball in
+    such a body is nearer to another face.
+    """
+
+    reach: float = 1.0
+
+    @property
+    def reaches(self) -> float:
+        """How far from the origin the points of another body may be, in the frame of the shape."""
+        return self.reach * 3 / 8
+
+
 class Sphere(Sized, frozen=True):
     """All points at most `radius` from the origin."""
 
@@ -74,7 +91,7 @@ class Ellipsoid(Sized, frozen=True):
 
 
 Curved = Sphere | Capsule | Cylinder | Cone | Ellipsoid
-Primitive = Box | Curved
+Primitive = Box | HalfSpace | Curved
 PRIMITIVES: dict[str, type[Primitive]] = {
     "box": Box,
     "sphere": Sphere,
@@ -82,6 +99,7 @@ PRIMITIVES: dict[str, type[Primitive]] = {
     "cylinder": Cylinder,
     "cone": Cone,
     "ellipsoid": Ellipsoid,
+    "half-space": HalfSpace,
 }
 
 
@@ -103,7 +121,7 @@ def sizes_of(shape: Primitive) -> tuple[float, ...]:
 
 def half_sizes(shape: Primitive) -> Vector:
     """Half sizes along x, y, z: radius, radius, half height (of a capsule without its caps); for an
-    ellipsoid, its radii."""
+    ellipsoid, its radii; for a half space, those of its block."""
     match shape:
         case Sphere(radius):
             return radius, radius, 0.0
@@ -113,6 +131,8 @@ def half_sizes(shape: Primitive) -> Vector:
             return radii
         case Box((x, y, z)):
             return x / 2, y / 2, z / 2
+        case HalfSpace(reach):
+            return reach, reach, reach / 2
 
 
 def primitive_of(values: object) -> Primitive:
@@ -125,7 +145,7 @@ def primitive_of(values: object) -> Primitive:
         raise ValueError(f"type should be one of {', '.join(PRIMITIVES)}, not {kind!r}")
     sizes = {key: value for key, value in values.items() if key != "type"}
     wanted = form.__struct_fields__
-    if sorted(sizes) != sorted(wanted):
+    if sorted(sizes) != sorted(wanted) and not (form is HalfSpace and not sizes):
         raise ValueError(
             f"a {kind} has {' and '.join(wanted)}, not {', '.join(sizes) or 'nothing'}"
         )
@@ -144,6 +164,8 @@ def support(shape: Primitive, direction: Vector) -> float:
     match shape:
         case Box((a, b, c)):
             return (a * abs(x) + b * abs(y) + c * abs(z)) / 2
+        case HalfSpace(reach):
+            return reach * (abs(x) + abs(y) + max(-z, 0.0))
         case Sphere(radius):
             return radius * math.hypot(x, y, z)
         case Capsule(radius, length):

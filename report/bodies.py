@@ -36,13 +36,20 @@ class Ellipsoid(Value, frozen=True, tag_field="type", tag="ellipsoid"):
     radii: Sizes
 
 
+class HalfSpace(Value, frozen=True, tag_field="type", tag="half-space"):
+    """All points with z <= 0. It is checked as the block |x|, |y| <= reach, -reach <= z <= 0, which
+    is the same to every body within 3/8 of the reach of the origin."""
+
+    reach: Size
+
+
 class Outline(Value, frozen=True, tag_field="type", tag="outline"):
     """A polygon. points: its corners, counter-clockwise from the least one."""
 
     points: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3)]
 
 
-StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | Outline
+StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | HalfSpace | Outline
 
 
 class Health(Value, frozen=True, kw_only=True):

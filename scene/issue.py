@@ -94,7 +94,6 @@ _ALL = (
     Code("no-leader", "warning", "A joint mimics a missing joint and moves independently."),
     Code("no-collision-geometry", "note", "Links with only visual geometry have no body."),
     Code("visual-geometry", "note", "Visual geometry is checked, not collision geometry."),
-    Code("half-space", "warning", "A plane is no finite body: its pairs are not checked."),
     Code("simplified-mesh", "warning", "A simulator replaces the mesh that is checked."),
     Code("mesh-or-hull", "note", "A simulator replaces meshes by hulls: which is checked."),
     Code("constraint-not-solved", "warning", "What connects bodies beside joints is not solved."),

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec import to_builtins
 
+from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.common_units import scaled_mesh
@@ -141,6 +142,8 @@ def _entry(output: Path, body: Body, unplaced: Transform, by: Vector) -> dict[st
         entry = _named(output, body.id, body.file.path, body.path)
     else:
         entry = {"id": body.id, "shape": to_builtins(body.shape)}
+        if isinstance(body.shape, HalfSpace):
+            del entry["shape"]["reach"]  # of its block, which follows from the scene
     if units := _stated_units(body):
         entry["units"] = units
     placement = body.transform or IDENTITY

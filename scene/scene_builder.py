@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from msgspec.structs import replace
 
+from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import (
@@ -23,6 +24,7 @@ from satcheck.scene.document_rules import DocumentGroups, document_rules, jointe
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
+from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
@@ -286,6 +288,8 @@ class SceneBuilder:
         self._inputs[-1].ids.append(id_)
         if isinstance(file, MeshFile):
             own = stated_unit(units or file.units) or self._inputs[-1].unit
+            if isinstance(shape, HalfSpace):
+                static = pinned = True
             body = Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             self._bodies.append(replace(body, surface_tolerance=surface_tolerance))
         else:
@@ -298,7 +302,7 @@ class SceneBuilder:
         common = in_one_unit(self._bodies, self._inputs, self._rule_units)
         scene = self._bodies_and_files(common)
         if not self._robots and not self._srdfs and not self._jointed:
-            return scene
+            return with_reach(scene)
         from satcheck.scene.robot import permissions, posed, with_srdfs
         from satcheck.scene.robot.document import robots_of_documents
 
@@ -316,7 +320,7 @@ class SceneBuilder:
             rules=(*allowed, *scene.rules),  # so that a rule can take a permission back
             issues=tuple(issues),
         )
-        return posed(scene, {})
+        return with_reach(posed(scene, {}))
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
         scenes = self._scenes

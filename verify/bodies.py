@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.core.shapes import Primitive, image_of, is_curved
+from satcheck.core.shapes import HalfSpace, Primitive, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
+from satcheck.scene.half_spaces import holds
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
@@ -63,7 +64,7 @@ class Placed:
     holes with unknown fills. pieces: as in `Shape`. missing: the file that does not exist, as the
     report names it. deviation: with --planar, the largest distance of the boundary from its
     polygon, which lies within it. surface_tolerance: how far its surface may be off, world units,
-    as the report says.
+    as the report says. endless: it is a half space.
     """
 
     id: str
@@ -80,6 +81,7 @@ class Placed:
     missing: str | None = None
     deviation: float = 0.0
     surface_tolerance: float = 0.0
+    endless: bool = False
 
     @property
     def bounds(self) -> tuple[Floats, Floats] | None:
@@ -128,6 +130,9 @@ class Bodies:
                 placed.append(_place(body, shape, body.transform, entry))
             else:
                 placed.append(_outline(body, prisms.get(body.id), entry))
+        for k, result in enumerate(read):
+            if not isinstance(result, Placed) and isinstance(result[0].shape, HalfSpace):
+                _require_reach(placed, k, result[0])
         return placed
 
     def _find(self, entry: BodyReport) -> tuple[Body, Shape] | Placed:
@@ -194,6 +199,16 @@ class Bodies:
         return self._shapes[key]
 
 
+def _require_reach(placed: list[Placed], k: int, floor: Body) -> None:
+    """Loses the half space `placed[k]` if its block is too small for another body."""
+    for number, other in enumerate(placed):
+        if number != k and other.bounds is not None and not other.endless:
+            low, high = (tuple(map(float, corner)) for corner in other.bounds)
+            if not holds(floor, (low, high)):  # type: ignore[arg-type]
+                placed[k] = _lost(floor, f"{other.id} lies beyond the reach of the half space")
+                return
+
+
 def _lost(body: Body, reason: str) -> Placed:
     return Placed(body.id, frozenset(body.groups), None, static=body.static, reason=reason)
 
@@ -211,7 +226,12 @@ def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: Body
         _check_figures(entry, shape, placed.resolution)
     except Rejected as why:
         return _lost(body, str(why))
-    return replace(placed, static=body.static, surface_tolerance=entry.surface_tolerance or 0.0)
+    return replace(
+        placed,
+        static=body.static,
+        surface_tolerance=entry.surface_tolerance or 0.0,
+        endless=isinstance(body.shape, HalfSpace),
+    )
 
 
 def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:

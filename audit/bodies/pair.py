@@ -12,6 +12,7 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.request.planner import Request
 from satcheck.audit.request.settings import ACCURACIES, Accuracy, Settings
 from satcheck.core.conventions import axes_of
+from satcheck.scene.half_spaces import is_half_space
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
@@ -109,6 +110,11 @@ class Pair(Struct, frozen=True):
     def curved(self) -> bool:
         """At least one body is a curved shape. Its mesh is only inscribed."""
         return self.a.curved is not None or self.b.curved is not None
+
+    @property
+    def on_half_space(self) -> bool:
+        """A body is a half space. In a check in a plane it is the prism over its outline."""
+        return any(is_half_space(body.body) for body in (self.a, self.b))
 
     @property
     def triangles(self) -> int:

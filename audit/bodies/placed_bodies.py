@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
+from satcheck.scene.half_spaces import farthest, is_half_space, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -58,10 +59,10 @@ class PlacedBodies(Struct, frozen=True):
     @property
     def undecidable_count(self) -> int:
         """The number of `undecidable_pairs`, without a visit to each."""
-        alike = self._alike()
+        alike, endless = self._alike(), sum(1 for _ in self.endless_pairs())
         if not self.unusable and len(alike) < 2:
-            return 0
-        return self._checked_count(None) - sum(map(self._checked_count, alike))
+            return endless
+        return self._checked_count(None) - sum(map(self._checked_count, alike)) + endless
 
     @property
     def several_units_count(self) -> int:
@@ -87,10 +88,25 @@ class PlacedBodies(Struct, frozen=True):
         reason."""
         yield from self._pairs_of_unusable_bodies()
         yield from self.pairs_of_several_units()
+        yield from self.endless_pairs()
 
     def is_comparable(self, i: int, j: int) -> bool:
         """Whether two placed bodies may have the same unit of length."""
         return self.units.get(i) == self.units.get(j)
+
+    def endless_pairs(self) -> Iterator[tuple[int, int, str]]:
+        """Pairs of half spaces that do not face each other with a gap: blocks cannot stand for
+        them."""
+        floors = [k for k, body in self.placed.items() if is_half_space(body.body)]
+        if len(floors) < 2:
+            return
+        from satcheck.core.half_space import gap_of_planes, plane_of
+
+        for i, j in combinations(floors, 2):
+            if self.is_comparable(i, j) and self.book.is_checked(i, j):
+                gap = gap_of_planes(*(plane_of(self.placed[k].body.transform) for k in (i, j)))
+                if gap is None or gap < 0:
+                    yield i, j, "two half spaces that share a region without end are not measured"
 
     def _pairs_of_unusable_bodies(self) -> Iterator[tuple[int, int, str]]:
         for k, body in self.unusable.items():
@@ -177,6 +193,11 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
                 body.id, body.file.path, reason, body.groups, body.path, body.static
             )
             issues.append(_unplaceable(body, error))
+    for index, reason in _too_short(placed):
+        body = placed.pop(index).body
+        unusable[index] = UnusableBody(
+            body.id, body.file.path, reason, body.groups, body.path, body.static
+        )
     cache.book = cache.book or RuleBook(
         [Subject(body.id, body.groups, body.static) for body in members],
         scene.rules,
@@ -191,6 +212,19 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
         issues=(*map(_unused, cache.book.unused()), *issues),
         units={k: body.body.units for k, body in placed.items()},
     )
+
+
+def _too_short(placed: Mapping[int, PlacedBody]) -> list[tuple[int, str]]:
+    """Half spaces whose block does not stand for them beside all other bodies, and why."""
+    others = [body for body in placed.values() if not is_half_space(body.body)]
+    short = []
+    for index, floor in placed.items():
+        if is_half_space(floor.body):
+            origin, reach = reach_in_world(floor.body)
+            beyond = next((o.id for o in others if not farthest(origin, o.bounds) <= reach), None)
+            if beyond is not None:
+                short.append((index, f"{beyond} lies beyond the reach of the half space"))
+    return short
 
 
 def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:

@@ -155,6 +155,10 @@ def _at_least(pair: Pair, lower: float) -> Gap:
 def compare_convex(pair: Pair, length: float) -> int | None:
     """The sign of (signed distance - length) of two convex bodies, exactly; None where the rounding
     of a curved shape leaves it open."""
+    if pair.on_half_space:
+        from satcheck.audit.ladder.half_space import above
+
+        return above(pair).compare(length)
     if not pair.curved:
         return core.compare_signed_distance(pair.a.hull_shape(), pair.b.hull_shape(), length)
     from satcheck.core.curved.signed import compare

@@ -107,6 +107,8 @@ def _explained(pair: Pair, climb: core.Climb, trace: Trace) -> Band | str | None
 
 def _band_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Band:
     climb = verdict.climb
+    if pair.on_half_space and climb is not None and climb.band != "within":
+        climb = None
     return Band(_side_by_depth(pair, signed) if climb is None else climb.band or "open")
 
 

@@ -38,6 +38,8 @@ def close_pairs(
     pairs = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
     if len(set(bodies.units.values())) > 1:
         pairs = [pair for pair in pairs if bodies.is_comparable(*pair)]
+    if endless := {(i, j) for i, j, _ in bodies.endless_pairs()}:
+        pairs = [pair for pair in pairs if pair not in endless]
     if not book.rules:
         return pairs
     requested = [pair for pair in pairs if book.is_checked(*pair)]

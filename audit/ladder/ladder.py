@@ -25,8 +25,11 @@ def settle(pair: Pair, trace: Trace, climb: core.Climb | None = None) -> Verdict
 
     climb: of the pair, if the core has made it already.
     """
-    verdict = _settled(pair, trace, climb_pair(pair) if climb is None else climb)
+    climb = climb_pair(pair) if climb is None else climb
     plane = pair.settings.planar
+    if pair.on_half_space and pair.may("hull"):
+        return _over_half_space(pair, trace, climb)
+    verdict = _settled(pair, trace, climb)
     if plane is None:
         return verdict
     from satcheck.audit.ladder.in_plane import refine_nesting
@@ -51,6 +54,16 @@ def _settled(pair: Pair, trace: Trace, climb: core.Climb) -> Verdict:
 
         return settle_by_parts(pair, trace)
     return _verdict_of(pair, climb)
+
+
+def _over_half_space(pair: Pair, trace: Trace, climb: core.Climb) -> Verdict:
+    if climb.settled and climb.relation == "separated" and climb.gap_lower > pair.gap_limit:
+        return _settled(pair, trace, climb)
+    from satcheck.audit.ladder.half_space import settle_half_space
+
+    if pair.curved:
+        return settle_half_space(pair, trace, lambda: _settled(pair, trace, climb))
+    return settle_half_space(pair, trace, None, _settled(pair, trace, climb))
 
 
 def _verdict_of(pair: Pair, climb: core.Climb) -> Verdict:

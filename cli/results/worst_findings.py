@@ -116,6 +116,7 @@ def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> st
 
 def _drawn(worst: Worst, root: Path, *, allow_outside: bool) -> Picture:
     from satcheck.cli.formats.picture.png import render
+    from satcheck.cli.formats.picture.slabs import with_slabs
 
     report = _of_finding(worst)
     scene, issues = stated_scene(report, root, allow_outside=allow_outside)
@@ -123,7 +124,7 @@ def _drawn(worst: Worst, root: Path, *, allow_outside: bool) -> Picture:
         return issues[0].message
     if len(scene.bodies) < len(report.bodies):
         return "a body could not be read, or its mesh has no SHA-256"
-    return render(report, scene, SIZE)
+    return render(report, with_slabs(scene), SIZE)
 
 
 def _of_finding(worst: Worst) -> Report:

@@ -40,6 +40,7 @@ _BODY_KEYS = PLACEMENT_KEYS | {
     *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
 }
 
+HALF_SPACE = "half-space"
 _SHAPES = (*PRIMITIVES, OUTLINE)
 _texts = list_of("texts", text)
 
@@ -196,6 +197,8 @@ def _shape(value: Any) -> Shape:
     kind = value.get("type")
     if kind not in _SHAPES:
         raise Wrong(f"one of {', '.join(_SHAPES)} expected, not {shown(kind)}", "type")
+    if kind == HALF_SPACE and len(value) > 1:
+        raise Wrong("a half space has no sizes")
     try:
         return shape_from(value)
     except ValueError as error:

@@ -12,10 +12,12 @@ from msgspec.structs import replace
 from satcheck.core import Mesh, Surface, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
+from satcheck.core.half_space import plane_of
 from satcheck.core.shape_mesh import mesh_of, sag_of
 from satcheck.core.shapes import Curved, is_curved
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.planar.fills import covers
@@ -109,10 +111,18 @@ def _covers_fills(body: Body, region: Region, plane: Plane) -> bool:
 
 
 def _outline(body: Body, plane: Plane) -> Region:
+    if is_half_space(body) and not _stands_on(body, plane):
+        raise MeshFileError("no-outline", f"a half space that is no half plane in {plane}")
     if is_curved(body.shape):
         fine = replace(body.file, mesh=_fine_mesh(body.shape))
         return convex_region(replace(body, file=fine).world_mesh(), plane)
     return region_of(body.world_mesh(), body.file.health.solid, plane)
+
+
+def _stands_on(floor: Body, plane: Plane) -> bool:
+    """Whether the boundary of a half space is upright over the plane."""
+    normal = plane_of(floor.transform).normal
+    return normal[axis_across(plane)] == 0
 
 
 @lru_cache(maxsize=64)

@@ -26,7 +26,10 @@ def render(
     form: str, report: Report, scene: Scene, *, split: bool = False, cache: bool = True
 ) -> str | bytes:
     """scene: that the report is about. split: a page shows convex parts, too. cache: of these."""
+    from satcheck.cli.formats.picture.slabs import with_slabs
+
     module = import_module(f"{__name__}.{form}")
+    scene = with_slabs(scene)
     if split and form == "html":
         from satcheck.cli.formats.picture.parts import parts_of
 

@@ -7,7 +7,7 @@ from typing import Any
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
 
 from satcheck.core import Mesh
-from satcheck.core.shapes import Primitive
+from satcheck.core.shapes import HalfSpace, Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
@@ -19,6 +19,7 @@ from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
 from satcheck.scene.loading.usd.shapes import (
     NoSuchShape,
+    axis_turn,
     facets_around,
     flat_faces,
     placed_shape,
@@ -133,7 +134,7 @@ class _Reading:
             self._node(placed, number, None)
             return
         matrix = self._stage.matrix(turn * placed.matrix)
-        if not isinstance(content, RawMesh):
+        if not isinstance(content, RawMesh | HalfSpace):
             try:
                 matrix = placed_shape(content, matrix)
             except NoSuchShape as error:
@@ -148,6 +149,8 @@ class _Reading:
         try:
             if (shape := shape_of(prim, time)) is not None:
                 return shape
+            if self._choice.colliders and type_of(prim) == "Plane":
+                return HalfSpace(), axis_turn(prim, time)
             if (faces := flat_faces(prim, time, unit)) is not None:
                 return faces, _NOT_TURNED
             if prim.IsA(UsdGeom.Mesh):

@@ -61,7 +61,12 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
                 return None
     except ValueError as error:
         raise MeshFileError("bad-record", f"{type_of(prim)}: {error}") from None
-    return shape, _TURNS[str(prim.GetAttribute("axis").Get(time))]
+    return shape, axis_turn(prim, time)
+
+
+def axis_turn(prim: Any, time: Any) -> Any:
+    """The turn that takes z to the axis of the prim, as a matrix for row vectors."""
+    return _TURNS[str(prim.GetAttribute("axis").Get(time))]
 
 
 def _of_two_radii(prim: Any, size: Any) -> Primitive:

@@ -35,10 +35,6 @@ def not_read(prim: Any, choice: Choice) -> Refusal | None:
     if kind in _WITHOUT_TRIANGLES:
         message = f"geometry of the type {kind} is not read: convert it to a Mesh"
         return Refusal("unsupported-feature", message)
-    if kind == "Plane" and choice.colliders:
-        return Refusal(
-            "half-space", "a Plane is a half space, not a finite body: it is not checked"
-        )
     if kind == "Mesh" and not _has_faces(prim, choice):
         return Refusal(NO_SURFACE, "the mesh has no faces")
     return None

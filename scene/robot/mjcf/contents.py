@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from satcheck.core.conventions import Vector
-from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Primitive, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
@@ -25,7 +25,6 @@ from satcheck.scene.robot.mjcf.messages import (
     Model,
     OwnMesh,
     Place,
-    Plane,
 )
 
 _GEOM = mujoco.mjtGeom
@@ -100,14 +99,14 @@ class _Contents:
             shape=shape,
         )
 
-    def _shape(self, k: int) -> tuple[Primitive | FileMesh | OwnMesh | Plane | Refusal, Place]:
+    def _shape(self, k: int) -> tuple[Primitive | FileMesh | OwnMesh | Refusal, Place]:
         m, read = self._model, self._read
         place = _place(m.geom_pos[k], m.geom_quat[k])
         if k in read.of_geom:
             return read.of_geom[k], place
         kind = m.geom_type[k]
         if kind == _GEOM.mjGEOM_PLANE:
-            return Plane(), place
+            return HalfSpace(), place
         if kind != _GEOM.mjGEOM_MESH:
             try:
                 return _primitive(kind, _vector(m.geom_size[k])), place

@@ -61,10 +61,6 @@ class OwnMesh(Struct, frozen=True, tag=True):
     part: str
 
 
-class Plane(Struct, frozen=True, tag=True):
-    """A half space."""
-
-
 class Geom(Struct, frozen=True):
     """place: of the shape, or of the coordinates of the mesh, in the frame of the body. line: of
     the XML file; 0: unknown."""
@@ -75,7 +71,7 @@ class Geom(Struct, frozen=True):
     contype: int
     conaffinity: int
     line: int
-    shape: Primitive | FileMesh | OwnMesh | Plane | Refusal
+    shape: Primitive | FileMesh | OwnMesh | Refusal
 
 
 class Joint(Struct, frozen=True):

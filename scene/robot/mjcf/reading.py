@@ -15,7 +15,7 @@ from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.mjcf.exemptions import Exemptions, Mask
 from satcheck.scene.robot.mjcf.joints import joints_of, pose_of, rest_poses, values_of
-from satcheck.scene.robot.mjcf.messages import FileMesh, Flex, Geom, Model, OwnMesh, Plane
+from satcheck.scene.robot.mjcf.messages import FileMesh, Flex, Geom, Model, OwnMesh
 from satcheck.scene.robot.model import (
     Collision,
     Geometry,
@@ -137,9 +137,6 @@ class _Reader:
             case FileMesh(file, scale, place):
                 start = inverse(pose_of(place))
                 return MeshReference(file, scale, start=start, hull=self._hulls)
-            case Plane():
-                reason = f"plane {geom.name} is a half space, not a finite body: it is not checked"
-                return RefusedShape("half-space", reason)
         return geom.shape
 
     def _issues(self) -> Iterator[Issue]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NoReturn
 
-from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.core.conventions import Vector
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
+from satcheck.core.transform import Transform, placed
 from satcheck.scene.robot.model import Geometry, MeshReference
 from satcheck.scene.robot.sdf.values import number, vector
 from satcheck.scene.robot.xml_tree import Element
@@ -29,6 +32,18 @@ def geometry_of(shape: Element) -> Geometry:
         return _SHAPES[shape.tag](shape) if shape.tag in _SHAPES else _unknown(shape)
     except ValueError as error:  # a size that is not positive
         shape.refuse(str(error))
+
+
+def facing(normal: Vector, shape: Element) -> Transform:
+    """The rotation that takes z to the normal of a plane; exact for normals along the axes."""
+    length = math.hypot(*normal)
+    if length == 0.0:
+        shape.refuse("a normal of length 0")
+    x, y, z = (c / length for c in normal)
+    across = math.hypot(x, y)
+    # About z to the side of the normal, after a turn from z to it.
+    c, s = (x / across, y / across) if across else (1.0, 0.0)
+    return placed((c * z, -s, x, s * z, c, y, -across, 0.0, z), (0.0, 0.0, 0.0))
 
 
 def _unknown(shape: Element) -> NoReturn:
@@ -58,4 +73,5 @@ _SHAPES: dict[str, Callable[[Element], Geometry]] = {
     "capsule": lambda shape: Capsule(number(shape, "radius"), number(shape, "length")),
     "cone": lambda shape: Cone(number(shape, "radius"), number(shape, "length")),
     "ellipsoid": lambda shape: Ellipsoid(vector(shape, "radii")),
+    PLANE: lambda _: HalfSpace(),
 }

@@ -10,8 +10,8 @@ from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.sdf.frames import Frames, Name, Scope
-from satcheck.scene.robot.sdf.geometry import PLANE, geometry_of, shape_in
-from satcheck.scene.robot.sdf.values import bits, pose_of
+from satcheck.scene.robot.sdf.geometry import PLANE, facing, geometry_of, shape_in
+from satcheck.scene.robot.sdf.values import bits, pose_of, vector
 from satcheck.scene.robot.sdf.words import IN_COLLISION
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement
@@ -58,6 +58,8 @@ def parts_in(
                 continue
             origin = _origin(element.only("pose"), path, scope, frames)
             geometry = geometry_of(shape)
+            if shape.tag == PLANE:
+                origin = compose(origin, facing(vector(shape, "normal", (0.0, 0.0, 1.0)), shape))
         except RefusedElement as error:
             refused = RefusedShape(error.code, error.reason)
             part = Collision(name, IDENTITY, refused, error.at, element.file)
@@ -74,10 +76,6 @@ def _shape(element: Element, slips: Slips) -> Element | None:
     if shape is None:
         if not element.need("geometry").all("empty"):
             slips.note("no-shape", element, f"a <{element.tag}> without geometry: no body")
-    elif shape.tag == PLANE:
-        shape.refuse(
-            "a <plane> is a half space, not a finite body: it is not checked", "half-space"
-        )
     elif shape.attributes.get("optimization"):
         how = shape.attributes["optimization"]
         cause = f"a simulator replaces this mesh ({how}): the mesh itself is checked"

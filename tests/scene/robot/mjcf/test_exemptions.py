@@ -84,14 +84,15 @@ def test_the_pairs_of_mujoco_are_checked(tmp_path: Path, name: str) -> None:
     assert checked(scene) == contacts(tmp_path)
 
 
-def test_a_pair_with_a_plane_is_no_rule(tmp_path: Path) -> None:
-    """The plane is no body."""
+def test_a_pair_with_a_plane_is_a_rule(tmp_path: Path) -> None:
     text = model(
         geom("floor", kind="plane", size="1 1 1"),
         body("a", geom("a"), FREE),
         after='<contact><pair geom1="a" geom2="floor"/></contact>',
     )
-    assert [each.id for each in load(tmp_path, text).bodies] == ["a"]
+    scene = load(tmp_path, text)
+    assert [each.id for each in scene.bodies] == ["world", "a"]
+    assert checked(scene) == {("a", "world")}
 
 
 def test_each_permission_names_its_reason(tmp_path: Path) -> None:

@@ -7,8 +7,9 @@ from pathlib import Path
 import msgspec
 import mujoco
 import pytest
+from msgspec.structs import replace
 
-from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -150,13 +151,22 @@ def test_visual_geometry_is_what_collides_with_nothing(tmp_path: Path) -> None:
     assert "no-collision-geometry" in codes(visual)
 
 
-def test_a_plane_is_a_half_space_and_an_unreadable_body(tmp_path: Path) -> None:
-    floor = geom("floor", kind="plane", size="1 1 1")
+def test_a_plane_is_a_half_space(tmp_path: Path) -> None:
+    """The rendered size of a plane bounds no contact."""
+    floor = geom("floor", 'pos="0 0 -0.5"', kind="plane", size="1 1 1")
     scene = load(tmp_path, model(floor, body("b", geom("g"), "<freejoint/>")))
-    (lost,) = scene.unreadable
-    assert (lost.id, lost.issue.code) == ("world", "half-space")
-    assert "floor" in lost.issue.message
-    assert set(relations(scene).values()) == {"indeterminate"}
+    world, ball = scene.bodies
+    assert isinstance(world.shape, HalfSpace)
+    assert (world.static, world.pinned) == (True, True)
+    assert set(relations(scene).values()) == {"touching"}
+    away = replace(ball, transform=(1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, -0.25, 0, 0, 0, 1))
+    assert set(relations(replace(scene, bodies=(world, away))).values()) == {"penetrating"}
+
+
+def test_a_turned_plane_faces_along_z_of_its_geom(tmp_path: Path) -> None:
+    wall = geom("wall", 'pos="-0.5 0 0" zaxis="1 0 0"', kind="plane", size="0 0 1")
+    scene = load(tmp_path, model(wall, body("b", geom("g"), "<freejoint/>")))
+    assert set(relations(scene).values()) == {"touching"}
 
 
 def test_a_height_field_is_an_unreadable_body(tmp_path: Path) -> None:

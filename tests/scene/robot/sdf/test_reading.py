@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from itertools import combinations
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from satcheck.audit import Settings
 from satcheck.audit.check import check
-from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.scene import Scene, load_scene
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.model import MeshReference, RefusedShape
 from tests.scene.robot.sdf.files import (
     BOX,
@@ -70,6 +73,28 @@ def test_the_shapes(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (1, 2, -2)])
+def test_a_plane_is_a_half_space_below_its_normal(
+    tmp_path: Path, normal: tuple[int, int, int]
+) -> None:
+    text = f"<plane><normal>{' '.join(map(str, normal))}</normal><size>1 1</size></plane>"
+    (body,) = load(tmp_path, world(model("m", link("a", inside=shape(text))))).bodies
+    assert isinstance(body.shape, HalfSpace)
+    assert body.static
+    transform = body.transform or IDENTITY
+    length = math.hypot(*normal)
+    assert transform[2:12:4] == pytest.approx([c / length for c in normal], abs=1e-15)
+    x, y, z = (np.array(transform[k:12:4]) for k in range(3))
+    assert np.cross(x, y) == pytest.approx(z, abs=1e-15)
+    if sorted(map(abs, normal)) == [0, 0, 1]:
+        assert set(transform) <= {-1.0, 0.0, 1.0}
+
+
+def test_a_plane_without_a_normal_faces_up(tmp_path: Path) -> None:
+    (body,) = load(tmp_path, world(model("m", link("a", inside=shape("<plane/>"))))).bodies
+    assert (body.transform or IDENTITY) == IDENTITY
+
+
 @pytest.mark.parametrize(
     ("inside", "code"),
     [
@@ -86,7 +111,7 @@ def test_the_shapes(tmp_path: Path) -> None:
         ("<polyline><height>1</height></polyline>", "unsupported-feature"),
         ("<image><uri>i.png</uri></image>", "unsupported-feature"),
         ("<ball><radius>1</radius></ball>", "unsupported-feature"),
-        ("<plane><normal>0 0 1</normal></plane>", "half-space"),
+        ("<plane><normal>0 0 0</normal></plane>", "bad-robot"),
     ],
 )
 def test_geometry_that_is_not_read_refuses_its_body(tmp_path: Path, inside: str, code: str) -> None:
