@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import math
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -63,7 +64,9 @@ def test_an_empty_mesh_is_no_surface_and_no_body() -> None:
 
 @pytest.mark.parametrize("length", [1e160, 1e-156, 1e308, 5e-324, 1.0])
 @pytest.mark.parametrize("query", ["overlap", "depth", "distance"])
-def test_a_quaternion_of_any_length_turns(length: float, query: core.Query) -> None:
+def test_a_quaternion_of_any_length_turns(
+    length: float, query: Literal["overlap", "depth", "distance"]
+) -> None:
     box, ball = core.Box((1, 1, 1)), core.Sphere(1.0)
     pose = (100.0, 0.0, 0.0, *(c * length for c in HALF_TURN))
     for shape in (box, ball):
