@@ -30,7 +30,7 @@ _writing = False
 
 
 def hear_interrupts() -> None:
-    """From here on Ctrl-C ends this process. Where Ctrl-C is ignored, as in a background job of a
+    """Make Ctrl-C end this process from here on. Where it is ignored, as in a background job of a
     shell, it stays ignored."""
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         return
@@ -46,7 +46,7 @@ def hear_interrupts() -> None:
 
 
 def write_before_the_end() -> None:
-    """From here on the main thread writes what is known so far, and may take longer for that."""
+    """Give the main thread more time: it writes the results that are done."""
     global _writing
     _writing = True
 
@@ -93,7 +93,7 @@ def _end_with_a_word() -> NoReturn:
 
 
 def _say(line: str) -> None:
-    """Without sys.stderr, whose lock the main thread may hold."""
+    """Write a line to descriptor 2: the main thread may hold the lock of sys.stderr."""
     try:
         os.write(2, f"{line}\n".encode())
     except OSError:

@@ -93,7 +93,7 @@ def seconds_option(name: str, default: float, text: str) -> Callable[[_Command],
 
 
 def limits_of_worlds(what: str) -> Callable[[_Command], _Command]:
-    """What the check of a scene or an asset may cost. what: it is called."""
+    """Return the options that limit a check. what: what is checked, with its article."""
     limits = Limits()
     return together(
         seconds_option("--scene-seconds", limits.seconds, f"The most time for {what}."),

@@ -103,8 +103,8 @@ def check_options(
 def _check(
     worlds: Sequence[World], options: CheckOptions, limits: Limits, jobs: int, *, hashed: bool
 ) -> list[Asset]:
-    """In the order of the worlds; after Ctrl-C those that are done. Raises KeyboardInterrupt if
-    none is."""
+    """Return the assets in the order of the worlds; after Ctrl-C only those that are done. Raises
+    KeyboardInterrupt if none is."""
     threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
     wanted = Wanted(kept=False, hashed=hashed, threads=threads)
     assets: dict[World, Asset] = {}

@@ -70,7 +70,8 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     else:
         directed = mtv or shows_direction(finding, a, b)
     error = _check_distance(finding, certificate, pair)
-    if closer or a.holed or b.holed:
+    block = (a.endless or b.endless) and exact != "touching"
+    if closer or a.holed or b.holed or block:  # the block of a half space may be off
         error = None
     proven = ProvenFields(depth or (covered and mtv), mtv, error, directed or mtv)
     most = proven_depth(finding, replace(proven, depth=depth))

@@ -198,6 +198,7 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
         unusable[index] = UnusableBody(
             body.id, body.file.path, reason, body.groups, body.path, body.static
         )
+        issues.append(Issue("out-of-range", "warning", body.id, body.file.path, reason))
     cache.book = cache.book or RuleBook(
         [Subject(body.id, body.groups, body.static) for body in members],
         scene.rules,

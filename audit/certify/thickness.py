@@ -1,5 +1,5 @@
-"""Why an overlap is no thicker, and why surfaces that may be off explain one: the cells of the
-search, as a certificate has them.
+"""Cells for certificates: they show that an overlap is no thicker, or that surfaces which may be
+off explain it.
 
 The checker proves in rationals what they show (`satcheck.verify.thickness`). Most searches for an
 excuse leave nothing behind. This one is run again, and writes down its cells.

@@ -71,7 +71,7 @@ def _decided(pair: Pair) -> tuple[Explained, str]:
 
 
 def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
-    """Whether a ball thicker than the tolerance lies in both."""
+    """Decide whether a ball thicker than the tolerance lies in both."""
     half = 0.5 * pair.tolerance
     if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
         return "within", "no point lies deeper than"
@@ -95,7 +95,7 @@ def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
 
 
 def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
-    """How the faces of the bodies fit at the tolerance; None: they do not decide it."""
+    """Return how the faces of the bodies fit at the tolerance; None: they do not decide it."""
     if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
         return None
     work = min(pair.settings.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
@@ -103,7 +103,7 @@ def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
 
 
 def passes(pair: Pair) -> bool | None:
-    """Whether one body passes through the other; None: not decided."""
+    """Return whether one body passes through the other; None: not decided."""
     return core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
 
 

@@ -122,6 +122,9 @@ def _convex_gap(pair: Pair, verdict: Verdict, result: core.PairResult | Signed) 
     normal = result.normal
     if verdict.relation == "touching" and verdict.proven:
         lower = upper = distance = 0.0
+    elif pair.on_half_space and distance > 0:
+        # A height, rounded once: only the block that stands for the half space is off.
+        lower = upper = distance
     elif pair.wants_distance and not (pair.curved or _is_narrow(lower, upper)):
         from satcheck.audit.figures.exact_gap import gap_of_hulls, narrowed
 

@@ -33,7 +33,7 @@ from satcheck.cli.output import Document, Page, harmless, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.scene_options import reading_options, split_option, units_option
 from satcheck.core.errors import SatcheckError
-from satcheck.core.shapes import is_curved
+from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
 from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
 from satcheck.report.decomposition import (
@@ -184,6 +184,8 @@ def _refuse_outputs(inputs: Inputs, parts_out: Path | None, output: Path | None)
 def _split(
     body: Body, threshold: float, seed: int, seconds: float, cache: Cache | None
 ) -> Decomposition | SatcheckError:
+    if isinstance(body.shape, HalfSpace):
+        return SatcheckError("half-space", "a half space is convex, and has no end")
     if is_curved(body.shape):
         return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
     try:

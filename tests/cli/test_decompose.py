@@ -159,13 +159,19 @@ def test_a_flat_mesh_has_no_parts_and_no_file(tmp_path: Path) -> None:
     assert list(parts(output)) == ["box-1"]
 
 
-def test_a_curved_shape_has_no_parts(tmp_path: Path) -> None:
-    bodies = [{"id": "ball", "shape": {"type": "sphere", "radius": 1}}]
+@pytest.mark.parametrize(
+    ("shape", "code"),
+    [({"type": "sphere", "radius": 1}, "curved-shape"), ({"type": "half-space"}, "half-space")],
+)
+def test_what_has_no_triangles_has_no_parts(
+    tmp_path: Path, shape: dict[str, object], code: str
+) -> None:
+    bodies = [{"id": "one", "shape": shape}]
     scene = tmp_path / "scene.json"
     scene.write_text(json.dumps({"schema": "satcheck.scene/1", "bodies": bodies}), "utf-8")
     ran = satcheck("decompose", "--format", "json", str(scene))
     assert ran.code == 2
-    assert ran.document["bodies"][0]["failure"]["code"] == "curved-shape"
+    assert ran.document["bodies"][0]["failure"]["code"] == code
 
 
 def test_the_report_goes_to_a_file(tmp_path: Path) -> None:

@@ -7,10 +7,10 @@ namespace satcheck {
 // The angle of (x, y) from the x axis, between -pi and pi; 0 for (0, 0). Off by at most 16 roundoffs, in radians.
 double direction_angle(double y, double x);
 
-// The angle whose cosine that is, between 0 and pi, for -1 <= cosine <= 1. Off by at most 16 roundoffs, in radians.
+// The angle with this cosine, between 0 and pi. -1 <= cosine <= 1. Off by at most 16 roundoffs, in radians.
 double angle_of_cosine(double cosine);
 
-// For 0 <= angle <= pi / 2. Off by at most 8 roundoffs.
+// The cosine of an angle from 0 to pi / 2. Off by at most 8 roundoffs.
 double cosine_of(double angle);
 
 }  // namespace satcheck

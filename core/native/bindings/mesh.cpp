@@ -97,21 +97,25 @@ Mesh mesh_from_bytes(const Bytes& vertices, const Bytes& triangles) {
   return mesh;
 }
 
-bool is_writable(const nb::object& bytes) {
-  nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu> writable;
-  return nb::try_cast(bytes, writable, false);
+// Whether nobody can write these bytes: bytes, or what the readers hand out. A read-only view may be one of an array that
+// somebody writes.
+bool is_fixed(nb::handle bytes) {
+  if (nb::isinstance<nb::bytes>(bytes)) return true;
+  if (!PyMemoryView_Check(bytes.ptr())) return false;
+  const nb::object owner = bytes.attr("obj");
+  return nb::isinstance<nb::bytes>(owner) || std::string(nb::type_name(owner.type()).c_str()) == "nanobind.nb_ndarray";
 }
 
-// Bytes that somebody may still write are copied: indices that were checked must not change.
+// Other bytes are copied: indices that were checked must not change.
 Inspection inspect_bytes(const nb::typed<nb::object, Bytes>& given_vertices, const nb::typed<nb::object, Bytes>& given_triangles, bool orient) {
   const auto vertices = nb::cast<Bytes>(given_vertices), triangles = nb::cast<Bytes>(given_triangles);
-  const bool is_fixed = !is_writable(given_vertices) && !is_writable(given_triangles);
+  const bool in_place = is_fixed(given_vertices) && is_fixed(given_triangles);
   const nb::gil_scoped_release release;
   const auto is_aligned = [](const Bytes& bytes) {
     return reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(Vec3) == 0 && bytes.size() > 0;
   };
   const bool is_whole = vertices.size() % sizeof(Vec3) == 0 && triangles.size() % sizeof(Triangle) == 0;
-  if (!is_fixed || !is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
+  if (!in_place || !is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
   const MeshView mesh({reinterpret_cast<const Vec3*>(vertices.data()), vertices.size() / sizeof(Vec3)},
                       {reinterpret_cast<const Triangle*>(triangles.data()), triangles.size() / sizeof(Triangle)});
   require_valid(mesh);

@@ -196,11 +196,12 @@ PairResults check_many(const nb::typed<nb::sequence, Shape>& given, const Indice
   const nb::tuple held(given);
   const auto shapes = nb::cast<std::vector<const Shape*>>(held);
   const std::vector<std::uint32_t> first = copy_of(index_a), second = copy_of(index_b);
+  const std::vector<double> place_a(poses_a.data(), poses_a.data() + 7 * count), place_b(poses_b.data(), poses_b.data() + 7 * count);
   const auto request = [&](std::size_t i) -> PairRequest {
     if (first[i] >= shapes.size() || second[i] >= shapes.size()) {
       throw std::invalid_argument("a shape index is out of range");
     }
-    return {shapes[first[i]], shapes[second[i]], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
+    return {shapes[first[i]], shapes[second[i]], pose_from(place_a.data() + 7 * i), pose_from(place_b.data() + 7 * i)};
   };
   const Query goal = query_from(query);
   const MethodChoice choice = method_from(method);

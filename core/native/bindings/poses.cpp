@@ -84,7 +84,7 @@ gap limit of the pair; 2: a point lies deeper in both than its depth, or no tran
 
 pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
 upper three rows of each placement. margins: float64 of shape (poses, pairs), added to the gap limits; NaN: the pair is
-left at 0 in that pose. The proofs hold for the vertices in the world, each coordinate rounded once. The
+left at 0 in that pose. The arrays must not change during the call. The proofs hold for the vertices in the world, each coordinate rounded once. The
 result does not depend on the number of threads (0: one a core).)");
 }
 

@@ -59,6 +59,9 @@ def parts_in(
             origin = _origin(element.only("pose"), path, scope, frames)
             geometry = geometry_of(shape)
             if shape.tag == PLANE:
+                if tag == "visual":
+                    message = "a plane that is drawn ends at its size: give a mesh or a box"
+                    shape.refuse(message, "unsupported-feature")
                 origin = compose(origin, facing(vector(shape, "normal", (0.0, 0.0, 1.0)), shape))
         except RefusedElement as error:
             refused = RefusedShape(error.code, error.reason)
