@@ -130,9 +130,10 @@ class Bodies:
                 placed.append(_place(body, shape, body.transform, entry))
             else:
                 placed.append(_outline(body, prisms.get(body.id), entry))
-        for k, result in enumerate(read):
-            if not isinstance(result, Placed) and isinstance(result[0].shape, HalfSpace):
-                _require_reach(placed, k, result[0])
+        in_space = [None if isinstance(result, Placed) else result[0] for result in read]
+        for k, floor in enumerate(in_space):
+            if floor is not None and isinstance(floor.shape, HalfSpace):
+                _require_reach(placed, k, floor, in_space if plane is not None else None)
         return placed
 
     def _find(self, entry: BodyReport) -> tuple[Body, Shape] | Placed:
@@ -199,11 +200,17 @@ class Bodies:
         return self._shapes[key]
 
 
-def _require_reach(placed: list[Placed], k: int, floor: Body) -> None:
-    """Loses the half space `placed[k]` if its block is too small for another body."""
+def _require_reach(
+    placed: list[Placed], k: int, floor: Body, outlined: Sequence[Body | None] | None
+) -> None:
+    """Lose the half space `placed[k]` if its block is too small for another body. outlined: the
+    bodies in space, if those of `placed` are prisms, which are taller than any body."""
     for number, other in enumerate(placed):
-        if number != k and other.bounds is not None and not other.endless:
-            low, high = (tuple(map(float, corner)) for corner in other.bounds)
+        bounds = other.bounds
+        if outlined is not None and (body := outlined[number]) is not None:
+            bounds = body.world_mesh().bounds  # type: ignore[assignment]
+        if number != k and bounds is not None and not other.endless:
+            low, high = (tuple(map(float, corner)) for corner in bounds)
             if not holds(floor, (low, high)):  # type: ignore[arg-type]
                 placed[k] = _lost(floor, f"{other.id} lies beyond the reach of the half space")
                 return

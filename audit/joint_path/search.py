@@ -45,6 +45,9 @@ CLIMBS_A_PIECE = 8
 # which is at least this share of the smaller body.
 SHORTEST = 2.0**-46
 FINEST = 1e-10
+# A touch counts within a band that is wider than the tolerance of the pair, up to this share of the
+# smaller body: far poses and far limits of joints make the rounding of a path large.
+WIDEST = 1e-6
 # The nearest distance is narrowed to this share of itself, and measured so often in a round.
 MEASURED = 4
 NARROWED = 0.99
@@ -178,7 +181,8 @@ class Search:
     ) -> bool:
         """Whether no overlap in the interval is beyond the tolerance, because none in its middle is
         beyond what the bodies do not travel."""
-        if travelled >= tolerance:
+        widest = max(self._pairs.tolerance(k), WIDEST * float(self._sizes[k]))
+        if travelled >= tolerance or tolerance > widest:
             return False
         pair = self._pair(at, row, k, tolerance - travelled, 0.0)
         return examine(pair, Trace()).finding.relation in FREE

@@ -65,8 +65,12 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
 
 
 def axis_turn(prim: Any, time: Any) -> Any:
-    """The turn that takes z to the axis of the prim, as a matrix for row vectors."""
-    return _TURNS[str(prim.GetAttribute("axis").Get(time))]
+    """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
+    MeshFileError for an axis that is none."""
+    axis = str(prim.GetAttribute("axis").Get(time))
+    if axis not in _TURNS:
+        raise MeshFileError("bad-record", f"{type_of(prim)}: axis is {axis!r}, not X, Y or Z")
+    return _TURNS[axis]
 
 
 def _of_two_radii(prim: Any, size: Any) -> Primitive:
