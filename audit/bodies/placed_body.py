@@ -201,9 +201,10 @@ class PlacedBody:
         """The geometry of the body in the world, made on demand."""
         geometry = self._geometry
         if geometry is None:
+            around = None if self.curved is None else self.bounds
             with _MAKING:
                 geometry = self._geometry = self._geometry or core.PlacedGeometry(
-                    self.shared.geometry, self.body.transform, None, self.resolution
+                    self.shared.geometry, self.body.transform, around, self.resolution
                 )
         return geometry
 

@@ -36,14 +36,16 @@ def gap_of_hulls(pair: Pair) -> ExactGap | None:
     a, b = pair.a.checked(), pair.b.checked()
     if a.world is None or b.world is None:
         raise AssertionError("a placed body has a world mesh")
-    placed = pair_of(a, b, a.world, b.world)
+    # Of faces that face each other many points are nearest. The order of A and B chooses none.
+    swapped = pair.b.mesh.to_bytes() < pair.a.mesh.to_bytes()
+    placed = pair_of(b, a, b.world, a.world) if swapped else pair_of(a, b, a.world, b.world)
     weights = nearest_point(placed).weights
     unit = 1 << placed.a.k
     ends = (
         _blend(((w, placed.a.points[i]) for (i, _), w in weights.items()), unit),
         _blend(((w, placed.b.points[j]) for (_, j), w in weights.items()), unit),
     )
-    return _of_points(*ends)
+    return _of_points(*(reversed(ends) if swapped else ends))
 
 
 def gap_of_triangles(pair: Pair, near: core.MeshDistance) -> ExactGap | None:

@@ -84,7 +84,7 @@ def test_a_quaternion_of_length_0_or_nan_is_refused() -> None:
             core.check_pair(core.Sphere(1.0), core.Sphere(1.0), None, (0.0, 0.0, 0.0, *quaternion))
 
 
-def test_bounds_that_are_told_are_compared() -> None:
+def test_bounds_that_do_not_hold_the_mesh_are_refused() -> None:
     shared = core.Geometry(CUBE, True)
     right = core.PlacedGeometry(shared, None, CUBE.bounds, 0.0)
     wrong = core.PlacedGeometry(shared, None, ((10, 10, 10), (11, 11, 11)), 0.0)

@@ -66,15 +66,15 @@ world coordinate, so the body in the world is the hull of its world vertices.)")
       .def_prop_ro("refits", &Geometry::refits, "Number of trees fitted again to placed vertices.");
   nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh, and data that are made on demand.
 
-transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: those of the body in the world,
-where they are known: its use raises ValueError if they are not. resolution: the precision of its coordinates, world
-units.)")
+transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: those of the shape that
+the mesh lies in, in the world; its use raises ValueError if the mesh does not. None: those of the mesh. resolution: the
+precision of its coordinates, world units.)")
       .def("__init__",
            [](PlacedGeometry* self, std::shared_ptr<Geometry> shared, const std::optional<Matrix>& transform,
               const std::optional<Box>& bounds, double resolution) {
-             std::optional<Aabb> told;
-             if (bounds) told = Aabb{to_vec(bounds->first), to_vec(bounds->second)};
-             new (self) PlacedGeometry(std::move(shared), transform, told, resolution);
+             std::optional<Aabb> around;
+             if (bounds) around = Aabb{to_vec(bounds->first), to_vec(bounds->second)};
+             new (self) PlacedGeometry(std::move(shared), transform, around, resolution);
            },
            "shared"_a, "transform"_a.none(), "bounds"_a.none(), "resolution"_a)
       .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "The mesh in the world; each coordinate rounded once. Raises what Mesh.transformed raises.")

@@ -200,7 +200,8 @@ std::vector<std::optional<Bounds>> bounds_of_placed(const nb::typed<nb::sequence
                                                     const std::vector<std::array<double, 16>>& matrices,
                                                     unsigned threads) {
   const nb::tuple held(given);
-  const auto meshes = nb::cast<std::vector<const Mesh*>>(held);
+  std::vector<const Mesh*> meshes;
+  if (!nb::try_cast(held, meshes)) throw nb::type_error("meshes: a sequence of Mesh expected");
   if (meshes.size() != matrices.size()) throw std::invalid_argument("meshes and matrices differ in number");
   constexpr std::size_t kTogether = 64;  // bodies that one thread takes at a time
   std::vector<std::optional<Bounds>> bounds(meshes.size());

@@ -194,7 +194,8 @@ PairResults check_many(const nb::typed<nb::sequence, Shape>& given, const Indice
     throw std::invalid_argument("index_a, index_b, poses_a and poses_b differ in length");
   }
   const nb::tuple held(given);
-  const auto shapes = nb::cast<std::vector<const Shape*>>(held);
+  std::vector<const Shape*> shapes;
+  if (!nb::try_cast(held, shapes)) throw nb::type_error("shapes: a sequence of convex shapes expected");
   const std::vector<std::uint32_t> first = copy_of(index_a), second = copy_of(index_b);
   const std::vector<double> place_a(poses_a.data(), poses_a.data() + 7 * count), place_b(poses_b.data(), poses_b.data() + 7 * count);
   const auto request = [&](std::size_t i) -> PairRequest {

@@ -32,7 +32,8 @@ Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
 nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<PairTuple>& pairs,
                     const Matrices& matrices, unsigned threads, const std::optional<Margins>& margins) {
   const nb::tuple held(given);
-  const auto bodies = nb::cast<std::vector<PosedBody*>>(held);
+  std::vector<PosedBody*> bodies;
+  if (!nb::try_cast(held, bodies)) throw nb::type_error("bodies: a sequence of PosedBody expected");
   if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
     throw std::invalid_argument("a pair needs a margin in each pose");

@@ -87,10 +87,12 @@ const Aabb& PlacedGeometry::bounds() {
     } else {
       for (const Vec3& p : mesh()->vertices) box.include(p);
     }
-    if (told_ && !(told_->min == box.min && told_->max == box.max)) {
-      throw std::invalid_argument("the bounds are not those of the mesh as it is placed");
+    Aabb both = box;
+    if (around_) both.include(*around_);
+    if (around_ && !(both.min == around_->min && both.max == around_->max)) {
+      throw std::invalid_argument("the bounds do not hold the mesh as it is placed");
     }
-    bounds_ = box;
+    bounds_ = both;
   });
   return bounds_;
 }

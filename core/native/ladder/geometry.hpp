@@ -65,13 +65,13 @@ class Geometry {
 // One body in the world. Its data can be released and are made again on demand.
 class PlacedGeometry {
  public:
-  // transform: affine and not singular; empty: the identity. told: the bounds of the body, which are compared with its
-  // own when these are made. resolution: the precision of its coordinates, world units.
-  PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, std::optional<Aabb> told, double resolution)
-      : shared_(std::move(shared)), transform_(transform), told_(told), resolution_(resolution) {}
+  // transform: affine and not singular; empty: the identity. around: the bounds of a shape that its mesh lies in; empty:
+  // those of the mesh. resolution: the precision of its coordinates, world units.
+  PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, std::optional<Aabb> around, double resolution)
+      : shared_(std::move(shared)), transform_(transform), around_(around), resolution_(resolution) {}
 
   Geometry& shared() const { return *shared_; }
-  // Throws what transform() throws, and std::invalid_argument for other bounds than were told.
+  // Throws what transform() throws, and std::invalid_argument if the mesh does not lie in the bounds around it.
   const Aabb& bounds();
   double resolution() const { return resolution_; }
 
@@ -88,7 +88,7 @@ class PlacedGeometry {
  private:
   std::shared_ptr<Geometry> shared_;
   std::optional<Matrix> transform_;
-  std::optional<Aabb> told_;
+  std::optional<Aabb> around_;
   double resolution_;
   std::once_flag bounded_;
   Aabb bounds_;
