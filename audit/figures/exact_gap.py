@@ -50,17 +50,18 @@ def gap_of_hulls(pair: Pair) -> ExactGap | None:
 
 def gap_of_triangles(pair: Pair, near: core.MeshDistance) -> ExactGap | None:
     """The gap of the two triangles that float64 calls nearest: at least that of the surfaces."""
-    corners = (
-        _exact(pair.a.mesh.corners(near.triangle_a)),
-        _exact(pair.b.mesh.corners(near.triangle_b)),
-    )
+    of_a = _exact(pair.a.mesh.corners(near.triangle_a))
+    of_b = _exact(pair.b.mesh.corners(near.triangle_b))
+    swapped = of_b < of_a  # as in gap_of_hulls
+    corners = (of_b, of_a) if swapped else (of_a, of_b)
     ends = [(i, j) for i in range(3) for j in range(3)]
     steps: Any = [sub(corners[0][i], corners[1][j]) for i, j in ends]  # type: ignore[arg-type]
     _, weights = nearest_to_origin(steps)
-    return _of_points(
+    nearest = (
         _blend(((w, corners[0][ends[k][0]]) for k, w in weights.items()), 1),
         _blend(((w, corners[1][ends[k][1]]) for k, w in weights.items()), 1),
     )
+    return _of_points(*(reversed(nearest) if swapped else nearest))
 
 
 def narrowed(
