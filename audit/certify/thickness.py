@@ -19,6 +19,8 @@ from satcheck.audit.figures.explained import (
     deeper,
     limit_of,
     may_be_explained,
+    passes,
+    reaching,
     surfaces,
 )
 from satcheck.report.certificate import Cells, Excuse, Face, InnerBall, Plane
@@ -53,7 +55,14 @@ def excuse(pair: Pair) -> Excuse | NoCertificate:
         return NoCertificate("no evidence was found that the overlap is within the touch band")
     if pair.closer:
         return NoCertificate("a touch of curves by their thickness is not certified")
-    inner = [ball_in(pair, body, off) for off, body in surfaces(pair)]
+    if passes(pair) is not False:
+        return NoCertificate(
+            "slivers between the faces look as if one body passed through the other"
+        )
+    if pair.excuses and reaching(pair) is not None:
+        return NoCertificate("a touch by the tolerance is not certified beside a surface tolerance")
+    least = pair.off if pair.excuses else (0.0, 0.0)
+    inner = [ball_in(pair, body, off) for off, (_, body) in zip(least, surfaces(pair), strict=True)]
     balls = [InnerBall(one.centre, one.radius) for one in inner if one.centre is not None]
     interval = deeper(pair, prove=True)
     if len(balls) < len(inner) or interval.proof is None or interval.upper > limit_of(pair):

@@ -2,10 +2,16 @@
 
 The surface of each body X may be off by e_X: by half of the touch band, or by its surface tolerance
 where that is more. An overlap is real where a point lies deeper than e_A in A and deeper than e_B
-in B. The core looks for such a point, or proves that there is none. Nothing is explained where all
-of a body is as thin as its own tolerance, where one body passes through the other: enters it in one
-place and leaves it in another, and where a thin part of a body, as a fin or a wire, reaches deep
-into the other one: no point of it is deep in its own body.
+in B. The core looks for such a point, or proves that there is none: at once if the bodies are free
+of each other when each is made smaller by what it may be off, or by the planes of their faces, else
+by a search. Nothing is explained where one body passes through the other: enters it in one place
+and leaves it in another. Where no vertex has to move farther than e_X until the bodies are free,
+neither does; nor where their faces fit and both bodies are thicker than the band there. Slivers
+between such faces may look like it.
+
+A surface tolerance also explains nothing where all of a body is as thin as that, and where a thin
+part of a body, as a fin or a wire, reaches deep into the other one: no point of it is deep in its
+own body. The touch band has no such exceptions: nothing thicker than the tolerance lies in both.
 """
 
 from __future__ import annotations
@@ -29,6 +35,9 @@ MOST_CROSSINGS = 100_000
 # wedge of angle w that is nowhere deeper than e reaches e (1 + 1 / sin(w / 2)) deep: no more than
 # that, with e_A = e_B = e, if w is 17 degrees or more.
 MOST_REACH = 4.0
+THROUGH = "one body passes through the other"
+# Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
+FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
 
 
 Explained = Literal["within", "deeper", "not excused", "undecided"]
@@ -51,28 +60,78 @@ def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> tuple[Explained, 
 
 def _decided(pair: Pair) -> tuple[Explained, str]:
     """The result, and what is said of it: "within" and "deeper" are followed by the lengths."""
+    if not pair.excuses:
+        return _decided_by_band(pair)
+    result, detail = _decided_by_surfaces(pair)
+    if result in ("not excused", "undecided") and pair.tolerance > 0:
+        by_band = _decided_by_band(pair)
+        if by_band[0] == "within":
+            return by_band
+    return result, detail
+
+
+def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
+    """Decide whether a ball thicker than the tolerance lies in both."""
+    half = 0.5 * pair.tolerance
+    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
+        return "within", "no point lies deeper than"
+    fit = _fit(pair)
+    if fit == "deeper":
+        return "deeper", "a point lies deeper than"
+    if fit == "fit":
+        return "within", "no point lies deeper than"
+    through = passes(pair)
+    if through:
+        return "not excused", THROUGH
+    if fit is None:
+        interval = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False)
+        if interval.lower > pair.tolerance:
+            return "deeper", "a point lies deeper than"
+        if interval.upper > pair.tolerance:
+            return "undecided", "whether a point lies deeper in both than the surfaces may be off"
+    if through is None:
+        return "undecided", "whether one body passes through the other"
+    return "within", "no point lies deeper than"
+
+
+def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
+    """Return how the faces of the bodies fit at the tolerance; None: they do not decide it."""
+    if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
+        return None
+    work = min(pair.settings.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+    return core.fit_by_faces(pair.a.surface(), pair.b.surface(), pair.tolerance, work)
+
+
+def passes(pair: Pair) -> bool | None:
+    """Return whether one body passes through the other; None: not decided."""
+    return core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
+
+
+def _decided_by_surfaces(pair: Pair) -> tuple[Explained, str]:
     for length, body in surfaces(pair):
         if not ball_in(pair, body, length).lower > 0:
             return "not excused", f"{body.id} is not known to be thicker than its tolerance"
-    through = core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
+    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), *pair.off):
+        return "within", "no point lies deeper than"
+    through = passes(pair)
     if through:
-        return "not excused", "one body passes through the other"
+        return "not excused", THROUGH
     limit = limit_of(pair)
     interval = deeper(pair, prove=False)
     if interval.lower > limit:
         return "deeper", "a point lies deeper than"
     if interval.upper > limit:
         return "undecided", "whether a point lies deeper in both than the surfaces may be off"
-    reach = _reach(pair, limit)
+    reach = reaching(pair)
     if through is None and (reach is None or reach[0] == "undecided"):
         return "undecided", "whether one body passes through the other"
     return reach or ("within", "no point lies deeper than")
 
 
-def _reach(pair: Pair, limit: float) -> tuple[Explained, str] | None:
+def reaching(pair: Pair) -> tuple[Explained, str] | None:
     """Whether a thin part of one body lies deeper in the other than what is off explains; None: no
     part does."""
-    most = MOST_REACH * sum(pair.off)
+    most, limit = MOST_REACH * sum(pair.off), limit_of(pair)
     for off, body, other in (((0.0, most), pair.a, pair.b), ((most, 0.0), pair.b, pair.a)):
         interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
         reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit

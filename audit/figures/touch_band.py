@@ -69,9 +69,12 @@ class Band(Struct, frozen=True):
 def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     """For an overlap."""
     explained = None if verdict.climb is None else _explained(pair, verdict.climb, trace)
-    if isinstance(explained, Band):
+    if isinstance(explained, Band) and explained.side != "hidden":
         return explained
-    return replace(_by_moves(pair, verdict, trace), unexcused=explained)
+    by_moves = _by_moves(pair, verdict, trace)
+    if isinstance(explained, Band):
+        return by_moves if by_moves.side == "within" else explained
+    return replace(by_moves, unexcused=explained)
 
 
 def _by_moves(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
@@ -91,7 +94,7 @@ def _by_moves(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
 
 def _explained(pair: Pair, climb: core.Climb, trace: Trace) -> Band | str | None:
     """Of closed bodies that hold no ball thicker than the tolerance, whatever the way out. A text:
-    why nothing excuses the overlap; None: not decided."""
+    why nothing excuses the overlap; None: that is not asked."""
     from satcheck.audit.figures.explained import explain, may_be_explained
 
     if climb.thick is not False or climb.band == "within" or not may_be_explained(pair):
@@ -99,9 +102,7 @@ def _explained(pair: Pair, climb: core.Climb, trace: Trace) -> Band | str | None
     side, detail = explain(pair, trace, climb.band_nanoseconds)
     if side == "within" or side == "deeper":
         return Band(side)
-    if side == "undecided":
-        return Band("hidden", why=detail) if pair.excuses else None
-    return detail
+    return Band("hidden", why=detail) if side == "undecided" else detail
 
 
 def _band_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Band:

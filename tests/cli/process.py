@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,6 +15,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.cli.formats.schema import text
+from tests.oracles.fits_touch import assert_fits_touch
 
 SAMPLES = Path(__file__).resolve().parent.parent.parent / "sample_meshes"
 SECONDS = 120
@@ -81,4 +83,17 @@ def satcheck(
         from tests.cli.forked import run_forked
 
         code, out, err = run_forked(arguments, cwd, variables, SECONDS)
-    return Ran(code, out.decode("utf-8"), err.decode("utf-8", "replace"))
+    ran = Ran(code, out.decode("utf-8"), err.decode("utf-8", "replace"))
+    _judge(ran.out)
+    for place, option in enumerate(arguments[:-1]):
+        file = cwd / arguments[place + 1]
+        if option in ("-o", "--output") and file.suffix == ".json" and file.is_file():
+            _judge(file.read_text(encoding="utf-8"))
+    return ran
+
+
+def _judge(text: str) -> None:
+    """No fit is a collision, in any report."""
+    if text.startswith("{"):
+        with suppress(json.JSONDecodeError):
+            assert_fits_touch(json.loads(text))

@@ -14,6 +14,8 @@
 #include "bindings/tuples.hpp"
 #include "thickness/component_balls.hpp"
 #include "thickness/component_box.hpp"
+#include "thickness/face_fit.hpp"
+#include "thickness/shrunk.hpp"
 #include "thickness/thickness_proof.hpp"
 #include "thickness/thickness_search.hpp"
 
@@ -25,6 +27,15 @@ namespace {
 
 const char* name_of(ThicknessStop stop) {
   return stop == ThicknessStop::narrow ? "narrow" : stop == ThicknessStop::decided ? "decided" : "work spent";
+}
+
+std::optional<const char*> name_of_fit(const Surface& a, const Surface& b, double length, std::uint64_t work) {
+  switch (fit_by_faces(a, b, length, work)) {
+    case FaceFit::deeper: return "deeper";
+    case FaceFit::thin: return "thin";
+    case FaceFit::fit: return "fit";
+    default: return std::nullopt;
+  }
 }
 
 ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
@@ -81,6 +92,15 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
         R"(The thickness of each component of the overlap of two solids, without a search. upper: that of its convex hull;
 centre: of the largest ball in that; lower: how thick the overlap is around it, 0 where it does not lie in both, or may
 belong to another component.)");
+  m.def("fit_by_faces", &name_of_fit, "a"_a, "b"_a, "length"_a, "work"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(Whether a ball thicker than `length`, > 0, lies in both solids, by the planes of faces that lie in each other, to the last
+digits of float64. "deeper": one does. "thin": none does. "fit": none does, and wherever they meet both are thicker
+than that, so that neither is a sheet or a wire that passes through the other. None: `work` steps, each about a
+nanosecond, do not decide that. Swapping a and b changes nothing. ValueError for a surface that is not a solid.)");
+  m.def("free_when_shrunk", &free_when_shrunk, "a"_a, "b"_a, "most_a"_a, "most_b"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(Whether two solids are free of each other when each vertex moves into its body, by most_a or most_b at most. No point
+is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.
+Swapping a and b with their lengths changes nothing. ValueError for a surface that is not a solid.)");
   m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
         "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
         "progress"_a.none() = nb::none(), nb::call_guard<nb::gil_scoped_release>(),

@@ -69,7 +69,8 @@ def cases(kind: str, seed: int, count: int) -> Iterator[tuple[Mesh, Mesh, float,
 @pytest.mark.parametrize("kind", PAIRS)
 @pytest.mark.parametrize("depth", [True, False], ids=["depth", "no depth"])
 def test_the_band_ends_at_the_tolerance(tmp_path, kind, depth):
-    """Never a wrong word. Where every way out of a concave body rounds, that may be no word."""
+    """Never a wrong word. Where every way out of a concave body rounds, that may be no word, and so
+    may a tolerance that is less than an overlap by less than coordinates of points resolve."""
     for a, b, distance, is_turned in cases(kind, seed=0, count=4):
         scene, length = scene_of(tmp_path, a=a, b=b), abs(distance)
         beyond = "separated" if distance > 0 else "penetrating"
@@ -82,6 +83,9 @@ def test_the_band_ends_at_the_tolerance(tmp_path, kind, depth):
             (0.0, beyond),
         ):
             (found,) = check(scene, Settings(tolerance=tolerance, depth=depth)).findings
+            if distance < 0 and length * (1 - 1e-9) < tolerance < length:
+                assert found.relation in ("penetrating", "indeterminate")
+                continue
             if may_hide and found.relation == "indeterminate":
                 assert "rounding" in found.reason
                 continue

@@ -110,18 +110,36 @@ def moved(mesh: Mesh, back: float) -> Mesh:
 
 
 @pytest.mark.parametrize("apart", [0.0, 3.0])
-@pytest.mark.parametrize("off", [{"surface_tolerance": 0.02}, {"tolerance": 0.04}])
-def test_a_thin_part_that_reaches_deep_excuses_nothing(
-    tmp_path: Path, apart: float, off: dict[str, float]
-) -> None:
+def test_a_thin_part_that_reaches_deep_excuses_nothing(tmp_path: Path, apart: float) -> None:
     """Whether it hangs together with the rest of its body or not."""
     finned = joined(moved(FINNED[0], apart), FINNED[1])
     for pair in ((finned, BLOCK), (BLOCK, finned)):
-        found = only(tmp_path, *pair, **off)
+        found = only(tmp_path, *pair, surface_tolerance=0.02)
         assert found.relation == "penetrating"
         assert "a thin part" in told(found)
-        why = None if "tolerance" in off else "the surface tolerance excuses nothing: a thin part"
-        assert (found.reason or "")[: len(why or "")] == (why or "")
+        assert (found.reason or "").startswith("the surface tolerance excuses nothing: a thin part")
+
+
+@pytest.mark.parametrize("surface_tolerance", [None, 0.03])
+def test_the_touch_band_ends_at_the_thickness_of_a_fin(
+    tmp_path: Path, surface_tolerance: float | None
+) -> None:
+    """However deep it reaches, and whatever a surface tolerance does not excuse."""
+    finned = joined(moved(FINNED[0], 3.0), FINNED[1])
+    for tolerance, relation in ((0.0201, "touching"), (0.0199, "penetrating")):
+        off = {"tolerance": tolerance, "surface_tolerance": surface_tolerance}
+        assert only(tmp_path, finned, BLOCK, **off).relation == relation
+
+
+def test_a_plate_thinner_than_the_tolerance_touches(tmp_path: Path) -> None:
+    plate = box((-1, -1, 0.9), (2, 2, 1.0))
+    for tolerance, relation in ((0.1001, "touching"), (0.0999, "penetrating")):
+        found = only(tmp_path, unit_box(), plate, tolerance=tolerance)
+        assert (found.relation, found.exact_relation) == (relation, "penetrating")
+
+
+def test_a_spike_through_a_thinner_plate_is_no_touch(tmp_path: Path) -> None:
+    assert only(tmp_path, PLATE, SPIKE, tolerance=0.2).relation == "penetrating"
 
 
 @pytest.mark.parametrize(("reach", "relation"), [(0.156, "touching"), (0.164, "penetrating")])

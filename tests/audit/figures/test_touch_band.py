@@ -78,10 +78,10 @@ SEED = unit_box(0.75, 4, 1)  # inside that arm, 1.25 deep
     ("meshes", "exact", "within", "beyond"),
     [
         ((bracket(), PEG), "penetrating", (0.6, 2.0, 9.0), (0.1, 0.4)),
-        ((bracket(), SEED), "contains", (1.5, 5.0), (0.1, 1.0)),
+        ((bracket(), SEED), "contains", (1.01, 1.5, 5.0), (0.1, 0.9)),
         ((bracket(), bracket()), "coincident", (3.0, 9.0), (0.5, 1.5)),
         ((unit_box(), unit_box()), "coincident", (1.0, 5.0), (0.5,)),
-        ((unit_box(edge=4.0), unit_box(1, 1, 1)), "contains", (2.0, 5.0), (1.5,)),
+        ((unit_box(edge=4.0), unit_box(1, 1, 1)), "contains", (1.5, 2.0, 5.0), (0.9,)),
     ],
     ids=["crossing", "nested", "coincident", "convex coincident", "convex nested"],
 )
