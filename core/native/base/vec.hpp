@@ -28,8 +28,9 @@ inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 // The norm of a vector whose squares may be beyond float64, as std::hypot but with the same bits on every system. Off by
 // at most 4 roundoffs.
 inline double scaled_norm(Vec3 a) {
-  const double most = std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
-  const double scale = most > 0x1p500 ? 0x1p-600 : most < 0x1p-450 ? 0x1p600 : 1;
+  const double squared = norm_squared(a);
+  if (squared > 0x1p-900 && squared < 0x1p1000) return std::sqrt(squared);
+  const double scale = squared < 1 ? 0x1p600 : 0x1p-600;
   const Vec3 scaled{a.x * scale, a.y * scale, a.z * scale};
   return norm(scaled) / scale;
 }

@@ -24,20 +24,29 @@ using Indices = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::
 
 nb::tuple to_tuple(Vec3 v) { return nb::make_tuple(v.x, v.y, v.z); }
 
+// Reads what another thread may change, so that the value that is checked is the value that is used.
+template <class T>
+T read_once(const T& value) {
+  return static_cast<const volatile T&>(value);
+}
+
 // Translation, then a quaternion x y z w of any non-zero length.
-Pose pose_from(const double* p) {
-  double largest = 0;
+Pose pose_from(const double* numbers) {
+  double p[7];
+  for (int i = 0; i < 7; ++i) p[i] = read_once(numbers[i]);
   for (int i = 0; i < 7; ++i) {
     if (!std::isfinite(p[i])) throw std::invalid_argument("a pose has a coordinate that is not finite");
     if (i < 3 && !in_range(p[i])) throw std::overflow_error("a pose has a translation that is out of range");
-    if (i >= 3) largest = std::fmax(largest, std::fabs(p[i]));
   }
-  if (largest == 0) throw std::invalid_argument("a pose has a quaternion of length 0");
-  // Scaled so that no square is beyond float64. Of usual lengths no bit changes.
-  const int exponent = largest < 0x1p-200 || largest > 0x1p200 ? -std::ilogb(largest) : 0;
-  const auto scaled = [&](int i) { return std::scalbn(p[i], exponent); };
-  const double x = scaled(3), y = scaled(4), z = scaled(5), w = scaled(6);
-  const double k = 2 / (x * x + y * y + z * z + w * w);
+  double x = p[3], y = p[4], z = p[5], w = p[6], norm_squared = x * x + y * y + z * z + w * w;
+  if (!(norm_squared > 0x1p-400 && norm_squared < 0x1p400)) {  // the squares may be beyond float64
+    const double largest = larger(larger(std::fabs(x), std::fabs(y)), larger(std::fabs(z), std::fabs(w)));
+    if (largest == 0) throw std::invalid_argument("a pose has a quaternion of length 0");
+    const int exponent = -std::ilogb(largest);
+    for (double* c : {&x, &y, &z, &w}) *c = std::scalbn(*c, exponent);
+    norm_squared = x * x + y * y + z * z + w * w;
+  }
+  const double k = 2 / norm_squared;
   Pose pose;
   pose.rotation = {{{1 - k * (y * y + z * z), k * (x * y - z * w), k * (x * z + y * w)},
                     {k * (x * y + z * w), 1 - k * (x * x + z * z), k * (y * z - x * w)},
@@ -196,13 +205,10 @@ PairResults check_many(const nb::typed<nb::sequence, Shape>& given, const Indice
   const nb::tuple held(given);
   std::vector<const Shape*> shapes;
   if (!nb::try_cast(held, shapes)) throw nb::type_error("shapes: a sequence of convex shapes expected");
-  const std::vector<std::uint32_t> first = copy_of(index_a), second = copy_of(index_b);
-  const std::vector<double> place_a(poses_a.data(), poses_a.data() + 7 * count), place_b(poses_b.data(), poses_b.data() + 7 * count);
   const auto request = [&](std::size_t i) -> PairRequest {
-    if (first[i] >= shapes.size() || second[i] >= shapes.size()) {
-      throw std::invalid_argument("a shape index is out of range");
-    }
-    return {shapes[first[i]], shapes[second[i]], pose_from(place_a.data() + 7 * i), pose_from(place_b.data() + 7 * i)};
+    const std::uint32_t a = read_once(index_a.data()[i]), b = read_once(index_b.data()[i]);
+    if (a >= shapes.size() || b >= shapes.size()) throw std::invalid_argument("a shape index is out of range");
+    return {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
   };
   const Query goal = query_from(query);
   const MethodChoice choice = method_from(method);
