@@ -9,7 +9,6 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core import largest_stretch
 from satcheck.core.conventions import Plane, axes_of
 from satcheck.report.report import SIZES_DIFFER, TOLERANCE_LARGE, Finding, Issue
-from satcheck.scene.half_spaces import is_half_space
 
 # Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.
 UNLIKE = 500.0
@@ -23,7 +22,7 @@ def doubtful_sizes(
     sizes."""
     sizes = {bodies.ids[k]: size_of(body, plane) for k, body in bodies.placed.items()}
     yield from _tolerances(sizes, findings)
-    endless = {body.id for body in bodies.placed.values() if is_half_space(body.body)}
+    endless = {body.id for body in bodies.placed.values() if body.endless}
     sizes = {id_: size for id_, size in sizes.items() if id_ not in endless}
     for unit in dict.fromkeys(bodies.units.values()):
         alike = {

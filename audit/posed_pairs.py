@@ -26,7 +26,7 @@ from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.half_spaces import holds, is_half_space, reach_in_world
+from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
@@ -129,7 +129,7 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
-        if any(is_half_space(body.body) for body in self._bodies):
+        if any(body.endless for body in self._bodies):
             return self._open_beyond_reach(codes, matrices)
         return codes
 
@@ -138,7 +138,7 @@ class PosedPairs:
         codes, balls = codes.copy(), self.around()
         for column, pair in enumerate(self._places):
             for floor, other in (pair, pair[::-1]):
-                if not is_half_space(self._bodies[floor].body):
+                if not self._bodies[floor].endless:
                     continue
                 _, reach = reach_in_world(self._bodies[floor].body)
                 centre, radius = balls[other]
@@ -175,7 +175,7 @@ class PosedPairs:
         }
         for a, b in (self._places[n] for n in numbers):
             for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
-                if is_half_space(floor.body) and not holds(floor.body, other.bounds):
+                if floor.endless and not holds(floor.body, other.bounds):
                     raise ValueError(f"{other.id} lies beyond the reach of the half space")
         settings, pairs = self._settings, self.pairs
         return [

@@ -11,7 +11,8 @@ Box = tuple[Vector, Vector]
 
 
 def largest_coordinate(*boxes: Box) -> float:
-    return max(abs(c) for box in boxes for corner in box for c in corner)
+    """The largest |coordinate|."""
+    return max(max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes)
 
 
 def corners(box: Box) -> list[Vector]:

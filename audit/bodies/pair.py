@@ -12,7 +12,6 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.request.planner import Request
 from satcheck.audit.request.settings import ACCURACIES, Accuracy, Settings
 from satcheck.core.conventions import axes_of
-from satcheck.scene.half_spaces import is_half_space
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
@@ -114,7 +113,7 @@ class Pair(Struct, frozen=True):
     @property
     def on_half_space(self) -> bool:
         """A body is a half space. In a check in a plane it is the prism over its outline."""
-        return any(is_half_space(body.body) for body in (self.a, self.b))
+        return self.a.endless or self.b.endless
 
     @property
     def triangles(self) -> int:

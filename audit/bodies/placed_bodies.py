@@ -20,7 +20,7 @@ from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
-from satcheck.scene.half_spaces import farthest, is_half_space, reach_in_world
+from satcheck.scene.half_spaces import farthest, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -97,7 +97,7 @@ class PlacedBodies(Struct, frozen=True):
     def endless_pairs(self) -> Iterator[tuple[int, int, str]]:
         """Pairs of half spaces that do not face each other with a gap: blocks cannot stand for
         them."""
-        floors = [k for k, body in self.placed.items() if is_half_space(body.body)]
+        floors = [k for k, body in self.placed.items() if body.endless]
         if len(floors) < 2:
             return
         from satcheck.core.half_space import gap_of_planes, plane_of
@@ -217,10 +217,10 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
 
 def _too_short(placed: Mapping[int, PlacedBody]) -> list[tuple[int, str]]:
     """Half spaces whose block does not stand for them beside all other bodies, and why."""
-    others = [body for body in placed.values() if not is_half_space(body.body)]
+    others = [body for body in placed.values() if not body.endless]
     short = []
     for index, floor in placed.items():
-        if is_half_space(floor.body):
+        if floor.endless:
             origin, reach = reach_in_world(floor.body)
             beyond = next((o.id for o in others if not farthest(origin, o.bounds) <= reach), None)
             if beyond is not None:

@@ -18,6 +18,7 @@ from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
 from satcheck.scene.bodies import resolution_in_world
+from satcheck.scene.half_spaces import is_half_space
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
@@ -159,7 +160,8 @@ def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed
 
 class PlacedBody:
     """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
-    precision, world units; surface_tolerance: how far its surface may be off.
+    precision, world units; surface_tolerance: how far its surface may be off; endless: it is a
+    half space.
 
     curved: the shape of a curved body; its mesh is then only inscribed, and its bounds enclose the
     shape. Most bodies of a large scene are far from all others, so all other data are made on
@@ -173,6 +175,7 @@ class PlacedBody:
         "bounds",
         "curved",
         "diagonal",
+        "endless",
         "id",
         "resolution",
         "shared",
@@ -192,6 +195,7 @@ class PlacedBody:
         self.diagonal = diagonal(self.bounds)
         self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
         self.solid = body.file.health.solid
+        self.endless = is_half_space(body)
         self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
         self._geometry: core.PlacedGeometry | None = None
         self._checked: Placed | None = None
