@@ -1,5 +1,8 @@
 #include "mesh_pair/covers_once.hpp"
 
+#include <algorithm>
+
+#include "exact/predicates.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh_pair/samples.hpp"
 
@@ -23,6 +26,28 @@ bool holds_beside_all(const Surface& solid, Holds holds) {
   return all_hold;
 }
 
+// Whether two triangles that may overlap lie in one plane and face away from each other. Winding numbers differ by one
+// across a triangle, so that only the other triangles of its plane can make both sides equal.
+bool has_opposite_triangles(const Surface& solid) {
+  const Mesh& mesh = solid.mesh;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Corners c = corners(mesh, t);
+    const TrianglePlane plane(c[0], c[1], c[2]);
+    const int axis = projection_axis(rounded_normal(c[0], c[1], c[2])), turn = orientation_2d(c[0], c[1], c[2], axis);
+    if (turn == 0) {
+      if (!collinear(c[0], c[1], c[2])) return true;  // a normal that has no certain axis
+      continue;
+    }
+    const bool none = visit_box(solid.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t other) {
+      const Corners d = corners(mesh, other);
+      const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
+      return orientation_2d(d[0], d[1], d[2], axis) != -turn || !std::all_of(d.begin(), d.end(), in_plane);
+    });
+    if (!none) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool covers_once(const Surface& solid) {
@@ -31,7 +56,7 @@ bool covers_once(const Surface& solid) {
 }
 
 bool has_sheets(const Surface& solid) {
-  return !holds_beside_all(solid, [](const Beside& b) { return !b.is_sheet(); });
+  return has_opposite_triangles(solid) && !holds_beside_all(solid, [](const Beside& b) { return !b.is_sheet(); });
 }
 
 }  // namespace satcheck
