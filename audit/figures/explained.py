@@ -75,7 +75,7 @@ def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
     half = 0.5 * pair.tolerance
     if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
         return "within", "no point lies deeper than"
-    fit = _fit(pair)
+    fit = _fit_of_convex(pair) or _fit(pair)
     if fit == "deeper":
         return "deeper", "a point lies deeper than"
     if fit == "fit":
@@ -92,6 +92,16 @@ def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
     if through is None:
         return "undecided", "whether one body passes through the other"
     return "within", "no point lies deeper than"
+
+
+def _fit_of_convex(pair: Pair) -> Literal["deeper", "thin"] | None:
+    """Return how two convex bodies fit at the tolerance; None: not decided."""
+    if not pair.both_convex or pair.on_half_space or pair.settings.across >= 0:
+        return None
+    from satcheck.audit.figures.convex_ball import holds_thicker_ball
+
+    thicker = holds_thicker_ball(pair.a.hull(), pair.b.hull(), pair.tolerance)
+    return None if thicker is None else "deeper" if thicker else "thin"
 
 
 def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:

@@ -205,8 +205,7 @@ std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size
     });
   };
   if (any(true)) return true;
-  if (any(std::nullopt) || !overlap.resolved) return std::nullopt;
-  return false;
+  return overlap.resolved ? std::optional(false) : std::nullopt;
 }
 
 }  // namespace satcheck

@@ -44,7 +44,7 @@ enum class Unresolved : std::uint8_t { described, left_out };
 OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs,
                                      Unresolved unresolved = Unresolved::described);
 
-// Whether one of two solids passes through the other. Empty: not resolved.
+// Whether one of two solids passes through the other, whichever body coincident faces belong to. Empty: not resolved.
 std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs);
 
 }  // namespace satcheck

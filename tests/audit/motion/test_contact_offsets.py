@@ -103,13 +103,20 @@ def test_into_the_wall_of_a_corner():
 
 @pytest.mark.parametrize("into", [0.0, -0.05])
 def test_a_body_that_is_smaller_than_the_band_is_not_lost_in_the_other(into):
-    """A speck at an arm of the L, or within the band in it, goes on into the arm: no surface is in
-    its way any more."""
-    speck = box((4, 2 + into, 1), (4.001, 2.001 + into, 1.001))
+    """A speck at an arm of the L, or within the band in it, goes on into the arm, and soon no
+    surface is in its way."""
+    speck = box((4, 2 + into, 1), (4.11, 2.11 + into, 1.11))
     impact = impact_of(speck, Translation((0.0, -1.0, 0.0)), bracket(), tolerance=0.1)
     assert impact.lower <= 0.1 + into <= impact.upper
     along = impact_of(speck, Translation((1.0, 0.0, 0.0)), bracket(), tolerance=0.1)
     assert along.upper is None
+
+
+def test_a_body_that_is_thinner_than_the_band_has_no_impact():
+    """No overlap of it is thicker than the band; that it stays so all the way is open."""
+    speck = box((4, 2, 1), (4.09, 2.09, 1.09))
+    impact = impact_of(speck, Translation((0.0, -1.0, 0.0)), bracket(), tolerance=0.1)
+    assert impact.upper is None
 
 
 def test_where_nothing_is_proven_the_answer_is_open():
