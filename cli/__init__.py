@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 
 __all__ = ["main"]
 
@@ -12,6 +13,10 @@ def main() -> None:
     # Start-up makes many objects and next to no garbage: looking for cycles meanwhile is 6 % of it.
     # commands.check turns the collector on again for anything but a small check.
     gc.disable()
-    from satcheck.cli.entry import main as run
+    from satcheck.cli import exit_codes
 
+    try:
+        from satcheck.cli.entry import main as run
+    except KeyboardInterrupt:
+        sys.exit(exit_codes.INTERRUPTED)
     run()

@@ -8,6 +8,7 @@ import random
 import shutil
 import signal
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
+from satcheck import cli
 from satcheck.cli.formats.schema import text
 from tests.batch.test_slot import PLANTED, marked, on_linux, until
 from tests.cli.process import SAMPLES, command, environment
@@ -221,3 +223,15 @@ def test_where_it_is_ignored_it_stays_ignored(
     code, out, err = run.interrupted()
     assert (code, err) == (3, "")
     assert "INCOMPLETE: 2 assets: 1 incomplete (hang.obj), 1 passes." in out
+
+
+def test_while_the_command_is_still_imported(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Interrupted:
+        def __getattr__(self, name: str) -> Any:
+            raise KeyboardInterrupt
+
+    monkeypatch.setitem(sys.modules, "satcheck.cli.entry", Interrupted())
+    monkeypatch.setattr("gc.disable", lambda: None)
+    with pytest.raises(SystemExit) as stop:
+        cli.main()
+    assert stop.value.code == 130
