@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -226,11 +227,11 @@ def test_where_it_is_ignored_it_stays_ignored(
 
 
 def test_while_the_command_is_still_imported(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Interrupted:
+    class Interrupted(ModuleType):
         def __getattr__(self, name: str) -> Any:
             raise KeyboardInterrupt
 
-    monkeypatch.setitem(sys.modules, "satcheck.cli.entry", Interrupted())
+    monkeypatch.setitem(sys.modules, "satcheck.cli.entry", Interrupted("satcheck.cli.entry"))
     monkeypatch.setattr("gc.disable", lambda: None)
     with pytest.raises(SystemExit) as stop:
         cli.main()
