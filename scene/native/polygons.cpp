@@ -11,16 +11,15 @@
 
 #include "base/rounding.hpp"
 #include "base/vec.hpp"
-#include "base/work.hpp"
 #include "builder.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck::scene {
 namespace {
 
-constexpr std::int64_t most_steps = 5'000'000'000;  // a few seconds
+constexpr std::uint64_t most_steps = 5'000'000'000;  // a few seconds
 
-constexpr std::int64_t sign_steps = 16;  // cost of a sign that rounding does not hide, in comparisons
+constexpr std::uint64_t sign_steps = 16;  // cost of a sign that rounding does not hide, in comparisons
 
 Vec3 point(const MeshData& mesh, std::uint32_t vertex) {
   const double* at = mesh.vertices.data() + 3 * std::size_t{vertex};
@@ -49,7 +48,7 @@ bool is_plainly_convex_fan(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 // A polygon seen along an axis, so that it turns counter-clockwise.
 class Outline {
  public:
-  Outline(std::span<const std::uint32_t> corners, const MeshData& mesh, std::int64_t& steps) : corners_(corners), steps_(steps) {
+  Outline(std::span<const std::uint32_t> corners, const MeshData& mesh, Budget& budget) : corners_(corners), budget_(budget) {
     Vec3 normal{0, 0, 0};  // twice the area, after Newell
     const Vec3 origin = point(mesh, corners[0]);
     for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -96,11 +95,10 @@ class Outline {
 
  private:
   int turn(std::size_t a, std::size_t b, std::size_t c) {
-    if (steps_ > most_steps) fail(code::too_large, "the polygons of the file are too intricate to be cut into triangles: cut them before");
-    const std::uint64_t before = work_done;
+    if (budget_.spent() > most_steps) fail(code::too_large, "the polygons of the file are too intricate to be cut into triangles: cut them before");
     const Vec3 above{points_[a].x, points_[a].y, 1};
-    const int sign = orientation(points_[a], points_[b], points_[c], above);
-    steps_ += sign_steps + static_cast<std::int64_t>(work_done - before);
+    const int sign = orientation(points_[a], points_[b], points_[c], above, &budget_);
+    budget_.spend(sign_steps);
     return sign;
   }
 
@@ -121,7 +119,7 @@ class Outline {
     const auto [low_y, high_y] = std::minmax({points_[a].y, points_[b].y, points_[c].y});
     for (const std::size_t other : left_) {
       const Vec3 p = points_[other];
-      ++steps_;
+      budget_.spend(1);
       if (p.x < low_x || p.x > high_x || p.y < low_y || p.y > high_y) continue;
       if (is_at(other, a) || is_at(other, b) || is_at(other, c)) continue;
       if (turn(a, b, other) >= 0 && turn(b, c, other) >= 0 && turn(c, a, other) >= 0) return false;
@@ -140,18 +138,18 @@ class Outline {
   }
 
   std::span<const std::uint32_t> corners_;
-  std::int64_t& steps_;
+  Budget& budget_;
   std::vector<Vec3> points_;
   std::vector<std::size_t> left_;
   bool flat_ = false;
 };
 
-void cut(std::span<const std::uint32_t> corners, MeshData& mesh, std::int64_t& steps) {
+void cut(std::span<const std::uint32_t> corners, MeshData& mesh, Budget& budget) {
   if (corners.size() == 4 && is_plainly_convex_fan(point(mesh, corners[0]), point(mesh, corners[1]), point(mesh, corners[2]),
                                                    point(mesh, corners[3]))) {
     return push_fan(corners, mesh);
   }
-  Outline outline(corners, mesh, steps);
+  Outline outline(corners, mesh, budget);
   if (outline.is_flat() || outline.fan_covers()) return push_fan(corners, mesh);
   const std::vector<std::uint32_t> triangles = outline.ears();
   if (triangles.empty()) return push_fan(corners, mesh);
@@ -166,12 +164,12 @@ void Polygons::add_other(const std::vector<std::uint32_t>& corners, std::int64_t
   } else if (*std::max_element(corners.begin(), corners.end()) >= mesh.vertices.size() / 3) {
     waiting_.push_back(corners);
   } else {
-    cut(corners, mesh, steps_);
+    cut(corners, mesh, budget_);
   }
 }
 
 void Polygons::finish(const char* unit, MeshData& mesh) {
-  for (const auto& corners : waiting_) cut(corners, mesh, steps_);
+  for (const auto& corners : waiting_) cut(corners, mesh, budget_);
   if (too_short_ == 0) return;
   mesh.warnings.push_back({code::short_face, std::to_string(too_short_) + (too_short_ == 1 ? " face has" : " faces have") +
                                                  " fewer than 3 vertices and was ignored (first: " + unit + " " +

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "read_result.hpp"
 
 namespace satcheck::scene {
@@ -31,7 +32,7 @@ class Polygons {
   std::int64_t too_short_ = 0;
   std::int64_t first_short_ = 0;
   std::vector<std::vector<std::uint32_t>> waiting_;
-  std::int64_t steps_ = 0;  // of cutting, all polygons of the file together
+  Budget budget_;  // of cutting, all polygons of the file together
 };
 
 }  // namespace satcheck::scene

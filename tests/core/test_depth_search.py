@@ -295,6 +295,59 @@ def test_no_more_work_is_done_than_was_allowed() -> None:
     assert allowed <= found.work <= 1.2 * allowed
 
 
+def test_a_search_that_is_asked_again_answers_the_same() -> None:
+    """Closings and hulls of holes are made by the first query that needs them, and no search pays
+    for them: neither the second time nor after somebody else made them."""
+    ring = torus(32, 16)
+    holed = Mesh(ring.vertices, ring.triangles[np.arange(len(ring.triangles)) % 37 != 5])
+    other = torus(14, 9).translated(CROSSED)
+
+    def answers(work: int, times: int, prepared: bool) -> list[tuple[object, ...]]:
+        a, b = Surface(other, True), Surface(holed, False)
+        if prepared:
+            mesh_relation(a, b)
+        found = [
+            search_depth(a, b, upper=6.0, lower=0.0, width=0.01, work=work) for _ in range(times)
+        ]
+        return [(d.lower, d.upper, d.way_out, d.work, d.boxes, d.stop) for d in found]
+
+    whole = search_depth(
+        Surface(other, True), Surface(holed, False), upper=6.0, lower=0.0, width=0.01, work=WORK
+    )
+    assert whole.stop == "narrow"
+    intervals = set()
+    for k in range(1, 61):
+        work = whole.work * k // 60
+        first, second, prepared = answers(work, 2, False) + answers(work, 1, True)
+        assert first == second == prepared
+        intervals.add(first[:2])
+    assert len(intervals) > 1
+
+
+def with_dust(mesh: Mesh, exponent: float, seed: int) -> Mesh:
+    """Its coordinates that are 0 get many sizes, down to 10^exponent."""
+    rng = np.random.default_rng(seed)
+    shape = mesh.vertices.shape
+    dust = 10.0 ** rng.uniform(exponent, -20, shape) * rng.choice([-1, 1], shape)
+    return Mesh(np.where(mesh.vertices == 0, dust, mesh.vertices), mesh.triangles)
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+def test_long_numbers_cost_more(seed: int) -> None:
+    """Exact arithmetic decides the signs of faces that dust keeps out of one plane: the longer its
+    numbers, the fewer tests of the meshes may be made."""
+    rng, allowed = random.Random(seed), 20_000_000
+    a, b = random_solid(rng).mesh(), random_solid(rng).mesh()
+    tests = []
+    for exponent in (-120, -250):
+        dusty_a, dusty_b = with_dust(a, exponent, seed), with_dust(b, exponent, seed + 50)
+        found = search(dusty_a, dusty_b, upper=14.0, work=allowed)
+        assert found.stop == "work spent"
+        assert allowed <= found.work <= 1.2 * allowed
+        tests.append(found.mesh_tests)
+    assert tests[1] < 0.6 * tests[0]
+
+
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("across", range(3))
 def test_nothing_is_moved_across_a_plane(seed: int, across: int) -> None:

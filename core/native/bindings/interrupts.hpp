@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "base/poll.hpp"
+#include "base/budget.hpp"
 
 namespace satcheck {
 

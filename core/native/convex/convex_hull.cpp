@@ -126,7 +126,7 @@ Simplex first_simplex(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-Polytope convex_hull(const std::vector<Vec3>& points) {
+Polytope convex_hull(const std::vector<Vec3>& points, Budget* budget) {
   const DistinctPoints set = distinct(points);
   const auto [dimension, corner] = first_simplex(set.point);
   if (dimension == 0) return lower_dimensional(set, {corner[0]}, 0);
@@ -139,14 +139,14 @@ Polytope convex_hull(const std::vector<Vec3>& points) {
   }
   Polytope solid;
   solid.dimension = 3;
-  add_solid_faces(solid, set.point, quickhull(set.point, corner), set.source);
+  add_solid_faces(solid, set.point, quickhull(set.point, corner, budget), set.source);
   return solid;
 }
 
-HullTriangles hull_triangles(const std::vector<Vec3>& points) {
+HullTriangles hull_triangles(const std::vector<Vec3>& points, Budget* budget) {
   HullTriangles result{distinct(points).point, {}};
   const auto [dimension, corner] = first_simplex(result.points);
-  if (dimension == 3) result.triangles = quickhull(result.points, corner);
+  if (dimension == 3) result.triangles = quickhull(result.points, corner, budget);
   return result;
 }
 

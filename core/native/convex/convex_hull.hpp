@@ -1,6 +1,7 @@
 // The convex hull of points.
 #pragma once
 
+#include "base/budget.hpp"
 #include "convex/polytope.hpp"
 
 namespace satcheck {
@@ -10,7 +11,7 @@ namespace satcheck {
 //
 // Method: C. Bradford Barber, David P. Dobkin, Hannu Huhdanpaa, "The Quickhull Algorithm for
 // Convex Hulls" (1996), with exact orientation signs instead of its thickness tolerance.
-Polytope convex_hull(const std::vector<Vec3>& points);
+Polytope convex_hull(const std::vector<Vec3>& points, Budget* budget = nullptr);
 
 // The same hull without faces and edges, which takes half the time. No triangle is degenerate, but neighbours may lie in
 // one plane. None if all points do.
@@ -18,6 +19,6 @@ struct HullTriangles {
   std::vector<Vec3> points;         // distinct, by x, then y, then z
   std::vector<Triangle> triangles;  // outward, counter-clockwise
 };
-HullTriangles hull_triangles(const std::vector<Vec3>& points);
+HullTriangles hull_triangles(const std::vector<Vec3>& points, Budget* budget = nullptr);
 
 }  // namespace satcheck

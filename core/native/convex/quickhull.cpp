@@ -7,7 +7,6 @@
 
 #include <limits>
 
-#include "base/work.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {
@@ -41,8 +40,8 @@ struct HorizonEdge {
 
 class Builder {
  public:
-  explicit Builder(const std::vector<Vec3>& points)
-      : points_(points), next_above_(points.size(), none), facet_from_(points.size(), none) {
+  Builder(const std::vector<Vec3>& points, Budget* budget)
+      : points_(points), budget_(budget), next_above_(points.size(), none), facet_from_(points.size(), none) {
     Aabb box;
     for (const Vec3& p : points) box.include(p);
     extent_ = box.max - box.min;
@@ -54,7 +53,7 @@ class Builder {
       // Facets are only appended, so one pass sees every conflict list.
       if (facets_[f].alive && facets_[f].first_above != none) add_point(f);
     }
-    work_done += kFacetWork * facets_.size() + kHeightWork * heights_;
+    spend(budget_, kFacetWork * facets_.size() + kHeightWork * heights_);
     std::vector<Triangle> triangles;
     for (const Facet& facet : facets_) {
       if (facet.alive) triangles.push_back(facet.corner);
@@ -85,7 +84,7 @@ class Builder {
     if (height > facet.bound) return true;
     if (height < -facet.bound) return false;
     const Triangle& t = facet.corner;
-    return orientation(points_[t[0]], points_[t[1]], points_[t[2]], points_[point]) > 0;
+    return orientation(points_[t[0]], points_[t[1]], points_[t[2]], points_[point], budget_) > 0;
   }
 
   bool assign(std::uint32_t f, std::uint32_t point) {
@@ -187,6 +186,7 @@ class Builder {
   }
 
   const std::vector<Vec3>& points_;
+  Budget* budget_;
   std::vector<Facet> facets_;
   std::vector<std::uint32_t> next_above_;  // links of the conflict lists
   std::vector<std::uint32_t> facet_from_;  // new facet whose horizon edge starts at a point
@@ -199,8 +199,8 @@ class Builder {
 }  // namespace
 
 std::vector<Triangle> quickhull(const std::vector<Vec3>& points,
-                                std::array<std::uint32_t, 4> simplex) {
-  return Builder(points).build(simplex);
+                                std::array<std::uint32_t, 4> simplex, Budget* budget) {
+  return Builder(points, budget).build(simplex);
 }
 
 }  // namespace satcheck

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/vec.hpp"
 
 namespace satcheck {
@@ -13,6 +14,6 @@ namespace satcheck {
 // exactly coplanar with their neighbours, and a corner may lie inside a flat part or on a straight
 // edge, but no triangle is degenerate.
 std::vector<Triangle> quickhull(const std::vector<Vec3>& points,
-                                std::array<std::uint32_t, 4> simplex);
+                                std::array<std::uint32_t, 4> simplex, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "base/work.hpp"
 #include "depth/corner_plane.hpp"
 #include "depth/exact_centre.hpp"
 #include "depth/forbidden_union.hpp"
@@ -75,7 +74,7 @@ bool is_sum(double sum, double x, double y) {
 class Search {
  public:
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
-      : a_(a), b_(b), moved_(a), goal_(goal), poller_(goal.poll), sets_(goal.across) {
+      : a_(a), b_(b), moved_(a), goal_(goal), budget_(goal.work, goal.poll), sets_(goal.across, budget_) {
     result_.upper = goal.upper;
   }
 
@@ -92,11 +91,11 @@ class Search {
         result_.stop = DepthStop::decided;
         break;
       }
-      if (work() >= goal_.work) {
+      if (budget_.is_spent()) {
         result_.stop = DepthStop::work_spent;
         break;
       }
-      if (!scanned_ && work() >= goal_.work / kScanAfter) {
+      if (!scanned_ && budget_.spent() >= goal_.work / kScanAfter) {
         scan_spheres(std::fmax(box.key, result_.upper / kSmallestSphere));
         push(box.centre, box.half, std::move(box.sets), box.seen);
         continue;
@@ -119,7 +118,7 @@ class Search {
     result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
     result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
-    result_.work = work();
+    result_.work = budget_.spent();
     result_.sets = static_cast<std::uint32_t>(sets_.size());
     return result_;
   }
@@ -128,8 +127,6 @@ class Search {
   // If translations lie in a plane, boxes and directions are flat.
   Vec3 in_plane(Vec3 t) const { return satcheck::in_plane(t, goal_.across); }
 
-  std::uint64_t work() const { return work_done - start_; }
-
   // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
@@ -137,7 +134,7 @@ class Search {
     TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
     box.key = norm(box.nearest_to_origin());
     if (box.key >= result_.upper) return;
-    work_done += kBoxWork;
+    budget_.spend(kBoxWork);
     open_.push(std::move(box));
   }
 
@@ -167,7 +164,7 @@ class Search {
   double proven() const { return std::fmax(std::fmin(reached_, covered_to_), goal_.lower); }
 
   void poll() {
-    if (poller_.is_due(work())) poller_.call({proven(), result_.upper, work()});
+    if (budget_.is_due()) budget_.tell(proven(), result_.upper);
   }
 
   bool is_on_seam(const TranslationBox& box) const { return max_abs(box.half) < kSeam * result_.upper; }
@@ -175,8 +172,8 @@ class Search {
   MeshRelation relation_at(Vec3 t) {
     poll();
     ++result_.mesh_tests;
-    work_done += kVertexWork * a_.mesh.vertices.size();
-    return overlap_relation(moved_.at(t), b_);
+    budget_.spend(kVertexWork * a_.mesh.vertices.size());
+    return overlap_relation(moved_.at(t, &budget_), b_, &budget_);
   }
 
   static bool is_free(const MeshRelation& r) {
@@ -194,7 +191,7 @@ class Search {
   // origin beyond the walls of the sets so far, as long as it may give a shorter way out.
   void ask_meshes(Vec3 t) {
     std::vector<Wall> walls;
-    for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && work() < goal_.work;) {
+    for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && !budget_.is_spent();) {
       ForbiddenSet::Exit exit = sets_.deepest_exit(t);
       if (!(exit.depth > 0)) {
         ++asked;
@@ -214,7 +211,7 @@ class Search {
 
   ForbiddenSet proof_at(Vec3 t, const MeshRelation& relation) {
     const Overlaps overlaps = sets_.size() < kManySets ? Overlaps::first : Overlaps::thickest;
-    return prove_overlap(a_, moved_.at(t), b_, t, relation, overlaps);
+    return prove_overlap(a_, moved_.at(t, &budget_), b_, t, relation, overlaps, budget_);
   }
 
   // Searches a way out on spheres, the smallest first. Longer translations need not be searched then.
@@ -223,7 +220,7 @@ class Search {
     for (; radius < result_.upper; radius *= kSphereRatio) {
       for (const Vec3 way : ways()) {
         if (!(in_plane(way) == way)) continue;
-        if (work() >= goal_.work) return;
+        if (budget_.is_spent()) return;
         const Vec3 t = way * radius;
         if (!sets_.holds(t) && is_free(relation_at(t))) take(t);
       }
@@ -290,8 +287,7 @@ class Search {
   const Surface& b_;
   MovedSurface moved_;
   DepthGoal goal_;
-  Poller poller_;
-  std::uint64_t start_ = work_done;
+  Budget budget_;
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
   double reached_ = 0;            // and the open ones none shorter than this

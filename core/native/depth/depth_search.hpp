@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/poll.hpp"
+#include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -14,7 +14,7 @@ struct DepthGoal {
   double upper;            // length of a known way out
   double lower = 0;        // a known lower bound of the depth
   double width = 0.01;     // wanted width of the interval, relative to its upper end
-  std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
+  std::uint64_t work = 0;  // steps that may be spent (base/budget.hpp)
   int across = -1;         // for a depth in a plane, the world axis along which nothing is moved; -1: none
   double limit = INFINITY;  // the search also ends once the depth is proven to be at least this
   Poll poll = {};

@@ -2,7 +2,6 @@
 
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
-#include "base/work.hpp"
 #include "convex/convex_hull.hpp"
 #include "exact/predicates.hpp"
 
@@ -69,7 +68,8 @@ ForbiddenSet ForbiddenSet::within(Vec3 c, Vec3 h) const {
   return part;
 }
 
-double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double least) const {
+double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double least,
+                                  Budget& budget) const {
   if (empty()) return -INFINITY;
   const double size = max_abs(c) + max_abs(h);
   const auto height = [&](Vec3 m) {
@@ -90,15 +90,16 @@ double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double le
     }
     if (!holds) length = std::fmin(length, offset[k]);
     if (length < least) {
-      work_done += kHeightWork * (k + 1);
+      budget.spend(kHeightWork * (k + 1));
       return length;
     }
   }
-  work_done += kHeightWork * normal.size();
+  budget.spend(kHeightWork * normal.size());
   return length;
 }
 
-ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
+ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b,
+                           Budget* budget) {
   std::vector<Vec3> differences;
   double scale = 0;
   differences.reserve(part_of_a.size() * part_of_b.size());
@@ -110,7 +111,7 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
   }
   ForbiddenSet result;
   if (!are_in_range(differences)) return result;
-  const HullTriangles hull = hull_triangles(differences);
+  const HullTriangles hull = hull_triangles(differences, budget);
   if (hull.triangles.empty()) return result;
   const double pad = (kFacetError + kSetError) * scale;
   Vec3 sum;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/vec.hpp"
 
 namespace satcheck {
@@ -42,10 +43,12 @@ struct ForbiddenSet {
 
   // The same length for the part of the box beyond a plane: normal . t >= offset, `normal` unit. If it is less than
   // `least`, any number below `least`.
-  double reach_beyond(Vec3 centre, Vec3 half, Vec3 normal, double offset, double least) const;
+  double reach_beyond(Vec3 centre, Vec3 half, Vec3 normal, double offset, double least,
+                      Budget& budget) const;
 };
 
 // The forbidden set of two convex hulls of points; empty if the difference has no volume.
-ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b);
+ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b,
+                           Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/work.hpp"
-
 namespace satcheck {
 namespace {
 
@@ -36,7 +34,7 @@ double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double 
   double farthest = -INFINITY;
   std::size_t kept = 0;
   for (std::shared_ptr<const ForbiddenSet>& set : box.sets) {
-    work_done += work_of(*set);
+    budget_.spend(work_of(*set));
     const ForbiddenSet::Reach reach = set->reach(box.centre, box.half);
     farthest = std::fmax(farthest, reach.length);
     if (farthest >= most) break;
@@ -59,7 +57,7 @@ double ForbiddenUnion::covered_by_several(const TranslationBox& box, double leas
 }
 
 double ForbiddenUnion::covered_with(const ForbiddenSet& set, const TranslationBox& box, double least) {
-  work_done += work_of(set);
+  budget_.spend(work_of(set));
   cuts_.clear();
   double length = INFINITY;
   for (std::size_t k = 0; k < set.normal.size(); ++k) {
@@ -78,7 +76,7 @@ double ForbiddenUnion::covered_with(const ForbiddenSet& set, const TranslationBo
     double beyond = -INFINITY;
     for (std::size_t j = 0; j < box.sets.size() && beyond < least; ++j) {
       if (box.sets[j].get() == &set) continue;
-      beyond = std::fmax(beyond, box.sets[j]->reach_beyond(box.centre, box.half, cut.normal, cut.offset, least));
+      beyond = std::fmax(beyond, box.sets[j]->reach_beyond(box.centre, box.half, cut.normal, cut.offset, least, budget_));
     }
     length = std::fmin(length, beyond);
     if (length < least) return -INFINITY;
@@ -88,7 +86,7 @@ double ForbiddenUnion::covered_with(const ForbiddenSet& set, const TranslationBo
 
 bool ForbiddenUnion::is_open(const TranslationBox& box, Vec3 t, double most) const {
   return norm(t) < most && std::none_of(box.sets.begin(), box.sets.end(), [&](const auto& set) {
-    work_done += work_of(*set);
+    budget_.spend(work_of(*set));
     return set->exit(t).depth > 0;
   });
 }
@@ -100,7 +98,7 @@ std::optional<Vec3> ForbiddenUnion::nearest_open(const TranslationBox& box, Vec3
   while (norm(t) < most) {
     ForbiddenSet::Exit deepest;
     for (const auto& set : box.sets) {
-      work_done += work_of(*set);
+      budget_.spend(work_of(*set));
       const ForbiddenSet::Exit exit = set->exit(t);
       if (exit.depth > deepest.depth) deepest = exit;
     }
@@ -135,7 +133,7 @@ ForbiddenSet::Exit ForbiddenUnion::deepest_exit(Vec3 t) const {
   const Aabb point{t, t};
   for (const auto& set : sets_) {
     if (!meet(set->box, point)) continue;
-    work_done += work_of(*set);
+    budget_.spend(work_of(*set));
     const ForbiddenSet::Exit exit = set->exit(t);
     if (exit.depth > deepest.depth) deepest = exit;
   }

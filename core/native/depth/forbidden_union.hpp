@@ -13,11 +13,11 @@
 
 namespace satcheck {
 
-// Lengths are those of translations. Counts its steps in work_done (base/work.hpp).
+// Lengths are those of translations.
 class ForbiddenUnion {
  public:
   // across: an axis of the world along which nothing is moved; -1: none.
-  explicit ForbiddenUnion(int across) : across_(across) {}
+  ForbiddenUnion(int across, Budget& budget) : across_(across), budget_(budget) {}
 
   void add(ForbiddenSet set) { sets_.push_back(std::make_shared<const ForbiddenSet>(std::move(set))); }
   std::size_t size() const { return sets_.size(); }
@@ -48,6 +48,7 @@ class ForbiddenUnion {
   double covered_with(const ForbiddenSet& first, const TranslationBox& box, double least);
 
   int across_;
+  Budget& budget_;
   std::vector<std::shared_ptr<const ForbiddenSet>> sets_;
   std::vector<Wall> cuts_;  // buffer for covered_with()
 };

@@ -15,7 +15,6 @@
 
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
-#include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {
@@ -64,7 +63,8 @@ struct Farther {
 
 class Growth {
  public:
-  Growth(const Surface& solid, Vec3 seed, const Metric& metric) : solid_(solid), seed_(seed), metric_(metric) {
+  Growth(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget)
+      : solid_(solid), seed_(seed), metric_(metric), budget_(budget) {
     const Aabb& box = solid.bvh.nodes[0].box;
     pad_ = kPlaneError * std::fmax(max_abs(box.min), max_abs(box.max));
     for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +79,7 @@ class Growth {
     while (!queue_.empty()) {
       const Candidate next = queue_.top();
       queue_.pop();
-      work_done += kVisitWork + kPlaneWork * planes_.size();
+      spend(budget_, kVisitWork + kPlaneWork * planes_.size());
       if (next.triangle) {
         if (!cut_off(corners(solid_.mesh, next.index))) return std::nullopt;
         continue;
@@ -195,7 +195,7 @@ class Growth {
     // A power of two, so that sizes stay in range and a scale by a power of two has no effect.
     const double unit = std::ldexp(1.0, std::ilogb(largest));
     for (const Plane& p : planes_) dual.push_back(p.normal * (unit / (p.offset - 2 * pad_)));
-    const Polytope hull = convex_hull(dual);
+    const Polytope hull = convex_hull(dual, budget_);
     if (hull.dimension != 3) return std::nullopt;
     std::vector<Vec3> corner;
     for (std::size_t f = 0; f < hull.face_count(); ++f) {
@@ -220,6 +220,7 @@ class Growth {
   const Surface& solid_;
   Vec3 seed_;
   Metric metric_;
+  Budget* budget_;
   double pad_ = 0;
   std::vector<Plane> planes_;
   std::size_t last_ = 0;  // the plane that the last obstacle lies beyond
@@ -228,9 +229,9 @@ class Growth {
 
 }  // namespace
 
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric) {
-  if (!solid.solid || winding_number(solid, seed).value_or(0) == 0) return std::nullopt;
-  return Growth(solid, seed, metric).run();
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget) {
+  if (!solid.solid || winding_number(solid, seed, budget).value_or(0) == 0) return std::nullopt;
+  return Growth(solid, seed, metric, budget).run();
 }
 
 Metric metric_of(const InnerRegion& region) {

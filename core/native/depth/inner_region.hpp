@@ -19,7 +19,7 @@ struct InnerRegion {
 using Metric = Mat3;
 
 // Empty if the seed is not strictly inside, or too close to the surface to tell.
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric);
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget = nullptr);
 
 // The metric in which the covariance of the region's vertices is that of a ball.
 Metric metric_of(const InnerRegion& region);

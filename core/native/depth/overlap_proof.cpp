@@ -35,10 +35,10 @@ class Body {
   const Surface& walled() const { return closing_ ? *walled_surface(surface_, OpenParts::filled) : surface_; }
 
   // Whether the point is outside of the hulls of all holes.
-  bool is_certain_at(Vec3 p) const {
+  bool is_certain_at(Vec3 p, Budget& budget) const {
     if (!closing_) return true;
     return std::all_of(closing_->hulls.begin(), closing_->hulls.end(),
-                       [&](const Surface& hull) { return winding_number(hull, p) == 0; });
+                       [&](const Surface& hull) { return winding_number(hull, p, &budget) == 0; });
   }
 
  private:
@@ -48,7 +48,7 @@ class Body {
 
 class Proof {
  public:
-  Proof(const Surface& a, const Surface& b, Vec3 t) : a_(a), b_(b), t_(t) {}
+  Proof(const Surface& a, const Surface& b, Vec3 t, Budget& budget) : a_(a), b_(b), t_(t), budget_(budget) {}
 
   bool empty() const { return set_.empty(); }
   ForbiddenSet take() { return std::move(set_); }
@@ -59,9 +59,9 @@ class Proof {
     const Surface &closed_a = moved_a.closed(), &closed_b = b.closed();
     // Near a crossing that is only a last digit deep, no common point may be found, although the bodies overlap
     // elsewhere.
-    std::optional<CommonPoint> common = common_point(closed_a, closed_b, relation);
+    std::optional<CommonPoint> common = common_point(closed_a, closed_b, relation, INFINITY, &budget_);
     if (!common || overlaps == Overlaps::thickest) common = thickest(common, closed_a, closed_b, relation);
-    if (common && a.is_certain_at(common->point - t_) && b.is_certain_at(common->point)) {
+    if (common && a.is_certain_at(common->point - t_, budget_) && b.is_certain_at(common->point, budget_)) {
       const std::vector<InnerRegion> in_a = regions(a.walled(), common->point - t_);
       const std::vector<InnerRegion> in_b = regions(b.walled(), common->point);
       for (const InnerRegion& p : in_a) {
@@ -79,7 +79,7 @@ class Proof {
     const Vec3 middle = (c[0] + c[1] + c[2]) * (1.0 / 3);
     const Vec3 seed = is_of_a ? middle + t_ : middle - t_;
     const Body other(is_of_a ? b_ : a_);
-    if (!other.is_certain_at(seed)) return;
+    if (!other.is_certain_at(seed, budget_)) return;
     for (const InnerRegion& region : regions(other.walled(), seed)) {
       is_of_a ? keep_deepest(triangle, region.vertices) : keep_deepest(region.vertices, triangle);
     }
@@ -93,16 +93,16 @@ class Proof {
 
  private:
   // The deepest of several common points: the one from the relation, and those near other crossings.
-  static std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved, const Surface& b,
-                                             const MeshRelation& relation) {
+  std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved, const Surface& b,
+                                      const MeshRelation& relation) const {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;
     std::vector<CommonPoint> tried;
     if (deepest) tried.push_back(*deepest);
-    const std::vector<ContactPair> contacts = find_contacts(moved, b, AtCrossing::go_on).contacts;
+    const std::vector<ContactPair> contacts = find_contacts(moved, b, AtCrossing::go_on, &budget_).contacts;
     const std::size_t stride = std::max<std::size_t>(1, contacts.size() / kPockets);
     for (std::size_t k = 0; k < contacts.size(); k += stride) {
       const Corners p = corners(moved.mesh, contacts[k].a), q = corners(b.mesh, contacts[k].b);
-      if (classify(p, q) != TriangleContact::crossing) continue;
+      if (classify(p, q, &budget_) != TriangleContact::crossing) continue;
       MeshRelation here;
       here.relation = Relation::penetrating;
       here.triangle_a = contacts[k].a;
@@ -110,7 +110,7 @@ class Proof {
       here.point = crossing_point(p, q);
       const auto is_known = [&](const CommonPoint& c) { return norm(c.point - *here.point) <= kNear * c.depth; };
       if (std::any_of(tried.begin(), tried.end(), is_known)) continue;
-      const auto common = common_point(moved, b, here);
+      const auto common = common_point(moved, b, here, INFINITY, &budget_);
       if (!common) continue;
       tried.push_back(*common);
       if (!deepest || common->depth > deepest->depth) deepest = common;
@@ -118,10 +118,10 @@ class Proof {
     return deepest;
   }
 
-  static std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) {
+  std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) const {
     std::vector<InnerRegion> found;
-    if (auto round = grow_inner_region(solid, seed, {})) {
-      auto spread = grow_inner_region(solid, seed, metric_of(*round));
+    if (auto round = grow_inner_region(solid, seed, {}, &budget_)) {
+      auto spread = grow_inner_region(solid, seed, metric_of(*round), &budget_);
       found.push_back(std::move(*round));
       if (spread) found.push_back(std::move(*spread));
     }
@@ -130,7 +130,7 @@ class Proof {
 
   void keep_deepest(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
     if (!may_be_deeper(part_of_a, part_of_b)) return;
-    ForbiddenSet set = forbidden_set(part_of_a, part_of_b);
+    ForbiddenSet set = forbidden_set(part_of_a, part_of_b, &budget_);
     const double depth = set.exit(t_).depth;
     if (!(depth > depth_)) return;
     depth_ = depth;
@@ -154,6 +154,7 @@ class Proof {
   const Surface& a_;
   const Surface& b_;
   Vec3 t_;
+  Budget& budget_;
   double depth_ = 0;
   ForbiddenSet set_;
 };
@@ -161,8 +162,8 @@ class Proof {
 }  // namespace
 
 ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
-                           const MeshRelation& relation, Overlaps overlaps) {
-  Proof proof(a, b, t);
+                           const MeshRelation& relation, Overlaps overlaps, Budget& budget) {
+  Proof proof(a, b, t, budget);
   proof.by_regions(moved, relation, overlaps);
   proof.by_triangles(relation);
   if (proof.empty()) proof.by_triangle_within(relation);

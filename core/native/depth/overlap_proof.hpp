@@ -14,6 +14,6 @@ enum class Overlaps { first, thickest };
 // The set in which t is deepest, among all sets that were tried; empty if t is in none. `moved`: `a` translated by t.
 // `relation`: of `moved` to `b`, with a common interior.
 ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
-                           const MeshRelation& relation, Overlaps overlaps);
+                           const MeshRelation& relation, Overlaps overlaps, Budget& budget);
 
 }  // namespace satcheck

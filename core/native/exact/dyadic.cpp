@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "base/work.hpp"
 
 namespace satcheck {
 namespace {
@@ -15,9 +14,6 @@ constexpr std::uint64_t kLimbMask = 0xFFFFFFFF;
 constexpr int kFractionBits = 52;
 constexpr int kExponentMask = 0x7FF;
 constexpr int kExponentBias = 1075;
-
-// Measured steps: of any sum or product, of each digit of a sum, of each pair of digits of a product.
-constexpr std::uint64_t kNumberWork = 20, kDigitWork = 2, kDigitPairWork = 1;
 
 }  // namespace
 
@@ -73,7 +69,6 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
   const auto whole = static_cast<std::size_t>(shift / kLimbBits);
   const int part = static_cast<int>(shift % kLimbBits);
   const std::size_t count_fine = fine.limbs_.size(), count_coarse = coarse.limbs_.size();
-  work_done += kNumberWork + kDigitWork * (whole + count_fine + count_coarse);
   Dyadic result;
   result.exponent_ = fine.exponent_;
   result.negative_ = a_is_fine ? a.negative_ : b_is_negative;
@@ -111,7 +106,6 @@ Dyadic operator*(const Dyadic& a, const Dyadic& b) {
   result.negative_ = a.negative_ != b.negative_;
   result.exponent_ = a.exponent_ + b.exponent_;
   const std::size_t count_a = a.limbs_.size(), count_b = b.limbs_.size();
-  work_done += kNumberWork + kDigitPairWork * count_a * count_b;
   result.limbs_.append_zeros(count_a + count_b);
   const std::uint32_t *x = a.limbs_.begin(), *y = b.limbs_.begin();
   std::uint32_t* digit = result.limbs_.begin();

@@ -13,6 +13,7 @@ class Dyadic {
   Dyadic(double value);  // exact; value must be finite
 
   int sign() const { return limbs_.empty() ? 0 : negative_ ? -1 : 1; }
+  std::size_t digits() const { return limbs_.size(); }  // of 32 bits
   Dyadic operator-() const;
 
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);

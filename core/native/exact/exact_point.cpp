@@ -1,5 +1,6 @@
 #include "exact/exact_point.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,9 @@ constexpr double kPointError = 8 * kRoundoff;
 // Covers the roundings of the error term itself.
 constexpr double kSlack = 1.001;
 
+// Measured steps of an exact sign: of any, of each digit of the point, of each pair of them.
+constexpr std::uint64_t kSignWork = 600, kDigitWork = 20, kDigitPairWork = 2;
+
 double point_error(double coordinate) {
   return kPointError * std::fabs(coordinate) + std::numeric_limits<double>::min();
 }
@@ -27,6 +31,11 @@ Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d)
 }
 
 }  // namespace
+
+std::uint64_t sign_work(const ExactPoint& p) {
+  const std::uint64_t digits = std::max({p.x.digits(), p.y.digits(), p.z.digits(), p.w.digits()});
+  return kSignWork + kDigitWork * digits + kDigitPairWork * digits * digits;
+}
 
 ExactPoint make_exact_point(Vec3 p) { return {p.x, p.y, p.z, 1.0, p, {}}; }
 
@@ -130,10 +139,11 @@ int filtered_orientation(Vec3 a, Vec3 b, Vec3 c, Known d) {
 
 }  // namespace
 
-int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
+int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d, Budget* budget) {
   const int sign = filtered_orientation(a, b, c, {d.rounded, d.error});
   if (sign != kOpen) return sign;
-  if (is_float64(d)) return orientation(a, b, c, d.rounded);
+  if (is_float64(d)) return orientation(a, b, c, d.rounded, budget);
+  spend(budget, sign_work(d));
   return orientation_value(a, b, c, d).sign();
 }
 
@@ -181,9 +191,9 @@ LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double
           [&p, &q, wp, wq] { return between(p.exact(), q.exact(), wp, wq); }};
 }
 
-int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d) {
+int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d, Budget* budget) {
   const int sign = filtered_orientation(a, b, c, {d.rounded, d.error});
-  return sign != kOpen ? sign : orientation(a, b, c, d.exact());
+  return sign != kOpen ? sign : orientation(a, b, c, d.exact(), budget);
 }
 
 namespace {
@@ -225,16 +235,16 @@ int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint
 namespace {
 
 template <class Point>
-bool in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+bool in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
   const int side = filtered_orientation(a, b, c, {p.rounded, p.error});
   if (side != kOpen) return false;
-  return !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c) && orientation(a, b, c, p) == 0;
+  return !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c) && orientation(a, b, c, p, budget) == 0;
 }
 
 }  // namespace
 
-bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c) { return in_triangle(p, a, b, c); }
-bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c) { return in_triangle(p, a, b, c); }
+bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget) { return in_triangle(p, a, b, c, budget); }
+bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget) { return in_triangle(p, a, b, c, budget); }
 
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
   const auto [i, j] = plane_axes(drop_axis);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/budget.hpp"
 #include "base/vec.hpp"
 #include "exact/dyadic.hpp"
 
@@ -17,6 +18,9 @@ struct ExactPoint {
   Vec3 rounded;
   Vec3 error;  // |rounded - exact| per coordinate
 };
+
+// Measured steps of an exact sign with this point: more for longer numbers.
+std::uint64_t sign_work(const ExactPoint& p);
 
 ExactPoint make_exact_point(Vec3 p);
 ExactPoint make_exact_point(Dyadic x, Dyadic y, Dyadic z, Dyadic w);
@@ -63,16 +67,16 @@ LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double
 bool operator==(const ExactPoint& p, const ExactPoint& q);
 
 // The predicates of predicates.hpp with an exact point in the last place.
-int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d);
-int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d);
+int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d, Budget* budget = nullptr);
+int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d, Budget* budget = nullptr);
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
 int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 
 // As point_in_triangle(). If float64 does not decide, most triangles miss the point when seen along an axis. This test
 // comes first, because it needs fewer digits than the test of the plane.
-bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c);
-bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c);
+bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
+bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
 
 // The value of that sign, times a positive factor that depends only on a and b, and times c.w.
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);

@@ -32,8 +32,8 @@ bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
 // Whether p is in the closed triangle. Collinear triangles contain no point here, because in a closed mesh their edges
 // also belong to other triangles.
 template <class Point>
-bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
-  return orientation(a, b, c, p) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);
+bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr) {
+  return orientation(a, b, c, p, budget) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);
 }
 
 }  // namespace satcheck

@@ -11,7 +11,6 @@
 #include <span>
 
 #include "base/lanes.hpp"
-#include "base/work.hpp"
 #include "exact/dyadic.hpp"
 
 namespace satcheck {
@@ -26,8 +25,10 @@ constexpr double kOrientation2dBound = 5 * kRoundoff;
 // What rounded_normal() promises, relative to the length of the normal.
 constexpr double kNormalTolerance = 1e-14;
 
-// Measured steps of an exact determinant with two and with three rows, of coordinates of full length.
-constexpr std::uint64_t kMinorWork = 60, kDeterminantWork = 700;
+// Measured steps of an exact determinant: of expansions of coordinates of full length; of integers times powers of two,
+// with those that each pair of their digits adds.
+constexpr std::uint64_t kDeterminantWork = 900, kDyadicWork = 500, kDigitPairWork = 6;
+constexpr int kDigitBits = 32;
 
 // An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
 template <int Capacity>
@@ -149,12 +150,10 @@ ExactVector exact_difference(Vec3 head, Vec3 tail) {
 
 Expansion<16> exact_minor(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
                           const Expansion<2>& d) {
-  work_done += kMinorWork;
   return sum(product(a, d), negated(product(b, c)));  // a d - b c
 }
 
 Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
-  work_done += kDeterminantWork;
   const ExactVector a = exact_difference(q1, p1);
   const ExactVector b = exact_difference(q2, p2);
   const ExactVector c = exact_difference(q3, p3);
@@ -187,6 +186,20 @@ class DyadicRow {
 };
 
 Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) { return a * d - b * c; }
+
+// More for coordinates whose differences are longer.
+std::uint64_t dyadic_work(std::initializer_list<Vec3> points) {
+  int low = std::numeric_limits<int>::max(), high = std::numeric_limits<int>::min();
+  for (const Vec3 p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] == 0) continue;
+      low = std::min(low, std::ilogb(p[axis]));
+      high = std::max(high, std::ilogb(p[axis]));
+    }
+  }
+  const auto digits = static_cast<std::uint64_t>(high > low ? 4 + (high - low) / kDigitBits : 4);
+  return kDyadicWork + kDigitPairWork * digits * digits;
+}
 
 Dyadic dyadic_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   const DyadicRow a(p1, q1), b(p2, q2), c(p3, q3);
@@ -224,7 +237,7 @@ bool has_zero_line(Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
-int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budget* budget) {
   const Vec3 a = q1 - p1, b = q2 - p2, c = q3 - p3;
   const double yz = b.y * c.z, zy = b.z * c.y;
   const double zx = b.z * c.x, xz = b.x * c.z;
@@ -237,11 +250,15 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   if (permanent == 0 && has_zero_line(a, b, c)) return 0;
-  if (may_underflow({p1, q1, p2, q2, p3, q3})) return dyadic_determinant(p1, q1, p2, q2, p3, q3).sign();
+  if (may_underflow({p1, q1, p2, q2, p3, q3})) {
+    if (budget != nullptr) budget->spend(dyadic_work({p1, q1, p2, q2, p3, q3}));
+    return dyadic_determinant(p1, q1, p2, q2, p3, q3).sign();
+  }
+  spend(budget, kDeterminantWork);
   return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
 }
 
-int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Budget* budget) { return determinant_sign(a, b, a, c, a, d, budget); }
 
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   const int i = drop_axis == 2 ? 0 : drop_axis + 1;

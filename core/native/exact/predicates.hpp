@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/rounding.hpp"
 #include "base/vec.hpp"
 #include "exact/double_double.hpp"
@@ -20,7 +21,8 @@ namespace satcheck {
 
 // Sign (-1, 0, +1) of det[b - a; c - a; d - a]: +1 when d lies on the side of the plane of the
 // triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
-int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+// budget: pays for exact arithmetic; a sign that float64 can tell costs nothing.
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Budget* budget = nullptr);
 
 // The relative error of a 3x3 determinant in float64, as a share of the sum of the magnitudes of its terms. A term has
 // at most 3 rounded differences, 2 products and 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u
@@ -43,14 +45,14 @@ class TrianglePlane {
     permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz), std::fabs(xy) + std::fabs(yx)};
   }
 
-  int side(Vec3 d) const {
+  int side(Vec3 d, Budget* budget = nullptr) const {
     // The same roundings as in determinant_sign(), with the rows in another order.
     const Vec3 w = d - a;
     const double determinant = dot(normal_, w);
     const double bound = kDeterminantBound * dot(permanent_, {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)}) + kUnderflow;
     if (determinant > bound) return 1;
     if (determinant < -bound) return -1;
-    return orientation(a, b, c, d);
+    return orientation(a, b, c, d, budget);
   }
 
   Vec3 a, b, c;
@@ -62,7 +64,7 @@ class TrianglePlane {
 
 // Sign of det[q1 - p1; q2 - p2; q3 - p3], rows being differences of the given points.
 // orientation(a, b, c, d) == determinant_sign(a, b, a, c, a, d).
-int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budget* budget = nullptr);
 
 // Sign of the z, x or y component (drop_axis 2, 0, 1) of (b - a) x (c - a): the orientation of the
 // triangle projected along the named axis.

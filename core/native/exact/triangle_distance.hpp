@@ -14,7 +14,7 @@ struct NearestPoints {
 };
 
 // Nearest points of two closed triangles. Exactly 0 apart when they have a common point.
-NearestPoints triangle_distance(const Corners& a, const Corners& b);
+NearestPoints triangle_distance(const Corners& a, const Corners& b, Budget* budget = nullptr);
 
 // A lower bound of the squared distance of points in the two boxes, exact up to rounding.
 inline double box_distance_squared(const Aabb& a, const Aabb& b) {

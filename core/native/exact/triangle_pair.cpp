@@ -31,10 +31,10 @@ bool coplanar_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, int axis) {
   return orientation_2d(r, s, p, axis) * orientation_2d(r, s, q, axis) <= 0;
 }
 
-bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Budget* budget = nullptr) {
   if (p == q) return point_on_segment(p, r, s);
   if (r == s) return point_on_segment(r, p, q);
-  if (orientation(p, q, r, s) != 0) return false;
+  if (orientation(p, q, r, s, budget) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (orientation_2d(p, q, r, axis) != 0 || orientation_2d(p, q, s, axis) != 0) {
       return coplanar_segments_meet(p, q, r, s, axis);
@@ -53,19 +53,19 @@ std::pair<Vec3, Vec3> extremes(const Corners& t) {
   return {low, high};
 }
 
-bool any_edge_meets(const Corners& edges_of, const Corners& t) {
+bool any_edge_meets(const Corners& edges_of, const Corners& t, Budget* budget) {
   for (int i = 0; i < 3; ++i) {
-    if (segment_meets_triangle(edges_of[i], edges_of[(i + 1) % 3], t)) return true;
+    if (segment_meets_triangle(edges_of[i], edges_of[(i + 1) % 3], t, budget)) return true;
   }
   return false;
 }
 
 // Signs of the corners of `t` with respect to the plane of `plane`.
-std::array<int, 3> sides(const TrianglePlane& plane, const Corners& t) {
-  return {plane.side(t[0]), plane.side(t[1]), plane.side(t[2])};
+std::array<int, 3> sides(const TrianglePlane& plane, const Corners& t, Budget* budget = nullptr) {
+  return {plane.side(t[0], budget), plane.side(t[1], budget), plane.side(t[2], budget)};
 }
-std::array<int, 3> sides(const Corners& plane, const Corners& t) {
-  return sides(TrianglePlane(plane[0], plane[1], plane[2]), t);
+std::array<int, 3> sides(const Corners& plane, const Corners& t, Budget* budget = nullptr) {
+  return sides(TrianglePlane(plane[0], plane[1], plane[2]), t, budget);
 }
 
 bool all_strictly_on_one_side(const std::array<int, 3>& s) {
@@ -94,8 +94,8 @@ Lone from_lone_corner(const Corners& t, const std::array<int, 3>& s) {
 
 // With d = normal(a) x normal(b): sign of (y - x) . d, where x is where the edge a.p -> ax meets the
 // plane of b, and y where b.p -> by meets the plane of a.
-int compare_along_line(const Lone& a, Vec3 ax, const Lone& b, Vec3 by) {
-  return a.direction * b.direction * orientation(a.p, ax, b.p, by);
+int compare_along_line(const Lone& a, Vec3 ax, const Lone& b, Vec3 by, Budget* budget = nullptr) {
+  return a.direction * b.direction * orientation(a.p, ax, b.p, by, budget);
 }
 
 // The ends of an interval along d, as the far ends of the edges that define them.
@@ -134,12 +134,12 @@ Vec3 edge_meeting_point(const Corners& a, const Corners& b) {
 
 }  // namespace
 
-bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
   if (collinear(t[0], t[1], t[2])) {
     const auto [low, high] = extremes(t);
-    return segments_meet(p, q, low, high);
+    return segments_meet(p, q, low, high, budget);
   }
-  const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
+  const int sp = orientation(t[0], t[1], t[2], p, budget), sq = orientation(t[0], t[1], t[2], q, budget);
   if (sp * sq > 0) return false;
   if (sp == 0 && plane_point_in_triangle(p, t[0], t[1], t[2])) return true;
   if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2])) return true;
@@ -152,32 +152,32 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
     return false;
   }
   if (sp == 0 || sq == 0) return false;
-  const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]);
+  const int a = orientation(p, q, t[0], t[1], budget), b = orientation(p, q, t[1], t[2], budget);
   if (a * b < 0) return false;
-  const int c = orientation(p, q, t[2], t[0]);
+  const int c = orientation(p, q, t[2], t[0], budget);
   return a * c >= 0 && b * c >= 0;
 }
 
-TriangleContact classify(const Corners& a, const Corners& b) {
-  return classify(TrianglePlane(a[0], a[1], a[2]), b);
+TriangleContact classify(const Corners& a, const Corners& b, Budget* budget) {
+  return classify(TrianglePlane(a[0], a[1], a[2]), b, budget);
 }
 
-TriangleContact classify(const TrianglePlane& plane, const Corners& b) {
-  const std::array<int, 3> sb = sides(plane, b);
+TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* budget) {
+  const std::array<int, 3> sb = sides(plane, b, budget);
   if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
   const Corners a{plane.a, plane.b, plane.c};
-  const std::array<int, 3> sa = sides(b, a);
+  const std::array<int, 3> sa = sides(b, a, budget);
   if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
   if (all_zero(sa) || all_zero(sb)) {
     // Coplanar, or one of them is collinear.
-    const bool meet = any_edge_meets(a, b) || any_edge_meets(b, a);
+    const bool meet = any_edge_meets(a, b, budget) || any_edge_meets(b, a, budget);
     return meet ? TriangleContact::touching : TriangleContact::disjoint;
   }
   const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);
   const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
-  const int low_a_before_high_b = compare_along_line(la, ia.low, lb, ib.high);
+  const int low_a_before_high_b = compare_along_line(la, ia.low, lb, ib.high, budget);
   if (low_a_before_high_b < 0) return TriangleContact::disjoint;
-  const int low_b_before_high_a = -compare_along_line(la, ia.high, lb, ib.low);
+  const int low_b_before_high_a = -compare_along_line(la, ia.high, lb, ib.low, budget);
   if (low_b_before_high_a < 0) return TriangleContact::disjoint;
   const bool common_segment = low_a_before_high_b > 0 && low_b_before_high_a > 0;
   return common_segment && straddles(sa) && straddles(sb) ? TriangleContact::crossing

@@ -17,8 +17,8 @@ enum class TriangleContact {
 };
 
 // Any triangles, collinear and point-like ones included.
-TriangleContact classify(const Corners& a, const Corners& b);
-TriangleContact classify(const TrianglePlane& a, const Corners& b);
+TriangleContact classify(const Corners& a, const Corners& b, Budget* budget = nullptr);
+TriangleContact classify(const TrianglePlane& a, const Corners& b, Budget* budget = nullptr);
 
 enum class CoplanarOverlap {
   none,      // not coplanar, or no common area
@@ -30,7 +30,7 @@ enum class CoplanarOverlap {
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
 
 // Closed segment p q against a closed triangle, either of which may be degenerate.
-bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t);
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget = nullptr);
 
 // Where the segment p q meets a plane. p is not in the plane.
 struct PlaneMeeting {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/mesh.hpp"
-#include "base/work.hpp"
 
 namespace satcheck {
 
@@ -63,7 +63,7 @@ inline constexpr std::size_t kUsualDepth = 48;
 // Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
 // Returns whether all were visited.
 template <class Visit>
-bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit) {
+bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit, Budget* budget = nullptr) {
   if (bvh.nodes.empty()) return true;
   std::vector<std::uint32_t> stack;
   stack.reserve(kUsualDepth);
@@ -71,7 +71,7 @@ bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit)
   while (!stack.empty()) {
     const BvhNode& node = bvh.nodes[stack.back()];
     stack.pop_back();
-    work_done += kNodeWork;
+    spend(budget, kNodeWork);
     if (!meet(node.box, query)) continue;
     if (!node.is_leaf()) {
       stack.push_back(node.first + 1);

@@ -6,7 +6,6 @@
 
 #include "base/edge_table.hpp"
 #include "base/patches.hpp"
-#include "base/work.hpp"
 
 namespace satcheck {
 namespace {
@@ -47,15 +46,15 @@ Closing double_open_parts(const Mesh& welded) {
 
 }  // namespace
 
-std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes) {
+std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, Budget* budget) {
   std::vector<Surface> hulls;
   for (const Hole& hole : holes) {
     std::vector<Vec3> points;
     for (const BoundaryLoop& loop : hole.loops) {
       for (const std::uint32_t v : loop) points.push_back(mesh.vertices[v]);
     }
-    work_done += kHullWork * points.size();
-    Polytope hull = convex_hull(points);
+    spend(budget, kHullWork * points.size());
+    Polytope hull = convex_hull(points, budget);
     hulls.push_back(make_surface(Mesh{std::move(hull.vertices), std::move(hull.triangles)}, true));
   }
   return hulls;

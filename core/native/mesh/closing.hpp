@@ -23,6 +23,6 @@ struct Closing {
 Closing close_surface(const Surface& open, OpenParts parts);
 
 // The hulls of these holes of a mesh.
-std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes);
+std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, Budget* budget = nullptr);
 
 }  // namespace satcheck

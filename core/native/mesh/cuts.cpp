@@ -26,21 +26,22 @@ struct Use {
 
 class Cuts {
  public:
-  Cuts(const Mesh& mesh, std::uint32_t t, const Mesh& other, Touching touching)
+  Cuts(const Mesh& mesh, std::uint32_t t, const Mesh& other, Touching touching, Budget* budget)
       : t_(corners(mesh, t)),
         other_(other),
         touching_(touching),
+        budget_(budget),
         axis_(projection_axis(rounded_normal(t_[0], t_[1], t_[2]))) {}
 
   void add(std::uint32_t partner) {
     const Triangle& corner = other_.triangles[partner];
     const Corners p = corners(other_, partner);
     Signs side;
-    for (int i = 0; i < 3; ++i) side[i] = orientation(t_[0], t_[1], t_[2], p[i]);
+    for (int i = 0; i < 3; ++i) side[i] = orientation(t_[0], t_[1], t_[2], p[i], budget_);
     add_edges(corner, p, side);
     const bool straddles = std::min({side[0], side[1], side[2]}) < 0 && std::max({side[0], side[1], side[2]}) > 0;
     const bool kept = touching_ == Touching::kept;
-    if (straddles && (kept || classify(t_, p) == TriangleContact::crossing)) add_crossing(p, side);
+    if (straddles && (kept || classify(t_, p, budget_) == TriangleContact::crossing)) add_crossing(p, side);
     for (int i = 0; i < 3 && kept; ++i) {
       if (side[i] == 0) add_point(p[i]);
     }
@@ -78,6 +79,7 @@ class Cuts {
       if (side[i] == 0) ends.push_back(make_exact_point(p[i]));
       if (side[i] * side[k] < 0) ends.push_back(plane_meeting_point(t_[0], t_[1], t_[2], p[i], p[k]));
     }
+    spend(budget_, sign_work(ends[0]) + sign_work(ends[1]));
     cuts_.push_back({ends[0], ends[1]});
   }
 
@@ -89,6 +91,7 @@ class Cuts {
   Corners t_;
   const Mesh& other_;
   Touching touching_;
+  Budget* budget_;
   int axis_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Use> edges_;
   std::vector<PlaneSegment> cuts_;
@@ -97,8 +100,8 @@ class Cuts {
 }  // namespace
 
 std::vector<PlaneSegment> find_cuts(const Mesh& mesh, std::uint32_t t, const Mesh& other,
-                                    const std::vector<std::uint32_t>& partners, Touching touching) {
-  Cuts cuts(mesh, t, other, touching);
+                                    const std::vector<std::uint32_t>& partners, Touching touching, Budget* budget) {
+  Cuts cuts(mesh, t, other, touching, budget);
   for (const std::uint32_t partner : partners) cuts.add(partner);
   return std::move(cuts).result();
 }

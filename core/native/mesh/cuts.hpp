@@ -13,6 +13,6 @@ namespace satcheck {
 // because the other surface is the same on both sides. With Touching::kept, every common point of t and a partner is
 // also on a segment.
 std::vector<PlaneSegment> find_cuts(const Mesh& mesh, std::uint32_t t, const Mesh& other,
-                                    const std::vector<std::uint32_t>& partners, Touching touching);
+                                    const std::vector<std::uint32_t>& partners, Touching touching, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -26,8 +26,10 @@ Aabb segment_box(const PlaneSegment& s) {
 
 class Pieces {
  public:
-  Pieces(const std::array<Vec3, 3>& triangle, const std::vector<PlaneSegment>& cuts, Touching touching)
-      : axis_(projection_axis(rounded_normal(triangle[0], triangle[1], triangle[2]))),
+  Pieces(const std::array<Vec3, 3>& triangle, const std::vector<PlaneSegment>& cuts, Touching touching,
+         Budget* budget)
+      : budget_(budget),
+        axis_(projection_axis(rounded_normal(triangle[0], triangle[1], triangle[2]))),
         turn_(orientation_2d(triangle[0], triangle[1], triangle[2], axis_)),
         corners_{make_exact_point(triangle[0]), make_exact_point(triangle[1]), make_exact_point(triangle[2])} {
     for (int k = 0; k < 3; ++k) segments_.push_back({corners_[k], corners_[(k + 1) % 3]});
@@ -82,6 +84,7 @@ class Pieces {
 
   // The place where the line o meets the segment from `from` to `to`. Its ends are on different sides of o.
   Ratio meeting(const PlaneSegment& o, const ExactPoint& from, const ExactPoint& to) const {
+    spend(budget_, sign_work(o.p) + sign_work(o.q));
     const Dyadic near = area_value(o.p, o.q, from, axis_) * to.w;
     const Dyadic far = area_value(o.p, o.q, to, axis_) * from.w;
     return zero_between(near, far);
@@ -133,6 +136,7 @@ class Pieces {
 
   // The middle of a stretch, or a point of it near the middle that has fewer digits.
   ExactPoint middle(const PlaneSegment& s, const Ratio& from, const Ratio& to) const {
+    spend(budget_, sign_work(s.p));
     const Ratio near{0.5 * (rounded(from) + rounded(to)), 1.0};
     if (less(from, near) && less(near, to)) return at(s, near);
     return at(s, {from.numerator * to.denominator + to.numerator * from.denominator,
@@ -203,6 +207,7 @@ class Pieces {
     return box;
   }
 
+  Budget* budget_;
   int axis_;
   int turn_;
   std::array<ExactPoint, 3> corners_;
@@ -213,8 +218,8 @@ class Pieces {
 }  // namespace
 
 bool visit_pieces(const std::array<Vec3, 3>& triangle, const std::vector<PlaneSegment>& cuts,
-                  Touching touching, const std::function<bool(const Piece&)>& visit) {
-  return Pieces(triangle, cuts, touching).visit(visit);
+                  Touching touching, const std::function<bool(const Piece&)>& visit, Budget* budget) {
+  return Pieces(triangle, cuts, touching, budget).visit(visit);
 }
 
 }  // namespace satcheck

@@ -31,6 +31,6 @@ enum class Touching { left_out, kept };
 // leads from the middle of each stretch into the triangle, up to the first segment it meets. A point on this line is
 // inside the piece.
 bool visit_pieces(const std::array<Vec3, 3>& triangle, const std::vector<PlaneSegment>& cuts,
-                  Touching touching, const std::function<bool(const Piece&)>& visit);
+                  Touching touching, const std::function<bool(const Piece&)>& visit, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {
@@ -15,7 +14,7 @@ constexpr std::uint64_t kTriangleWork = 25;
 
 }  // namespace
 
-NearestPoint nearest_point(const Surface& surface, Vec3 p) {
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget) {
   if (surface.bvh.nodes.empty()) throw std::invalid_argument("an empty surface has no nearest point");
   const Aabb at{p, p};
   double best = INFINITY;
@@ -26,7 +25,7 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
   while (!stack.empty()) {
     const auto [bound, index] = stack.back();
     stack.pop_back();
-    work_done += kNodeWork;
+    spend(budget, kNodeWork);
     if (!(bound < best)) continue;
     const BvhNode& node = surface.bvh.nodes[index];
     if (!node.is_leaf()) {
@@ -41,7 +40,7 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       if (!(box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best)) continue;
-      work_done += kTriangleWork;
+      spend(budget, kTriangleWork);
       const std::uint32_t t = surface.bvh.order[i];
       const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
       const double d = norm_squared(q - p);

@@ -12,6 +12,6 @@ struct NearestPoint {
 };
 
 // The point of the surface nearest to p. Throws std::invalid_argument on an empty surface.
-NearestPoint nearest_point(const Surface& surface, Vec3 p);
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -36,8 +36,8 @@ struct SharedFirst {
 // A triangle that is compared with many others.
 class Beheld {
  public:
-  Beheld(const Mesh& mesh, std::uint32_t t)
-      : mesh_(mesh), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
+  Beheld(const Mesh& mesh, std::uint32_t t, Budget* budget)
+      : mesh_(mesh), budget_(budget), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
         axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2]))) {}
 
   // Whether they have more in common than shared corners and edges.
@@ -46,7 +46,7 @@ class Beheld {
     const SharedFirst mine(t_, u), theirs(u, t_);
     const Triangle &i = mine.corner, &k = theirs.corner;
     switch (theirs.shared) {
-      case 0: return classify(plane_, corners(mesh_, other)) != TriangleContact::disjoint;
+      case 0: return classify(plane_, corners(mesh_, other), budget_) != TriangleContact::disjoint;
       case 1: return goes_on_from(at(i[0]), at(i[1]), at(i[2]), at(k[1]), at(k[2]));
       case 2: return folds_onto(at(i[0]), at(i[1]), at(i[2]), at(k[2]));
       default: return true;
@@ -59,14 +59,14 @@ class Beheld {
 
   // Whether the corner s of a triangle across the edge p q is in the plane, on the side of r. Coplanar neighbours
   // usually lie on both sides of the edge, which is a quick test.
-  bool folds_onto(Vec3 p, Vec3 q, Vec3 r, Vec3 s) const { return turn(p, q, r) == turn(p, q, s) && plane_.side(s) == 0; }
+  bool folds_onto(Vec3 p, Vec3 q, Vec3 r, Vec3 s) const { return turn(p, q, r) == turn(p, q, s) && plane_.side(s, budget_) == 0; }
 
   // This triangle is p, q, r, and the other one is p, s, t.
   bool goes_on_from(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 t) const {
     if (parts(p, q, r, s, t) || parts(p, r, q, s, t)) return false;
-    if (plane_.side(s) * plane_.side(t) > 0) return false;
+    if (plane_.side(s, budget_) * plane_.side(t, budget_) > 0) return false;
     // Their common part is convex. If it goes beyond the corner p, it ends on an edge opposite to p.
-    return segment_meets_triangle(q, r, {p, s, t}) || segment_meets_triangle(s, t, c_);
+    return segment_meets_triangle(q, r, {p, s, t}, budget_) || segment_meets_triangle(s, t, c_, budget_);
   }
 
   // Whether the line p q, seen along the axis, has r on one side or on it, and s and t strictly on the other side.
@@ -76,6 +76,7 @@ class Beheld {
   }
 
   const Mesh& mesh_;
+  Budget* budget_;
   const Triangle& t_;
   Corners c_;
   TrianglePlane plane_;
@@ -84,12 +85,12 @@ class Beheld {
 
 // Calls visit(other) -> bool until it returns false. Returns whether it never returned false.
 template <class Visit>
-bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit visit) {
+bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit visit, Budget* budget) {
   const Mesh& mesh = surface.mesh;
-  const Beheld triangle(mesh, t);
+  const Beheld triangle(mesh, t, budget);
   return visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
     return u == t || is_collinear(mesh, u) || !triangle.has_more_in_common_with(u) || visit(u);
-  });
+  }, budget);
 }
 
 // The neighbour across each edge of a triangle, if there is exactly one.
@@ -119,30 +120,30 @@ class Neighbours {
 
 }  // namespace
 
-std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t) {
+std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t, Budget* budget) {
   std::vector<std::uint32_t> partners;
   visit_irregular_partners(surface, t, [&](std::uint32_t u) {
     partners.push_back(u);
     return true;
-  });
+  }, budget);
   return partners;
 }
 
-bool has_irregular_partners(const Surface& surface, std::uint32_t t) {
-  return !visit_irregular_partners(surface, t, [](std::uint32_t) { return false; });
+bool has_irregular_partners(const Surface& surface, std::uint32_t t, Budget* budget) {
+  return !visit_irregular_partners(surface, t, [](std::uint32_t) { return false; }, budget);
 }
 
 void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::uint32_t)>& wanted,
-                          const std::function<bool(std::uint32_t, const Piece&, std::size_t)>& visit) {
+                          const std::function<bool(std::uint32_t, const Piece&, std::size_t)>& visit, Budget* budget) {
   const Mesh& mesh = surface.mesh;
   const Neighbours neighbours(mesh);
   std::vector<bool> done(mesh.triangles.size(), false);
   for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
     if (done[first] || !wanted(first) || is_collinear(mesh, first)) continue;
-    const auto partners = irregular_partners(surface, first);
-    const auto cuts = find_cuts(mesh, first, mesh, partners, Touching::left_out);
+    const auto partners = irregular_partners(surface, first, budget);
+    const auto cuts = find_cuts(mesh, first, mesh, partners, Touching::left_out, budget);
     const bool goes_on = visit_pieces(corners(mesh, first), cuts, Touching::left_out,
-                                      [&](const Piece& piece) { return visit(first, piece, partners.size()); });
+                                      [&](const Piece& piece) { return visit(first, piece, partners.size()); }, budget);
     if (!goes_on) return;
     done[first] = true;
     if (!partners.empty()) continue;
@@ -151,7 +152,7 @@ void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::
       const std::uint32_t t = queue.back();
       queue.pop_back();
       neighbours.visit(t, [&](std::uint32_t u) {
-        if (done[u] || !wanted(u) || is_collinear(mesh, u) || has_irregular_partners(surface, u)) return;
+        if (done[u] || !wanted(u) || is_collinear(mesh, u) || has_irregular_partners(surface, u, budget)) return;
         done[u] = true;
         queue.push_back(u);
       });

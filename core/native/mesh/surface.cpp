@@ -117,8 +117,8 @@ std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts par
   return walled = std::make_shared<const Surface>(make_surface(mesh, true));
 }
 
-std::optional<int> winding_number(const Surface& surface, Vec3 point) {
-  return winding_number(surface.mesh, surface.bvh, point);
+std::optional<int> winding_number(const Surface& surface, Vec3 point, Budget* budget) {
+  return winding_number(surface.mesh, surface.bvh, point, budget);
 }
 
 }  // namespace satcheck

@@ -73,7 +73,7 @@ Surface make_plain_surface(std::shared_ptr<const Mesh> inspected, const Aabb* re
 Surface refitted_surface(const Surface& like, Mesh mesh);
 
 // Winding number of a point with respect to a solid; empty if the point is on the surface.
-std::optional<int> winding_number(const Surface& surface, Vec3 point);
+std::optional<int> winding_number(const Surface& surface, Vec3 point, Budget* budget = nullptr);
 
 inline std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
   const Triangle& t = mesh.triangles[triangle];

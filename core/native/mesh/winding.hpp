@@ -35,16 +35,16 @@ inline constexpr int kMaxSegments = 512;
 // triangle, 0 when it misses, nothing when it meets an edge or a corner or runs in the plane.
 // p must not lie in the triangle, and `far` outside the mesh's box.
 template <class Point>
-std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c) {
+std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr) {
   // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation. These signs come first: if p lies in
   // the plane of many triangles, only the sign of that plane is costly.
-  const int ab = orientation(far, a, b, p);
-  const int bc = orientation(far, b, c, p);
+  const int ab = orientation(far, a, b, p, budget);
+  const int bc = orientation(far, b, c, p, budget);
   if (ab * bc < 0) return 0;
-  const int ca = orientation(far, c, a, p);
+  const int ca = orientation(far, c, a, p, budget);
   if (ab * ca < 0 || bc * ca < 0) return 0;
-  const int to = orientation(a, b, c, far);
-  const int from = orientation(a, b, c, p);
+  const int to = orientation(a, b, c, far, budget);
+  const int from = orientation(a, b, c, p, budget);
   if (from == 0 && to == 0) {
     if (collinear(a, b, c)) return 0;
     return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Ve
 // one of them cannot be decided.
 template <class Point, class Counts>
 std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far,
-                                 Counts counts) {
+                                 Counts counts, Budget* budget) {
   Aabb path = point_box(p);
   path.include(far);
   int winding = 0;
@@ -66,10 +66,10 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
     if (!counts(t)) return true;
     const Triangle& v = mesh.triangles[t];
     const auto crossing =
-        segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
+        segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]], budget);
     winding += crossing.value_or(0);
     return crossing.has_value();
-  });
+  }, budget);
   if (!generic) return std::nullopt;
   return winding;
 }
@@ -77,38 +77,39 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
 // The triangles that contain p. `known` contains p and is not tested.
 template <class Point>
 std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p,
-                                        std::optional<std::uint32_t> known = {}) {
+                                        std::optional<std::uint32_t> known = {}, Budget* budget = nullptr) {
   std::vector<std::uint32_t> triangles;
   if (known) triangles.push_back(*known);
   visit_box(bvh, mesh, point_box(p), [&](std::uint32_t t) {
     if (t == known) return true;
     const Triangle& v = mesh.triangles[t];
-    if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) triangles.push_back(t);
+    const Vec3 a = mesh.vertices[v[0]], b = mesh.vertices[v[1]], c = mesh.vertices[v[2]];
+    if (point_in_triangle(p, a, b, c, budget)) triangles.push_back(t);
     return true;
-  });
+  }, budget);
   return triangles;
 }
 
 // Winding number of p with respect to the triangles that `counts(t)` accepts; nothing when p lies on
 // one of them.
 template <class Point, class Counts>
-std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Counts counts) {
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Counts counts, Budget* budget = nullptr) {
   if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return 0;
-  for (const std::uint32_t t : triangles_at(mesh, bvh, p)) {
+  for (const std::uint32_t t : triangles_at(mesh, bvh, p, {}, budget)) {
     if (counts(t)) return std::nullopt;
   }
   const Aabb& bounds = bvh.nodes[0].box;
   const Heading first = nearest_wall(bounds, rounded_point(p));
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
     const Vec3 far = outside_point(bounds, rounded_point(p), first, attempt);
-    if (const auto winding = sum_crossings(mesh, bvh, p, far, counts)) return winding;
+    if (const auto winding = sum_crossings(mesh, bvh, p, far, counts, budget)) return winding;
   }
   return std::nullopt;
 }
 
 template <class Point>
-std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p) {
-  return winding_number(mesh, bvh, p, [](std::uint32_t) { return true; });
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Budget* budget = nullptr) {
+  return winding_number(mesh, bvh, p, [](std::uint32_t) { return true; }, budget);
 }
 
 // Winding numbers just beside a point, in front of and behind a triangle through it.
@@ -127,9 +128,9 @@ struct Beside {
 // and p is inside it.
 template <class Point>
 std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
-                                     Vec3 c, std::optional<std::uint32_t> known = {}) {
+                                     Vec3 c, std::optional<std::uint32_t> known = {}, Budget* budget = nullptr) {
   if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
-  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known);
+  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known, budget);
   const Vec3 normal = rounded_normal(a, b, c);
   const int axis = projection_axis(normal);
   const int turn = orientation_2d(a, b, c, axis);
@@ -143,7 +144,7 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
     const Triangle& v = mesh.triangles[t];
     const Vec3 u[3] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
     for (int i = 0; i < 3; ++i) {
-      if (orientation(a, b, c, u[i]) != 0) return std::nullopt;
+      if (orientation(a, b, c, u[i], budget) != 0) return std::nullopt;
       on_an_edge = on_an_edge || orientation_2d_at(u[i], u[(i + 1) % 3], p, axis) == 0;
     }
     step += turn * orientation_2d(u[0], u[1], u[2], axis);
@@ -158,9 +159,9 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
   std::optional<int> front, back;
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
     const Vec3 far = outside_point(bounds, from, first, attempt);
-    const int side = here.empty() ? 1 : orientation(a, b, c, far);
+    const int side = here.empty() ? 1 : orientation(a, b, c, far, budget);
     if (side == 0 || (side > 0 ? front : back)) continue;
-    const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere);
+    const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere, budget);
     if (!winding) continue;
     (side > 0 ? front : back) = winding;
     if (!on_an_edge) (side > 0 ? back : front) = side > 0 ? *winding + step : *winding - step;

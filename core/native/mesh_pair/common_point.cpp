@@ -20,8 +20,8 @@ constexpr int kStrideHalvings = 3;
 // A step has to make the free ball larger by this factor.
 constexpr double kDeeper = 1 + 1.0 / 64;
 
-bool inside_both(const Surface& a, const Surface& b, Vec3 p) {
-  return winding_number(a, p).value_or(0) != 0 && winding_number(b, p).value_or(0) != 0;
+bool inside_both(const Surface& a, const Surface& b, Vec3 p, Budget* budget) {
+  return winding_number(a, p, budget).value_or(0) != 0 && winding_number(b, p, budget).value_or(0) != 0;
 }
 
 Vec3 unit_or_zero(Vec3 v) {
@@ -51,7 +51,7 @@ Vec3 starting_point(const Surface& a, const Surface& b, const MeshRelation& r) {
   return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }
 
-std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshRelation& r) {
+std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshRelation& r, Budget* budget) {
   if (!r.point) return std::nullopt;
   const Vec3 start = starting_point(a, b, r);
   const Vec3 into_a = inward(a, r.triangle_a), into_b = inward(b, r.triangle_b);
@@ -60,7 +60,7 @@ std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshR
   for (int k = 0; k < kHalvings; ++k, step *= 0.5) {
     for (const Vec3 way : ways) {
       if (way == Vec3{}) continue;
-      if (inside_both(a, b, start + way * step)) return start + way * step;
+      if (inside_both(a, b, start + way * step, budget)) return start + way * step;
     }
   }
   return std::nullopt;
@@ -69,12 +69,12 @@ std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshR
 }  // namespace
 
 std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
-                                        double enough) {
-  const std::optional<Vec3> start = first_inside(a, b, relation);
+                                        double enough, Budget* budget) {
+  const std::optional<Vec3> start = first_inside(a, b, relation, budget);
   if (!start) return std::nullopt;
   // No surface is within the ball that reaches to the nearer surface.
   Vec3 p = *start;
-  NearestPoint on_a = nearest_point(a, p), on_b = nearest_point(b, p);
+  NearestPoint on_a = nearest_point(a, p, budget), on_b = nearest_point(b, p, budget);
   for (int step = 0; step < kClimbSteps; ++step) {
     const double depth = std::fmin(on_a.distance, on_b.distance);
     if (depth > enough) break;
@@ -85,9 +85,9 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
       double stride = kStride * depth;
       for (int k = 0; k < kStrideHalvings && !climbed; ++k, stride *= 0.5) {
         const Vec3 q = p + way * stride;
-        const NearestPoint at_a = nearest_point(a, q);
+        const NearestPoint at_a = nearest_point(a, q, budget);
         if (at_a.distance <= depth * kDeeper) continue;
-        const NearestPoint at_b = nearest_point(b, q);
+        const NearestPoint at_b = nearest_point(b, q, budget);
         if (at_b.distance <= depth * kDeeper) continue;
         p = q;
         on_a = at_a;

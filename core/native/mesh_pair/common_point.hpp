@@ -17,6 +17,6 @@ struct CommonPoint {
 // Starts from the evidence of a relation with a common interior, and ends at a point deeper than `enough`. Empty if no
 // point with a proven winding number was found.
 std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
-                                        double enough = INFINITY);
+                                        double enough = INFINITY, Budget* budget = nullptr);
 
 }  // namespace satcheck

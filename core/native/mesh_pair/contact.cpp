@@ -65,9 +65,9 @@ class ContactSide {
       return collinear(t[0], t[1], t[2]);
     });
     for (ContactTriangle& c : contacts_) {
-      c.own = irregular_partners(side_.self, c.triangle);
-      c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out);
-      const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out);
+      c.own = irregular_partners(side_.self, c.triangle, side_.budget);
+      c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out, side_.budget);
+      const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out, side_.budget);
       c.cuts.insert(c.cuts.end(), own_cuts.begin(), own_cuts.end());
       stretches += c.cuts.empty() ? 1 : 3 + c.cuts.size();
     }
@@ -87,7 +87,7 @@ class ContactSide {
             });
             if (!known) samples.fail();
             return !samples.settled();
-          });
+          }, side_.budget);
       if (!goes_on) return;
     }
   }
@@ -99,11 +99,12 @@ class ContactSide {
 
 // Notes a generic point of a crossing. Each body has one winding number on each side of its triangle, and the triangle
 // of the other body passes from one side to the other.
-bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const LazyPoint& p, Samples& samples) {
-  const auto of_a = beside_inner(a, p, crossing.a), of_b = beside_inner(b, p, crossing.b);
+bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const LazyPoint& p, Samples& samples,
+                   Budget* budget) {
+  const auto of_a = beside_inner(a, p, crossing.a, budget), of_b = beside_inner(b, p, crossing.b, budget);
   if (!of_a || !of_b) return false;
   const Evidence where{crossing.a, crossing.b, p.rounded};
-  const Side side{a, b, true};
+  const Side side{a, b, true, budget};
   if (of_a->is_sheet() && of_b->is_sheet()) {
     samples.note_sheets_cross(where);
     return true;
@@ -128,35 +129,36 @@ void sample_pieces(ContactSide& a, ContactSide& b, Samples& samples) {
 
 }  // namespace
 
-PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing) {
+PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing, Budget* budget) {
   const auto [first, last] = crossing_ends(corners(a.mesh, crossing.a), corners(b.mesh, crossing.b));
   const LazyPoint from = lazy_meeting_point(first.plane, first.p, first.q);
   const LazyPoint to = lazy_meeting_point(last.plane, last.p, last.q);
   Samples samples;
   for (int k = 1; k <= kCrossingSamples; ++k) {
-    if (note_crossing(a, b, crossing, lazy_between(from, to, 1, k), samples)) break;
+    if (note_crossing(a, b, crossing, lazy_between(from, to, 1, k), samples, budget)) break;
   }
   return samples.facts();
 }
 
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted) {
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted,
+                        Budget* budget) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> from_a, from_b;
   for (const ContactPair& c : contacts) {
     from_a.emplace_back(c.a, c.b);
     from_b.emplace_back(c.b, c.a);
   }
-  ContactSide side_a({a, b, true}, std::move(from_a)), side_b({b, a, false}, std::move(from_b));
+  ContactSide side_a({a, b, true, budget}, std::move(from_a)), side_b({b, a, false, budget}, std::move(from_b));
   Samples samples;
   const FreeRegions free[] = {side_a.free_regions(), side_b.free_regions()};
   const bool apart = contacts.empty() && std::none_of(std::begin(free), std::end(free), [](const FreeRegions& f) { return f.any_inside(); });
   if (apart) return samples.facts();
-  find_plain_contact(a, b, contacts, samples);
+  find_plain_contact(a, b, contacts, samples, budget);
   for (const FreeRegions& f : free) f.sample_first(samples);
   for (const FreeRegions& f : free) f.sample_rest(samples);
   if (samples.settled()) return samples.facts();
   sample_pieces(side_a, side_b, samples);
-  if (!samples.facts().common) find_sheet_crossing(a, b, contacts, samples);
-  if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples);
+  if (!samples.facts().common) find_sheet_crossing(a, b, contacts, samples, budget);
+  if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples, budget);
   return samples.facts();
 }
 

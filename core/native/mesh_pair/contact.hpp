@@ -13,12 +13,13 @@ struct ContactPair {
 };
 
 // The facts at a generic point where two triangles cross. Usually they settle the relation.
-PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing);
+PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing, Budget* budget = nullptr);
 
 // relation: boundaries that only touch count too. overlap: only common interiors count.
 enum class Wanted { relation, overlap };
 
 // Settled or complete facts; facts about contact only if wanted. `contacts`: every pair with a common point.
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted);
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted,
+                        Budget* budget = nullptr);
 
 }  // namespace satcheck

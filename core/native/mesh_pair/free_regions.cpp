@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/patches.hpp"
-#include "base/work.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/self_contact.hpp"
 
@@ -15,8 +14,8 @@ namespace {
 constexpr std::uint64_t kTriangleWork = 10;
 
 template <class IsFree>
-DisjointSets connect_corners(const Mesh& mesh, IsFree is_free) {
-  work_done += kTriangleWork * mesh.triangles.size();
+DisjointSets connect_corners(const Mesh& mesh, IsFree is_free, Budget* budget) {
+  spend(budget, kTriangleWork * mesh.triangles.size());
   DisjointSets sets(mesh.vertices.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_free(t)) continue;
@@ -35,7 +34,7 @@ FreeRegions::FreeRegions(const Side& side, std::vector<bool> in_contact)
     for (const std::uint32_t triangle : side_.self.parts) add(triangle);
     return;
   }
-  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });
+  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); }, side_.budget);
   std::vector<bool> known(mesh.vertices.size(), false);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_free(t)) continue;
@@ -47,7 +46,7 @@ FreeRegions::FreeRegions(const Side& side, std::vector<bool> in_contact)
 
 void FreeRegions::add(std::uint32_t triangle) {
   const Mesh& mesh = side_.self.mesh;
-  const auto theirs = winding_number(side_.other, mesh.vertices[mesh.triangles[triangle][0]]);
+  const auto theirs = winding_number(side_.other, mesh.vertices[mesh.triangles[triangle][0]], side_.budget);
   known_ = known_ && theirs.has_value();
   regions_.push_back({triangle, theirs.value_or(0)});
 }
@@ -73,13 +72,13 @@ void FreeRegions::sample_first_of(const Region& region, Samples& samples) const 
   if (!collinear(c[0], c[1], c[2])) {
     visit_pieces(c, {}, Touching::left_out, [&](const Piece& piece) {
       return samples.note_free(side_, region.triangle, piece.sample(0), region.theirs);
-    });
+    }, side_.budget);
   }
 }
 
 void FreeRegions::sample_every_piece(Samples& samples) const {
   const Mesh& mesh = side_.self.mesh;
-  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });
+  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); }, side_.budget);
   std::vector<int> theirs_of_set(mesh.vertices.size(), 0);
   for (const Region& region : regions_) {
     theirs_of_set[sets.find(mesh.triangles[region.triangle][0])] = region.theirs;
@@ -92,7 +91,7 @@ void FreeRegions::sample_every_piece(Samples& samples) const {
     });
     if (!known) samples.fail();
     return !samples.settled();
-  });
+  }, side_.budget);
 }
 
 }  // namespace satcheck

@@ -65,8 +65,8 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
 }
 
 MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
-                             Wanted wanted) {
-  MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted));
+                             Wanted wanted, Budget* budget) {
+  MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted, budget));
   if (result.relation == Relation::separated && !contacts.empty()) {
     // Triangles without area bound no volume, but they are part of the surface.
     const Vec3 point = contact_point(corners(a.mesh, contacts[0].a), corners(b.mesh, contacts[0].b));
@@ -76,54 +76,58 @@ MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vect
   return result;
 }
 
-std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& b, const SurfaceContacts& contacts) {
+std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& b, const SurfaceContacts& contacts,
+                                               Budget* budget) {
   if (contacts.crossing) {
-    if (!facts_at_crossing(a, b, *contacts.crossing).settled()) return std::nullopt;
+    if (!facts_at_crossing(a, b, *contacts.crossing, budget).settled()) return std::nullopt;
     return crossing_relation(a, b, *contacts.crossing);
   }
   if (!contacts.contacts.empty()) return std::nullopt;
-  return judged_relation(a, b, {}, Wanted::relation);
+  return judged_relation(a, b, {}, Wanted::relation, budget);
 }
 
 bool overlaps(const MeshRelation& r) {
   return r.relation != Relation::separated && r.relation != Relation::touching;
 }
 
-MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted) {
-  if (const auto simple = simple_relation_of(a, b, contacts)) return *simple;
-  if (!contacts.crossing) return judged_relation(a, b, contacts.contacts, wanted);
-  const MeshRelation judged = judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
+MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
+                                Budget* budget) {
+  if (const auto simple = simple_relation_of(a, b, contacts, budget)) return *simple;
+  if (!contacts.crossing) return judged_relation(a, b, contacts.contacts, wanted, budget);
+  const std::vector<ContactPair> all = find_contacts(a, b, AtCrossing::go_on, budget).contacts;
+  const MeshRelation judged = judged_relation(a, b, all, wanted, budget);
   // Each triangle bounds material, is within it, or is a sheet. If two triangles cross, the bodies overlap, even if
   // samples do not show it.
   return overlaps(judged) ? judged : crossing_relation(a, b, *contacts.crossing);
 }
 
 // The relation of two closed surfaces, for any triangles.
-MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted) {
-  return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop), wanted);
+MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
+  return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop, budget), wanted, budget);
 }
 
 // Whether boundaries cross here, and not internal walls of a body.
-bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing) {
-  return facts_at_crossing(pair.a(), pair.b(), crossing).settled();
+bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing, Budget* budget) {
+  return facts_at_crossing(pair.a(), pair.b(), crossing, budget).settled();
 }
 
 // If surfaces cross, the bodies overlap for every fill. Else the closed surfaces decide, unless the answer depends on
 // the fill of a hole. The open surfaces, read as sheets, show overlaps that no fill removes.
-MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted) {
+MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
+                              Budget* budget) {
   if (contacts.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *contacts.crossing);
   const ClosedPair filled(a, b, OpenParts::filled);
-  if (contacts.crossing && crosses_boundaries(filled, *contacts.crossing)) {
+  if (contacts.crossing && crosses_boundaries(filled, *contacts.crossing, budget)) {
     return crossing_relation(a, b, *contacts.crossing);
   }
-  const Holes holes = holes_between(filled);
+  const Holes holes = holes_between(filled, budget);
   MeshRelation result;
   if (holes.in_the_way) {
     const ClosedPair sheets(a, b, OpenParts::sheets);
-    result = relation_of_points(sheets.a(), sheets.b(), wanted);
+    result = relation_of_points(sheets.a(), sheets.b(), wanted, budget);
     if (!overlaps(result)) result.hole = holes.in_the_way;
   } else {
-    result = relation_of_points(filled.a(), filled.b(), wanted);
+    result = relation_of_points(filled.a(), filled.b(), wanted, budget);
     const bool by_the_surfaces = result.relation == Relation::touching && !contacts.contacts.empty();
     if (!overlaps(result) && !by_the_surfaces) result.hole = holes.touched;
   }
@@ -139,21 +143,21 @@ MeshRelation with_counts(MeshRelation result, const SurfaceContacts& contacts) {
   return result;
 }
 
-MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted) {
+MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
+  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget);
   const bool closed = a.solid && b.solid;
   const auto relation_of = closed ? relation_of_closed : relation_of_open;
-  return with_counts(relation_of(a, b, contacts, wanted), contacts);
+  return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);
 }
 
 std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
   const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
-  const auto result = simple_relation_of(a, b, contacts);
+  const auto result = simple_relation_of(a, b, contacts, nullptr);
   return result ? std::optional(with_counts(*result, contacts)) : std::nullopt;
 }
 
@@ -167,17 +171,21 @@ MeshRelation mirrored(MeshRelation r) {
   return r;
 }
 
-MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted) {
-  return comes_before(a, b) ? relation_in_order(a, b, wanted) : mirrored(relation_in_order(b, a, wanted));
+MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
+  return comes_before(a, b) ? relation_in_order(a, b, wanted, budget) : mirrored(relation_in_order(b, a, wanted, budget));
 }
 
 }  // namespace
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::relation); }
+MeshRelation mesh_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::relation, nullptr); }
 
-MeshRelation overlap_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::overlap); }
+MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget) {
+  return relation_of(a, b, Wanted::overlap, budget);
+}
 
-MeshRelation closed_relation(const Surface& a, const Surface& b) { return relation_of_points(a, b, Wanted::relation); }
+MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget) {
+  return relation_of_points(a, b, Wanted::relation, budget);
+}
 
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
   if (comes_before(a, b)) return simple_relation_in_order(a, b);

@@ -43,10 +43,10 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b);
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
 // `inside`, the inner body may reach the surface of the outer one.
-MeshRelation overlap_relation(const Surface& a, const Surface& b);
+MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget = nullptr);
 
 // The same for two closed surfaces by their points only: sheets with equal triangles touch.
-MeshRelation closed_relation(const Surface& a, const Surface& b);
+MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget = nullptr);
 
 // The same for two closed surfaces with different boxes; empty unless one crossing settles the relation or there is no
 // contact. It visits little outside of the intersection of the two boxes.

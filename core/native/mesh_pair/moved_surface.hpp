@@ -24,7 +24,7 @@ class MovedSurface {
 
   // The surface with t added to every coordinate, rounded once. Rounding keeps the order of coordinates, so the moved
   // boxes contain the moved triangles exactly. Valid until the next call.
-  const Surface& at(Vec3 t) {
+  const Surface& at(Vec3 t, Budget* budget = nullptr) {
     const auto move_box = [&](const Aabb& box) { return Aabb{box.min + t, box.max + t}; };
     for (std::size_t i = 0; i < still_.mesh.vertices.size(); ++i) {
       moved_mesh_->vertices[i] = still_.mesh.vertices[i] + t;
@@ -35,18 +35,18 @@ class MovedSurface {
     for (std::size_t i = 0; i < still_.bvh.boxes.size(); ++i) {
       moved_.bvh.boxes[i] = move_box(still_.bvh.boxes[i]);
     }
-    if (!still_.solid) moved_.closings = moved_closings(t);
+    if (!still_.solid) moved_.closings = moved_closings(t, budget);
     return moved_;
   }
 
  private:
-  std::shared_ptr<LazyClosings> moved_closings(Vec3 t) {
+  std::shared_ptr<LazyClosings> moved_closings(Vec3 t, Budget* budget) {
     const Closing& still = *closing_of(still_, OpenParts::filled);
     const std::shared_ptr<const Surface> closed{std::shared_ptr<void>{}, &closed_->at(t)};
     auto closings = std::make_shared<LazyClosings>();
     // The boxes of the holes are not moved: only their size is used.
     closings->made[static_cast<std::size_t>(OpenParts::filled)] =
-        std::make_shared<const Closing>(Closing{closed, still.holes, hulls_of(*moved_mesh_, still.holes)});
+        std::make_shared<const Closing>(Closing{closed, still.holes, hulls_of(*moved_mesh_, still.holes, budget)});
     return closings;
   }
 

@@ -22,9 +22,9 @@ Clearness clearness_of(const MeshRelation& hull_to_body) {
   }
 }
 
-bool meets_a_triangle(const Aabb& box, const Surface& surface) {
+bool meets_a_triangle(const Aabb& box, const Surface& surface, Budget* budget) {
   if (surface.bvh.nodes.empty()) return false;
-  return !visit_box(surface.bvh, surface.mesh, box, [](std::uint32_t) { return false; });
+  return !visit_box(surface.bvh, surface.mesh, box, [](std::uint32_t) { return false; }, budget);
 }
 
 const Aabb& box_of(const Surface& hull) { return hull.bvh.nodes[0].box; }
@@ -32,8 +32,8 @@ const Aabb& box_of(const Surface& hull) { return hull.bvh.nodes[0].box; }
 // The holes of one surface against the other surface.
 class HoledSide {
  public:
-  HoledSide(const Closing& holed, const Surface& other, const Closing* closing_of_other, bool is_a)
-      : holed_(holed), other_(other), closing_of_other_(closing_of_other), is_a_(is_a) {}
+  HoledSide(const Closing& holed, const Surface& other, const Closing* closing_of_other, bool is_a, Budget* budget)
+      : holed_(holed), other_(other), closing_of_other_(closing_of_other), is_a_(is_a), budget_(budget) {}
 
   void look(Holes& holes) const {
     for (std::size_t k = 0; k < holed_.hulls.size() && !holes.in_the_way; ++k) {
@@ -46,13 +46,13 @@ class HoledSide {
  private:
   Clearness clearness_at(std::size_t k) const {
     const Surface& hull = holed_.hulls[k];
-    if (hull.bvh.nodes.empty() || !meets_a_triangle(box_of(hull), other_)) return Clearness::clear;
-    Clearness clearness = clearness_of(closed_relation(hull, other_));
+    if (hull.bvh.nodes.empty() || !meets_a_triangle(box_of(hull), other_, budget_)) return Clearness::clear;
+    Clearness clearness = clearness_of(closed_relation(hull, other_, budget_));
     if (closing_of_other_ == nullptr) return clearness;
     for (const Surface& theirs : closing_of_other_->hulls) {
       if (clearness == Clearness::in_the_way) break;
       if (theirs.bvh.nodes.empty() || !meet(box_of(theirs), box_of(hull))) continue;
-      const MeshRelation relation = closed_relation(hull, theirs);
+      const MeshRelation relation = closed_relation(hull, theirs, budget_);
       // Within the hull of another hole, the answer is unknown.
       const bool within = relation.relation == Relation::inside;
       clearness = std::max(clearness, within ? Clearness::in_the_way : clearness_of(relation));
@@ -69,6 +69,7 @@ class HoledSide {
   const Surface& other_;
   const Closing* closing_of_other_;
   bool is_a_;
+  Budget* budget_;
 };
 
 }  // namespace
@@ -78,11 +79,11 @@ ClosedPair::ClosedPair(const Surface& a, const Surface& b, OpenParts open) : a_(
   if (!b.solid) of_b_ = closing_of(b, open);
 }
 
-Holes holes_between(const ClosedPair& pair) {
+Holes holes_between(const ClosedPair& pair, Budget* budget) {
   Holes holes;
-  if (pair.closing_a()) HoledSide(*pair.closing_a(), pair.b(), pair.closing_b(), true).look(holes);
+  if (pair.closing_a()) HoledSide(*pair.closing_a(), pair.b(), pair.closing_b(), true, budget).look(holes);
   if (pair.closing_b() && !holes.in_the_way) {
-    HoledSide(*pair.closing_b(), pair.a(), pair.closing_a(), false).look(holes);
+    HoledSide(*pair.closing_b(), pair.a(), pair.closing_a(), false, budget).look(holes);
   }
   return holes;
 }

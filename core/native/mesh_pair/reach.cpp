@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/work.hpp"
+#include "base/budget.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/nearest_point.hpp"
 
@@ -37,31 +37,31 @@ class Reach {
   }
 
   // Puts the halves of a piece on the list if they may reach deeper. Whether a point of it does for certain.
-  bool look_at(const Corners& c, std::vector<Corners>& open) const {
-    work_done += kPieceWork;
+  bool look_at(const Corners& c, std::vector<Corners>& open, Budget& budget) const {
+    budget.spend(kPieceWork);
     if (!meet(box_of(c), core_)) return false;
     const Vec3 centre = (c[0] + c[1] + c[2]) * (1.0 / 3);
     double radius = 0, to_nearest = 0;
     for (const Vec3 v : c) radius = std::fmax(radius, norm(v - centre));
-    const NearestPoint nearest = nearest_point(solid_, centre);
+    const NearestPoint nearest = nearest_point(solid_, centre, &budget);
     const Corners target = corners(solid_.mesh, nearest.triangle);
     for (const Vec3 v : c) to_nearest = std::fmax(to_nearest, norm(nearest_on_triangle(v, target) - v));
     if (std::fmin(to_nearest, nearest.distance + radius) <= length_) return false;
-    const auto winding = winding_number(solid_, centre);
+    const auto winding = winding_number(solid_, centre, &budget);
     if (winding && *winding != 0 && nearest.distance > length_) return true;
-    if (winding && *winding == 0 && (radius - nearest.distance <= length_ || !meets(c))) return false;
+    if (winding && *winding == 0 && (radius - nearest.distance <= length_ || !meets(c, budget))) return false;
     halve(c, open);
     return false;
   }
 
  private:
-  bool meets(const Corners& c) const {
+  bool meets(const Corners& c, Budget& budget) const {
     bool meets = false;
     visit_box(solid_.bvh, solid_.mesh, box_of(c), [&](std::uint32_t t) {
-      work_done += kTriangleWork;
-      meets = triangle_distance(c, corners(solid_.mesh, t)).distance_squared == 0;
+      budget.spend(kTriangleWork);
+      meets = triangle_distance(c, corners(solid_.mesh, t), &budget).distance_squared == 0;
       return !meets;
-    });
+    }, &budget);
     return meets;
   }
 
@@ -85,15 +85,15 @@ class Reach {
 
 std::optional<bool> reaches_deeper(const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
   if (solid.bvh.nodes.empty()) return false;
-  const std::uint64_t start = work_done;
+  Budget budget(work);
   const Reach reach(solid, length);
   std::vector<Corners> open, next;
   for (std::uint32_t t = 0; t < surface_of.triangles.size(); ++t) open.push_back(corners(surface_of, t));
   for (; !open.empty(); open.swap(next)) {  // large pieces first
     next.clear();
     for (const Corners& piece : open) {
-      if (reach.look_at(piece, next)) return true;
-      if (work_done - start > work) return std::nullopt;
+      if (reach.look_at(piece, next, budget)) return true;
+      if (budget.spent() > work) return std::nullopt;
     }
   }
   return false;

@@ -3,7 +3,7 @@
 namespace satcheck {
 
 bool Samples::note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs) {
-  const auto mine = beside(side.self, p, corners(side.self.mesh, t));
+  const auto mine = beside(side.self, p, corners(side.self.mesh, t), side.budget);
   if (!mine) return false;
   note_beside(side, *mine, {theirs, theirs}, side.evidence(t, kNoTriangle, p.rounded));
   return true;
@@ -11,9 +11,9 @@ bool Samples::note_free(const Side& side, std::uint32_t t, const ExactPoint& p, 
 
 bool Samples::note_at(const Side& side, std::uint32_t t, std::uint32_t partner, const ExactPoint& p) {
   const Corners c = corners(side.self.mesh, t);
-  const auto theirs = beside(side.other, p, c);
+  const auto theirs = beside(side.other, p, c, side.budget);
   if (!theirs) return false;
-  const auto mine = beside(side.self, p, c);
+  const auto mine = beside(side.self, p, c, side.budget);
   if (!mine) return false;
   note_beside(side, *mine, *theirs, side.evidence(t, partner, p.rounded));
   return true;

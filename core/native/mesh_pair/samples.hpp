@@ -14,6 +14,7 @@ struct Side {
   const Surface& self;
   const Surface& other;
   bool self_is_a;
+  Budget* budget;
 
   Evidence evidence(std::uint32_t mine, std::uint32_t theirs, Vec3 point) const {
     return self_is_a ? Evidence{mine, theirs, point} : Evidence{theirs, mine, point};
@@ -22,14 +23,14 @@ struct Side {
 
 // Winding numbers of the surface beside a point of triangle t of any mesh; empty if the point lies on a triangle of the
 // surface in another plane.
-inline std::optional<Beside> beside(const Surface& s, const ExactPoint& p, const Corners& t) {
-  return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2]);
+inline std::optional<Beside> beside(const Surface& s, const ExactPoint& p, const Corners& t, Budget* budget = nullptr) {
+  return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2], {}, budget);
 }
 
 // The same beside a point that is known to be inside triangle t of the surface.
-inline std::optional<Beside> beside_inner(const Surface& s, const LazyPoint& p, std::uint32_t t) {
+inline std::optional<Beside> beside_inner(const Surface& s, const LazyPoint& p, std::uint32_t t, Budget* budget) {
   const Corners c = corners(s.mesh, t);
-  return winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], t);
+  return winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], t, budget);
 }
 
 class Samples {

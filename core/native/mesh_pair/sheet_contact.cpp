@@ -36,7 +36,7 @@ struct Hinge {
 // that is partly a sheet counts as a sheet, and unsure() is then true.
 class Sheets {
  public:
-  explicit Sheets(const Surface& surface) : surface_(surface) {}
+  Sheets(const Surface& surface, Budget* budget) : surface_(surface), budget_(budget) {}
 
   bool include(std::uint32_t t) {
     const auto [entry, is_new] = known_.try_emplace(t, false);
@@ -50,26 +50,28 @@ class Sheets {
   bool is_sheet(std::uint32_t t) {
     const Corners c = corners(surface_.mesh, t);
     if (collinear(c[0], c[1], c[2])) return false;
-    const auto partners = irregular_partners(surface_, t);
+    const auto partners = irregular_partners(surface_, t, budget_);
     if (partners.empty()) return false;  // it has material on one side
     bool any = false, all = true;
-    visit_pieces(c, find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::left_out), Touching::left_out,
+    const auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::left_out, budget_);
+    visit_pieces(c, cuts, Touching::left_out,
                  [&](const Piece& piece) {
                    bool sheet = false;
                    const bool known = sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
-                     const auto sides = beside(surface_, p, c);
+                     const auto sides = beside(surface_, p, c, budget_);
                      sheet = sides && sides->is_sheet();
                      return sides.has_value();
                    });
                    any = any || sheet || !known;
                    all = all && sheet;
                    return true;
-                 });
+                 }, budget_);
     unsure_ = unsure_ || any != all;
     return any;
   }
 
   const Surface& surface_;
+  Budget* budget_;
   std::unordered_map<std::uint32_t, bool> known_;
   bool unsure_ = false;
 };
@@ -264,8 +266,9 @@ std::vector<std::uint32_t> triangles_of(const std::vector<SheetPair>& pairs, Mem
 
 }  // namespace
 
-void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples) {
-  Sheets of_a(a), of_b(b);
+void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples,
+                         Budget* budget) {
+  Sheets of_a(a, budget), of_b(b, budget);
   const std::vector<SheetPair> pairs = sheet_pairs(a, b, of_a, of_b, contacts);
   if (pairs.empty()) return;
   const Hinges hinges_a(a.mesh, of_a, triangles_of(pairs, &SheetPair::a));

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "base/work.hpp"
 #include "exact/triangle_pair.hpp"
 
 namespace satcheck {
@@ -18,8 +17,8 @@ constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 20, kContactWork = 150;
 
 class Traversal {
  public:
-  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing)
-      : a_(a), b_(b), at_crossing_(at_crossing) {}
+  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget)
+      : a_(a), b_(b), at_crossing_(at_crossing), budget_(budget) {}
 
   SurfaceContacts run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
@@ -40,8 +39,8 @@ class Traversal {
         stack.emplace_back(i, n.first);
       }
     }
-    work_done += kBoxWork * contacts_.box_tests + kTriangleWork * contacts_.triangle_tests;
-    work_done += kContactWork * contacts_.contacts.size();
+    spend(budget_, kBoxWork * contacts_.box_tests + kTriangleWork * contacts_.triangle_tests +
+                       kContactWork * contacts_.contacts.size());
     return std::move(contacts_);
   }
 
@@ -64,7 +63,7 @@ class Traversal {
         if (!meets(b_, l, box)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
         ++contacts_.triangle_tests;
-        const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
+        const TriangleContact contact = classify(plane, corners(b_.mesh, tb), budget_);
         if (contact == TriangleContact::disjoint) continue;
         if (contact == TriangleContact::crossing && !contacts_.crossing) contacts_.crossing = ContactPair{ta, tb};
         if (ended()) return;
@@ -76,13 +75,14 @@ class Traversal {
   const Surface& a_;
   const Surface& b_;
   AtCrossing at_crossing_;
+  Budget* budget_;
   SurfaceContacts contacts_;
 };
 
 }  // namespace
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing) {
-  return Traversal(a, b, at_crossing).run();
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget) {
+  return Traversal(a, b, at_crossing, budget).run();
 }
 
 }  // namespace satcheck

@@ -18,6 +18,6 @@ struct SurfaceContacts {
 
 enum class AtCrossing { stop, go_on };
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing);
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/nearest_point.hpp"
 #include "thickness/cell_cut.hpp"
@@ -53,8 +52,8 @@ struct Nearest {
 class CellBound {
  public:
   CellBound(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
-            ThicknessRecord* record)
-      : bodies_(bodies), axes_(axes), open_(open), cell_(open.cell), best_(best), enough_(enough), consider_(consider), record_(record), box_(cell_.box()) {}
+            ThicknessRecord* record, Budget& budget)
+      : bodies_(bodies), axes_(axes), open_(open), cell_(open.cell), best_(best), enough_(enough), consider_(consider), record_(record), budget_(budget), box_(cell_.box()) {}
 
   void run() {
     floor_ = -std::fmax(bodies_.less(0), bodies_.less(1));
@@ -99,19 +98,19 @@ class CellBound {
   bool is_outside(int body) {
     const auto side = static_cast<std::size_t>(body);
     if (open_.inside[side]) return false;
-    if (!open_.met[side]) open_.met[side] = bodies_.patches_at(body, box_);
+    if (!open_.met[side]) open_.met[side] = bodies_.patches_at(body, box_, budget_);
     PatchList& met = *open_.met[side];
-    work_done += kFilterWork * met.size();
+    budget_.spend(kFilterWork * met.size());
     std::erase_if(met, [&](std::uint32_t i) { return !may_meet(body, i); });
     if (!met.empty()) return false;
     if (is_void_at_middle(body)) return true;
-    open_.inside[side] = bodies_.is_inside(body, middle_);
+    open_.inside[side] = bodies_.is_inside(body, middle_, budget_);
     return false;
   }
 
   bool is_void_at_middle(int body) {
     auto& known = void_at_middle_[static_cast<std::size_t>(body)];
-    if (!known) known = bodies_.is_outside(body, middle_);
+    if (!known) known = bodies_.is_outside(body, middle_, budget_);
     return *known;
   }
 
@@ -121,7 +120,7 @@ class CellBound {
     for (int body = 0; body < 2; ++body) {
       const auto& met = open_.met[static_cast<std::size_t>(body)];
       if (met && met->size() <= kCrowd) continue;
-      if (bodies_.patches_at(body, box_, kCrowd + 1).size() <= kCrowd || !is_void_at_middle(body)) continue;
+      if (bodies_.patches_at(body, box_, budget_, kCrowd + 1).size() <= kCrowd || !is_void_at_middle(body)) continue;
       open_.bound = std::fmin(open_.bound, radius_ + cell_.error + bodies_.rounding() - bodies_.less(body));
       return true;
     }
@@ -135,11 +134,11 @@ class CellBound {
       const auto side = static_cast<std::size_t>(body);
       const Aabb around = reach_of(body);
       if (!open_.near) {
-        (*lists)[side] = bodies_.patches_at(body, around);
+        (*lists)[side] = bodies_.patches_at(body, around, budget_);
         continue;
       }
       const PatchList& known = near_to(body);
-      work_done += kFilterWork * known.size();
+      budget_.spend(kFilterWork * known.size());
       std::copy_if(known.begin(), known.end(), std::back_inserter((*lists)[side]),
                    [&](std::uint32_t i) { return meet(bodies_.box(body, i), around); });
     }
@@ -155,7 +154,7 @@ class CellBound {
       const auto hollow = hollow_of(body);
       if (!hollow) continue;
       const CellVoid here{cell_, body, met, *hollow, open_.near ? &(*open_.near)[1 - side] : nullptr};
-      const double bound = bound_around(here, bodies_, kWorthwhile * std::fmin(open_.bound, radius_));
+      const double bound = bound_around(here, bodies_, kWorthwhile * std::fmin(open_.bound, radius_), budget_);
       open_.bound = std::fmin(open_.bound, bound);
     }
   }
@@ -176,14 +175,14 @@ class CellBound {
     for (const HalfSpace& side : cell_.sides) {
       if (dot(side.normal, front) > side.height - close) return std::nullopt;
     }
-    return bodies_.is_outside(body, front) ? std::optional(front) : std::nullopt;
+    return bodies_.is_outside(body, front, budget_) ? std::optional(front) : std::nullopt;
   }
 
   // Whether the patch may have a point in the interior of the cell.
   bool may_meet(int body, std::uint32_t number) const {
     if (!meet(bodies_.box(body, number), box_)) return false;
     const Patch& patch = bodies_.patch(body, number);
-    work_done += kDistanceWork;
+    budget_.spend(kDistanceWork);
     const double close = cell_.error + bodies_.rounding();
     if (bodies_.patches(body).distance(patch, middle_) > radius_ + patch.slack + close) return false;
     const Vec3* outline = bodies_.patches(body).outlines.data() + patch.first;
@@ -229,7 +228,7 @@ class CellBound {
   // Solves the game.
   void play() {
     game_->solve();
-    work_done += kGameWork * cell_.corners.size();
+    budget_.spend(kGameWork * cell_.corners.size());
     shares_ = game_->row_weights();
     point_ = {};
     for (std::size_t k = 0; k < cell_.corners.size(); ++k) point_ = point_ + cell_.corners[k].at * shares_[k];
@@ -259,7 +258,7 @@ class CellBound {
     columns_.push_back(column);
     only_planes_ = only_planes_ && column.plane;
     for (const Cell::Corner& corner : cell_.corners) values_.push_back(std::fmax(bodies_.value(column, corner.at), floor_of_game_));
-    work_done += kDistanceWork * cell_.corners.size();
+    budget_.spend(kDistanceWork * cell_.corners.size());
     game_->add({values_.data() + values_.size() - cell_.corners.size(), cell_.corners.size()});
     return true;
   }
@@ -267,7 +266,7 @@ class CellBound {
   // The plane of the patch, where that will do, or its distance.
   Column best_column(int body, std::uint32_t patch) const {
     const PatchList& near = near_to(body);
-    const auto plane = bodies_.plane_column(body, patch, reach_of(body), near, kPlaneTolerance * open_.bound);
+    const auto plane = bodies_.plane_column(body, patch, reach_of(body), near, kPlaneTolerance * open_.bound, budget_);
     return plane ? *plane : Column{patch, false, body, 0, 1};
   }
 
@@ -280,7 +279,7 @@ class CellBound {
     const auto compare = [&](std::uint32_t i) {
       const double reach = best.depth + tie;
       if (box_distance_squared(at, bodies_.box(body, i)) > reach * reach) return;
-      work_done += kDistanceWork;
+      budget_.spend(kDistanceWork);
       const Patch& patch = bodies_.patch(body, i);
       const double distance = bodies_.patches(body).distance(patch, p);
       if (distance > best.depth + tie) return;
@@ -297,17 +296,17 @@ class CellBound {
     }
     const PatchList& near = near_to(body);
     if (near.size() < kManyPatches || bodies_.in_plane()) {
-      work_done += kFilterWork * near.size();
+      budget_.spend(kFilterWork * near.size());
       for (const std::uint32_t i : near) compare(i);
     } else {
       const Surface& surface = bodies_.surface(body);
-      const double reach = nearest_point(surface, p).distance + 2 * tie;
+      const double reach = nearest_point(surface, p, &budget_).distance + 2 * tie;
       const Vec3 wide{reach, reach, reach};
       visit_box(surface.bvh, surface.mesh, {p - wide, p + wide}, [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];
         if (i != kNoPatch) compare(i);
         return true;
-      });
+      }, &budget_);
     }
     best.depth -= bodies_.less(body);
     return best;
@@ -330,7 +329,7 @@ class CellBound {
   void choose_cut() {
     if (outside_ >= 0) {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
-      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer);
+      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer, budget_);
     }
     if (!open_.cut) open_.cut = cut_at_gap(gap(), kWorthCut * (open_.bound - enough_));
   }
@@ -338,7 +337,7 @@ class CellBound {
   // What makes the bound larger than the depth of the game's point: columns that are not linear, those that the bound rests
   // on and the one that is the depth of that point.
   CellGap gap() const {
-    CellGap gap{bodies_, axes_, cell_, {}, shares_, point_};
+    CellGap gap{bodies_, axes_, cell_, {}, shares_, point_, budget_};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const Column& column = columns_[c];
       const Nearest& nearest = nearest_[static_cast<std::size_t>(column.body)];
@@ -373,6 +372,7 @@ class CellBound {
   double best_, enough_;
   const Consider& consider_;
   ThicknessRecord* record_;
+  Budget& budget_;
   Aabb box_;
   double floor_ = 0, floor_of_game_ = 0;
   Vec3 middle_;        // a point of the cell
@@ -394,8 +394,8 @@ class CellBound {
 }  // namespace
 
 void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
-                ThicknessRecord* record) {
-  CellBound(bodies, axes, open, best, enough, consider, record).run();
+                ThicknessRecord* record, Budget& budget) {
+  CellBound(bodies, axes, open, best, enough, consider, record, budget).run();
 }
 
 }  // namespace satcheck

@@ -32,6 +32,6 @@ using Consider = std::function<int(Vec3 p)>;
 // `inside` are those of the cell it comes from. best: points that are no deeper are not considered. record: why the bound
 // holds is written there, if it is not null.
 void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
-                ThicknessRecord* record);
+                ThicknessRecord* record, Budget& budget);
 
 }  // namespace satcheck

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/work.hpp"
-
 namespace satcheck {
 namespace {
 
@@ -48,7 +46,7 @@ class Chooser {
   double sum_at(Vec3 p) const {
     double sum = 0;
     for (const CellGap::Term& term : gap_.terms) sum += term.weight * gap_.bodies.value(term.column, p);
-    work_done += kDistanceWork * gap_.terms.size();
+    gap_.budget.spend(kDistanceWork * gap_.terms.size());
     return sum;
   }
 
@@ -139,11 +137,11 @@ class Chooser {
 std::optional<HalfSpace> cut_at_gap(const CellGap& gap, double least) { return Chooser(gap).choose(least); }
 
 std::optional<HalfSpace> cut_off_void(const Cell& cell, const ConvexPatches& patches, const PatchList& met, Vec3 point,
-                                      double layer) {
+                                      double layer, Budget& budget) {
   if (met.size() > kFewPatches || cell.corners.size() > kManyCorners) return std::nullopt;
   double distance = INFINITY;
   Vec3 on_wall;
-  work_done += kDistanceWork * met.size();
+  budget.spend(kDistanceWork * met.size());
   for (const std::uint32_t i : met) {
     const Vec3 nearest = patches.nearest(patches.patches[i], point);
     if (norm(point - nearest) >= distance) continue;

@@ -21,6 +21,7 @@ struct CellGap {
   std::vector<Term> terms;
   const std::vector<double>& shares;  // of the corners
   Vec3 mean;                          // of the corners
+  Budget& budget;
 };
 
 // Across the axis, or at the plane of a patch, that explains the gap best; else along an edge of a patch. Nothing: none
@@ -30,6 +31,6 @@ std::optional<HalfSpace> cut_at_gap(const CellGap& gap, double least);
 // Towards a point outside of the body, from the nearest one of the patches that meet the cell. layer: what is left of
 // the void on the side of the patch. Nothing where there are many patches or corners, or where the point is in that layer.
 std::optional<HalfSpace> cut_off_void(const Cell& cell, const ConvexPatches& patches, const PatchList& met, Vec3 point,
-                                      double layer);
+                                      double layer, Budget& budget);
 
 }  // namespace satcheck

@@ -24,7 +24,7 @@ double hull_bound(const ThicknessInterval& ball, const ThicknessGoal& goal) {
 }  // namespace
 
 ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal)
-    : goal_(goal), poller_(goal.poll), overlap_(overlap_components(a, b, kMostPairs, Unresolved::left_out)) {
+    : goal_(goal), budget_(goal.work, goal.poll), overlap_(overlap_components(a, b, kMostPairs, Unresolved::left_out)) {
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);
   for (const ThicknessInterval& ball : balls_) upper_.push_back(hull_bound(ball, goal));
@@ -47,9 +47,9 @@ bool ComponentSearch::are_thick(const ThicknessInterval& known) const {
 
 ThicknessInterval ComponentSearch::search(const ThicknessInterval& known, const SearchWithin& within) {
   bound(known);
-  left_ = goal_.work - std::min(goal_.work, known.work);
-  narrow(within, [&](std::size_t open) { return left_ / open; });
-  narrow(within, [&](std::size_t) { return left_; });
+  budget_.spend(known.work);
+  narrow(within, [&](std::size_t open) { return budget_.left() / open; });
+  narrow(within, [&](std::size_t) { return budget_.left(); });
   return bound(best_);
 }
 
@@ -81,7 +81,7 @@ void ComponentSearch::narrow(const SearchWithin& within, Share share) {
     if (upper_[k] > enough()) open.push_back(k);
   }
   std::stable_sort(open.begin(), open.end(), [&](auto p, auto q) { return upper_[p] > upper_[q]; });
-  for (std::size_t i = 0; i < open.size() && left_ > 0; ++i) {
+  for (std::size_t i = 0; i < open.size() && !budget_.is_spent(); ++i) {
     double& upper = upper_[open[i]];
     if (upper <= enough()) break;  // and so are those after it
     share_ = share(open.size() - i);
@@ -106,11 +106,11 @@ ThicknessInterval ComponentSearch::searched(ThicknessGoal& goal, const SearchWit
   goal.work = share_;
   if (goal_.poll) goal.poll = [this](const SearchState& of_one) { goal_.poll({best_.lower, best_.upper, best_.work + of_one.work}); };
   const ThicknessInterval interval = within(goal);
-  left_ -= std::min(left_, interval.work);
+  budget_.spend(interval.work);
   share_ -= std::min(share_, interval.work);
   best_.work += interval.work;
   best_.boxes += interval.boxes;
-  if (poller_.is_due(best_.work)) poller_.call({best_.lower, best_.upper, best_.work});
+  if (budget_.is_due()) budget_.tell(best_.lower, best_.upper);
   if (interval.found) take_point(interval);
   return interval;
 }

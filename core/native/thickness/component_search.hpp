@@ -38,13 +38,12 @@ class ComponentSearch {
   ThicknessInterval searched(ThicknessGoal& goal, const SearchWithin& within);
 
   const ThicknessGoal& goal_;
-  Poller poller_;
+  Budget budget_;
   OverlapComponents overlap_;
   std::vector<ThicknessInterval> balls_;
   ThicknessInterval best_;
   std::vector<double> upper_;  // of each component
-  std::uint64_t left_ = 0;     // of the work
-  std::uint64_t share_ = 0;    // of that, for one component
+  std::uint64_t share_ = 0;    // of the work that is left, for one component
 };
 
 }  // namespace satcheck

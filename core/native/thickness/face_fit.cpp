@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "base/work.hpp"
+#include "base/budget.hpp"
 #include "mesh/surface_order.hpp"
 #include "exact/triangle_pair.hpp"
 #include "thickness/strip_cell.hpp"
@@ -39,7 +39,8 @@ struct StripCell {
 
 class Proof {
  public:
-  Proof(const Surface& a, const Surface& b, double length) : surfaces_{&a, &b}, half_(length / 2) {
+  Proof(const Surface& a, const Surface& b, double length, std::uint64_t work)
+      : surfaces_{&a, &b}, half_(length / 2), budget_(work) {
     for (const Surface* surface : surfaces_) {
       const Aabb& box = surface->bvh.nodes[0].box;
       scale_ = larger(scale_, larger(max_abs(box.min), max_abs(box.max)));
@@ -49,12 +50,11 @@ class Proof {
     place_triangles();
   }
 
-  FaceFit run(std::uint64_t work) {
-    const std::uint64_t end = work_done + work;
+  FaceFit run() {
     std::vector<StripCell> open{root()};
     bool thick_bodies = true;
     while (!open.empty()) {
-      if (work_done > end) return FaceFit::open;
+      if (budget_.is_spent()) return FaceFit::open;
       StripCell cell = std::move(open.back());
       open.pop_back();
       const StripResult result = judged(cell);
@@ -152,9 +152,9 @@ class Proof {
     return true;
   }
 
-  StripResult judged(StripCell& cell) const {
+  StripResult judged(StripCell& cell) {
     const StripRegion largest = region(cell, kFarthest);
-    work_done += kMeetWork * cell.near.size();
+    budget_.spend(kMeetWork * cell.near.size());
     std::erase_if(cell.near, [&](const Placed* triangle) { return !meets(*triangle, largest); });
     StripResult result;
     for (const double share : kBeyond) {
@@ -162,13 +162,13 @@ class Proof {
       std::vector<StripPiece> pieces;
       for (const Placed* triangle : cell.near) {
         if (!meets(*triangle, around)) continue;
-        work_done += kClipWork;
+        budget_.spend(kClipWork);
         const int body = triangle->body;
         StripPiece piece = clipped(*surfaces_[static_cast<std::size_t>(body)], body, triangle->number, around, scale_);
         if (!piece.shares.empty()) pieces.push_back(std::move(piece));
         if (pieces.size() > kManyPieces) return {};
       }
-      result = judge_strips(*surfaces_[0], *surfaces_[1], around, pieces, half_, scale_);
+      result = judge_strips(*surfaces_[0], *surfaces_[1], around, pieces, half_, scale_, budget_);
       if (result.answer != StripAnswer::divide || result.cut) break;
     }
     return result;
@@ -194,6 +194,7 @@ class Proof {
 
   std::array<const Surface*, 2> surfaces_;
   double half_, scale_ = 0, rounding_ = 0;
+  Budget budget_;
   Mat3 axes_;
   std::vector<Placed> triangles_;
 };
@@ -204,7 +205,7 @@ FaceFit fit_by_faces(const Surface& a, const Surface& b, double length, std::uin
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
   if (!(length > 0)) throw std::invalid_argument("the length must be positive");
   if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return FaceFit::fit;
-  return comes_before(a, b) ? Proof(a, b, length).run(work) : Proof(b, a, length).run(work);
+  return comes_before(a, b) ? Proof(a, b, length, work).run() : Proof(b, a, length, work).run();
 }
 
 }  // namespace satcheck

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "base/work.hpp"
 #include "exact/double_double.hpp"
 #include "exact/triangle_distance.hpp"
 #include "thickness/nearest_to_zero.hpp"
@@ -75,8 +74,8 @@ struct Strip {
 
 class Region {
  public:
-  Region(const Surface& a, const Surface& b, const StripRegion& region, const std::vector<StripPiece>& pieces, double half, double scale)
-      : surfaces_{&a, &b}, region_(region), pieces_(pieces), half_(half), enough_(half * (1 - kSlack)), rounding_(kRoundoffs * kUnitRoundoff * scale) {
+  Region(const Surface& a, const Surface& b, const StripRegion& region, const std::vector<StripPiece>& pieces, double half, double scale, Budget& budget)
+      : surfaces_{&a, &b}, region_(region), pieces_(pieces), budget_(budget), half_(half), enough_(half * (1 - kSlack)), rounding_(kRoundoffs * kUnitRoundoff * scale) {
     for (int axis = 0; axis < 3; ++axis) middle_ = middle_ + region.axes.row[axis] * ((region.low[static_cast<std::size_t>(axis)] + region.high[static_cast<std::size_t>(axis)]) / 2);
   }
 
@@ -97,11 +96,11 @@ class Region {
  private:
   const Surface& surface(int body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
   bool is_outside(int body, Vec3 p) const {
-    const auto winding = winding_number(surface(body), p);
+    const auto winding = winding_number(surface(body), p, &budget_);
     return winding && *winding == 0;
   }
   bool is_inside(int body, Vec3 p) const {
-    const auto winding = winding_number(surface(body), p);
+    const auto winding = winding_number(surface(body), p, &budget_);
     return winding && *winding != 0;
   }
 
@@ -132,7 +131,7 @@ class Region {
 
   bool take(const StripPiece& piece) {
     for (Strip& strip : strips_) {
-      work_done += kPieceWork;
+      budget_.spend(kPieceWork);
       const Range range = heights(strip, piece);
       Range all = strip.all;
       all.include(range.low);
@@ -233,7 +232,7 @@ class Region {
       }
       deep = length > 0 && (range.low > least || range.high < -least);
       return deep;
-    });
+    }, &budget_);
     return deep;
   }
 
@@ -429,7 +428,7 @@ class Region {
 
   bool look_at(const Heights& box) {
     if (--boxes_left_ < 0) return false;
-    work_done += kBoxWork;
+    budget_.spend(kBoxWork);
     if (has_no_point(box) || is_shallow(0, box) || is_shallow(1, box)) return true;
     std::size_t widest = strips_.size();
     double size = half_ / 512;
@@ -504,6 +503,7 @@ class Region {
   std::array<const Surface*, 2> surfaces_;
   const StripRegion& region_;
   const std::vector<StripPiece>& pieces_;
+  Budget& budget_;
   double half_, enough_, rounding_;
   Vec3 middle_, meeting_;
   std::vector<Strip> strips_;
@@ -534,8 +534,8 @@ StripPiece clipped(const Surface& surface, int body, std::uint32_t triangle, con
 }
 
 StripResult judge_strips(const Surface& a, const Surface& b, const StripRegion& region, const std::vector<StripPiece>& pieces,
-                         double half, double scale) {
-  return Region(a, b, region, pieces, half, scale).judge();
+                         double half, double scale, Budget& budget) {
+  return Region(a, b, region, pieces, half, scale, budget).judge();
 }
 
 }  // namespace satcheck

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -51,6 +52,6 @@ struct StripResult {
 
 // region: extends beyond the points that are asked for by more than `half`. pieces: all that meet it.
 StripResult judge_strips(const Surface& a, const Surface& b, const StripRegion& region,
-                         const std::vector<StripPiece>& pieces, double half, double scale);
+                         const std::vector<StripPiece>& pieces, double half, double scale, Budget& budget);
 
 }  // namespace satcheck

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "base/work.hpp"
 #include "depth/exact_centre.hpp"
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/moved_surface.hpp"
@@ -50,15 +49,14 @@ class Search {
  public:
   // centre: was subtracted from both surfaces.
   Search(const Surface& a, const Surface& b, const ThicknessGoal& goal, Vec3 centre)
-      : bodies_(a, b, goal), goal_(goal), poller_(goal.poll), centre_(centre) {
+      : bodies_(a, b, goal), goal_(goal), budget_(goal.work, goal.poll), centre_(centre) {
     best_ = dropped_ = floor_ = 0.0 - std::fmax(goal.less_a, goal.less_b);
     if (goal.prove && goal.across < 0) record_.emplace();
   }
 
   // Goes on until this many steps have been spent in all.
   ThicknessInterval run(std::uint64_t most_work) {
-    start_ = work_done - result_.work;
-    most_work_ = most_work;
+    budget_.end_at(most_work);
     search();
     if (record_ && box_) result_.proof = std::make_shared<ThicknessProof>(record_->proof(bodies_, centre_, *box_));
     return result_;
@@ -74,8 +72,6 @@ class Search {
     finish(floor_);
   }
 
-  std::uint64_t work() const { return work_done - start_; }
-
   // A cell whose bound is no larger does not have to be divided.
   double enough() const {
     const bool flush = bodies_.less(0) == 0 && bodies_.less(1) == 0;  // then 0 is where surfaces meet
@@ -88,12 +84,12 @@ class Search {
     const double upper = std::fmax(std::fmax(open, dropped_), best_);
     result_.lower = 2 * best_;
     result_.upper = 2 * upper;
-    result_.work = work();
+    result_.work = budget_.spent();
     const bool decided = goal_.limit && (result_.lower > *goal_.limit || result_.upper <= *goal_.limit);
     const bool narrow = upper - best_ <= goal_.width * std::fabs(upper) || open_.empty();
     result_.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
-    if (decided || narrow || work() >= most_work_) return true;
-    if (poller_.is_due(work())) poller_.call({result_.lower, result_.upper, work()});
+    if (decided || narrow || budget_.is_spent()) return true;
+    if (budget_.is_due()) budget_.tell(result_.lower, result_.upper);
     return false;
   }
 
@@ -122,7 +118,7 @@ class Search {
     }
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
-    bodies_.make_patches(root.cell.box(), reach, kFlatness * half);
+    bodies_.make_patches(root.cell.box(), reach, kFlatness * half, budget_);
     box_ = box;
     if (record_) root.node = record_->add_root();
     Share share{{}, {}, best_};
@@ -140,13 +136,13 @@ class Search {
     bool found = false;
     Vec3 centre{};  // world frame
     double radius = 0;
-    std::uint64_t work = 0;
+    Budget budget{};  // counted in add(), on the thread of the search
   };
 
   // How many cells to divide: no more than the work that is left allows, at what cells took so far.
   std::size_t batch() const {
-    const std::uint64_t of_both_halves = 2 * (work() / std::max<std::uint64_t>(result_.boxes, 1) + kCellWork);
-    return std::clamp<std::size_t>((most_work_ - work()) / of_both_halves, 1, kBatch);
+    const std::uint64_t of_both_halves = 2 * (budget_.spent() / std::max<std::uint64_t>(result_.boxes, 1) + kCellWork);
+    return std::clamp<std::size_t>(budget_.left() / of_both_halves, 1, kBatch);
   }
 
   void divide_largest() {
@@ -168,19 +164,16 @@ class Search {
   }
 
   void bound(Share& share, double enough) {
-    const std::uint64_t before = work_done;
     const double best = share.depth;
     for (const std::unique_ptr<OpenCell>& cell : share.cells) {
-      work_done += kCellWork;
-      bound_cell(bodies_, axes_, *cell, best, enough, [&](Vec3 p) { return consider(p, share); }, record_ ? &*record_ : nullptr);
+      share.budget.spend(kCellWork);
+      bound_cell(bodies_, axes_, *cell, best, enough, [&](Vec3 p) { return consider(p, share); }, record_ ? &*record_ : nullptr,
+                 share.budget);
     }
-    // Counted in add(), on the thread of the search.
-    share.work = work_done - before;
-    work_done = before;
   }
 
   void add(Share& share) {
-    work_done += share.work;
+    budget_.spend(share.budget.spent());
     result_.boxes += static_cast<std::uint32_t>(share.cells.size());
     if (share.cells.empty()) dropped_ = std::fmax(dropped_, share.parent->bound);  // nothing is left to divide
     if (share.found && share.depth > best_) {
@@ -208,9 +201,9 @@ class Search {
     const Vec3 world = p + centre_;
     p = world - centre_;
     for (int body = 0; body < 2; ++body) {
-      if (!bodies_.is_inside(body, p)) return body;
+      if (!bodies_.is_inside(body, p, share.budget)) return body;
     }
-    const double in_a = bodies_.clearance(0, p), in_b = bodies_.clearance(1, p);
+    const double in_a = bodies_.clearance(0, p, share.budget), in_b = bodies_.clearance(1, p, share.budget);
     const double depth = std::fmin(in_a - bodies_.less(0), in_b - bodies_.less(1)) - bodies_.rounding();
     if (depth > share.depth) {
       share.depth = depth;
@@ -263,12 +256,11 @@ class Search {
 
   TwoBodies bodies_;
   ThicknessGoal goal_;
-  Poller poller_;
+  Budget budget_;
   Vec3 centre_;
   Mat3 axes_;
   std::optional<Aabb> box_;  // common to the boxes of the bodies
   std::optional<ThicknessRecord> record_;
-  std::uint64_t start_ = 0, most_work_ = 0;  // of work: where this search would have begun, and where it ends
   double floor_, best_, dropped_;
   ThicknessInterval result_;
   std::vector<std::unique_ptr<OpenCell>> open_;  // a heap, largest bound first

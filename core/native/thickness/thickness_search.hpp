@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/poll.hpp"
+#include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -24,7 +24,7 @@ struct BoxAlong {
 
 struct ThicknessGoal {
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
-  // Steps that may be spent (base/work.hpp). The search may spend more: it finishes the cells that it has begun, and its
+  // Steps that may be spent (base/budget.hpp). The search may spend more: it finishes the cells that it has begun, and its
   // preparation has no budget.
   std::uint64_t work = 0;
   double less_a = 0, less_b = 0;  // e_A and e_B, world units

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/rounding.hpp"
-#include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/nearest_point.hpp"
 
@@ -77,7 +76,7 @@ Aabb TwoBodies::widened(const Aabb& box, double reach) const {
   return {box.min - wide, box.max + wide};
 }
 
-void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
+void TwoBodies::make_patches(const Aabb& box, double reach, double flatness, Budget& budget) {
   const Vec3 wide{reach, reach, reach};
   for (int body = 0; body < 2; ++body) {
     const Surface& from = surface(body);
@@ -85,21 +84,21 @@ void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
     visit_box(from.bvh, from.mesh, {box.min - wide, box.max + wide}, [&](std::uint32_t t) {
       if (counts(body, t)) triangles.push_back(t);
       return true;
-    });
+    }, &budget);
     std::sort(triangles.begin(), triangles.end());
-    work_done += 20 * kDistanceWork * triangles.size();
+    budget.spend(20 * kDistanceWork * triangles.size());
     patches_[static_cast<std::size_t>(body)] = convex_patches(from.mesh, triangles, flatness);
   }
 }
 
-PatchList TwoBodies::patches_at(int body, const Aabb& box, std::size_t most) const {
+PatchList TwoBodies::patches_at(int body, const Aabb& box, Budget& budget, std::size_t most) const {
   PatchList list;
   const Surface& from = surface(body);
   visit_box(from.bvh, from.mesh, box, [&](std::uint32_t t) {
     const std::uint32_t i = patches(body).patch_of[t];
     if (i != kNoPatch) list.push_back(i);
     return list.size() < most;
-  });
+  }, &budget);
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
   return list;
@@ -112,29 +111,30 @@ double TwoBodies::value(const Column& column, Vec3 p) const {
   return depth - less(column.body);
 }
 
-bool TwoBodies::is_inside(int body, Vec3 p) const {
-  const auto winding = winding_number(surface(body), p);
+bool TwoBodies::is_inside(int body, Vec3 p, Budget& budget) const {
+  const auto winding = winding_number(surface(body), p, &budget);
   return winding && *winding != 0;
 }
 
-bool TwoBodies::is_outside(int body, Vec3 p) const {
-  const auto winding = winding_number(surface(body), p);
+bool TwoBodies::is_outside(int body, Vec3 p, Budget& budget) const {
+  const auto winding = winding_number(surface(body), p, &budget);
   return winding && *winding == 0;
 }
 
-double TwoBodies::clearance(int body, Vec3 p) const {
-  if (across_ < 0) return nearest_point(surface(body), p).distance - rounding_;
+double TwoBodies::clearance(int body, Vec3 p, Budget& budget) const {
+  if (across_ < 0) return nearest_point(surface(body), p, &budget).distance - rounding_;
   double least = INFINITY;
   const Mesh& mesh = surface(body).mesh;
-  work_done += kDistanceWork * mesh.triangles.size();
+  budget.spend(kDistanceWork * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (counts(body, t)) least = smaller(least, norm(nearest_on_triangle(p, corners(mesh, t)) - p));
   }
   return least - rounding_;
 }
 
-double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough) const {
-  if (near.size() >= kManyPatches) return farthest_in_tree(body, box, normal, least, enough);
+double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough,
+                           Budget& budget) const {
+  if (near.size() >= kManyPatches) return farthest_in_tree(body, box, normal, least, enough, budget);
   const auto compare = [&](std::uint32_t number) {
     const Patch& from = patch(body, number);
     const Aabb& around = this->box(body, number);
@@ -143,20 +143,20 @@ double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchLi
     least = larger(least, farthest_in({outline, from.count}, box, normal, enough) + from.slack);
   };
   for (const std::uint32_t number : near) {
-    work_done += kSideWork;
+    budget.spend(kSideWork);
     compare(number);
     if (least > enough) break;
   }
   return least;
 }
 
-double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough) const {
+double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough, Budget& budget) const {
   const Surface& from = surface(body);
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty() && least <= enough) {
     const BvhNode& node = from.bvh.nodes[stack.back()];
     stack.pop_back();
-    work_done += kNodeWork;
+    budget.spend(kNodeWork);
     if (!meet(node.box, box) || dot(normal, farthest_corner(common_box(node.box, box), normal)) <= least) continue;
     if (!node.is_leaf()) {
       const bool left_first = dot(normal, farthest_corner(from.bvh.nodes[node.first].box, normal)) >
@@ -168,7 +168,7 @@ double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, doubl
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const std::uint32_t t = from.bvh.order[i];
       if (patches(body).patch_of[t] == kNoPatch || !meet(box_at(from.bvh, from.mesh, i), box)) continue;
-      work_done += kSideWork;
+      budget.spend(kSideWork);
       const Corners c = corners(from.mesh, t);
       least = larger(least, farthest_in(c, box, normal, larger(least, enough)));
     }
@@ -177,17 +177,17 @@ double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, doubl
 }
 
 std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, const Aabb& box, const PatchList& near,
-                                              double tolerance) const {
+                                              double tolerance, Budget& budget) const {
   const Patch& from = patch(body, number);
   if (norm_squared(from.normal) == 0) return std::nullopt;
   for (const double sign : {1.0, -1.0}) {
     const Vec3 normal = from.normal * sign;
     const double plane = dot(normal, from.origin) + from.slack;
-    double height = farthest(body, box, normal, near, plane, plane + tolerance);
+    double height = farthest(body, box, normal, near, plane, plane + tolerance, budget);
     if (height > plane + tolerance) continue;
     height += rounding_;
     const Vec3 corner = farthest_corner(box, normal);
-    if (dot(normal, corner) > height && !is_outside(body, corner)) continue;
+    if (dot(normal, corner) > height && !is_outside(body, corner, budget)) continue;
     return Column{number, true, body, height, sign};
   }
   return std::nullopt;

@@ -50,32 +50,34 @@ class TwoBodies {
   const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
 
   // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp.
-  void make_patches(const Aabb& box, double reach, double flatness);
+  void make_patches(const Aabb& box, double reach, double flatness, Budget& budget);
 
   // Of the patches that were made, those with a triangle whose box meets this one: of the first `most` such triangles.
-  PatchList patches_at(int body, const Aabb& box, std::size_t most = kNoPatch) const;
+  PatchList patches_at(int body, const Aabb& box, Budget& budget, std::size_t most = kNoPatch) const;
 
   // With less() of the body taken off.
   double value(const Column& column, Vec3 p) const;
 
   // Winding numbers, exact. Neither holds on the surface.
-  bool is_inside(int body, Vec3 p) const;
-  bool is_outside(int body, Vec3 p) const;
+  bool is_inside(int body, Vec3 p, Budget& budget) const;
+  bool is_outside(int body, Vec3 p, Budget& budget) const;
 
   // The distance from p to the nearest triangle of the body, from below.
-  double clearance(int body, Vec3 p) const;
+  double clearance(int body, Vec3 p, Budget& budget) const;
 
   // The largest normal . x of the body's points in the box, or `least`: whichever is larger, rounding not included.
   // Anything above `enough` where it is larger than that. near: the patches of the body that meet the box, and others.
-  double farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough) const;
+  double farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough,
+                  Budget& budget) const;
 
   // The patch's plane as a column, where the body, of which `near` are the patches, has nothing beyond it in the box.
   // tolerance: by how much it may reach beyond the patch's own plane.
-  std::optional<Column> plane_column(int body, std::uint32_t patch, const Aabb& box, const PatchList& near, double tolerance) const;
+  std::optional<Column> plane_column(int body, std::uint32_t patch, const Aabb& box, const PatchList& near, double tolerance,
+                                     Budget& budget) const;
 
  private:
   bool counts(int body, std::uint32_t triangle) const;
-  double farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough) const;
+  double farthest_in_tree(int body, const Aabb& box, Vec3 normal, double least, double enough, Budget& budget) const;
 
   std::array<const Surface*, 2> surfaces_;
   std::array<double, 2> less_;

@@ -20,6 +20,6 @@ struct CellVoid {
 
 // No point of the cell is deeper in both, rounding included; INFINITY where that would not be less than `enough`, which
 // is no larger than the bound of the cell.
-double bound_around(const CellVoid& hollow, const TwoBodies& bodies, double enough);
+double bound_around(const CellVoid& hollow, const TwoBodies& bodies, double enough, Budget& budget);
 
 }  // namespace satcheck

@@ -78,6 +78,7 @@ void parts_of_boxes() {
   std::uniform_real_distribution<double> at(-1, 1);
   const auto point = [&] { return Vec3{at(random), at(random), at(random)}; };
   int held = 0;
+  Budget budget;
   for (int k = 0; k < 2000; ++k) {
     std::vector<Vec3> p, q;
     for (int i = 0; i < 8; ++i) {
@@ -88,7 +89,7 @@ void parts_of_boxes() {
     const Vec3 centre = point() * 0.6, half = Vec3{0.5 + at(random) / 3, 0.5 + at(random) / 3, 0.5 + at(random) / 3} * 0.6;
     const Vec3 direction = point(), normal = direction * (1 / norm(direction));
     const double offset = dot(normal, centre) + 0.3 * at(random);
-    const double length = set.reach_beyond(centre, half, normal, offset, -INFINITY);
+    const double length = set.reach_beyond(centre, half, normal, offset, -INFINITY, budget);
     CHECK(length >= set.reach(centre, half).length);
     held += length == INFINITY && set.reach(centre, half).length < INFINITY;
     for (int i = 0; i < 20; ++i) {

@@ -19,14 +19,15 @@ ForbiddenSet set_of(Vec3 low, Vec3 high) {
   return forbidden_set(box({0, 0, 0}, {1, 1, 1}).vertices, box(low + Vec3{1, 1, 1}, high).vertices);
 }
 
-ForbiddenUnion left_half() {
-  ForbiddenUnion sets(-1);
+ForbiddenUnion left_half(Budget& budget) {
+  ForbiddenUnion sets(-1, budget);
   sets.add(set_of({-2, -1, -1}, {0.25, 1, 1}));
   return sets;
 }
 
 void one_set() {
-  ForbiddenUnion sets = left_half();
+  Budget budget;
+  ForbiddenUnion sets = left_half(budget);
   TranslationBox cut = kBox;
   CHECK(sets.covered_by_one(cut, kLeast, kLeast) == -INFINITY);
   CHECK(cut.sets.size() == 1 && cut.seen == 1);
@@ -39,7 +40,8 @@ void one_set() {
 }
 
 void two_sets_cover_the_seam_between_them() {
-  ForbiddenUnion sets = left_half();
+  Budget budget;
+  ForbiddenUnion sets = left_half(budget);
   sets.add(set_of({0.125, -1, -1}, {2, 1, 1}));
   TranslationBox cut = kBox;
   CHECK(sets.covered_by_one(cut, kLeast, kLeast) == -INFINITY);
@@ -50,7 +52,8 @@ void two_sets_cover_the_seam_between_them() {
 }
 
 void the_nearest_open_point() {
-  ForbiddenUnion sets = left_half();
+  Budget budget;
+  ForbiddenUnion sets = left_half(budget);
   TranslationBox cut = kBox;
   sets.covered_by_one(cut, kLeast, kLeast);
   const auto open = sets.nearest_open(cut, {0, 0, 0}, kLeast);

@@ -1,8 +1,10 @@
-// Exact arithmetic counts as work, and more of it where numbers are longer; a sign that float64 can tell counts none.
-#include "base/work.hpp"
+// Exact arithmetic is charged to the budget that is handed down, and more of it where numbers are longer; a sign that
+// float64 can tell costs nothing.
+#include "base/budget.hpp"
 
-#include "exact/dyadic.hpp"
+#include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
 #include "tests/check.hpp"
 
 using namespace satcheck;
@@ -11,30 +13,43 @@ namespace {
 
 template <class Task>
 std::uint64_t work_of(Task task) {
-  const std::uint64_t before = work_done;
-  task();
-  return work_done - before;
+  Budget budget;
+  task(&budget);
+  return budget.spent();
+}
+
+// Of the fourth corner of a parallelogram in a plane that is this steep: which side it lies on, and where it meets a triangle.
+std::uint64_t work_in_plane(double slope) {
+  const Vec3 a{0, 0, 0}, b{1, 0, slope}, c{0, 1, slope}, d{1, 1, 2 * slope};
+  const std::uint64_t of_sign = work_of([&](Budget* budget) { orientation(a, b, c, d, budget); });
+  const Corners low{a, b, c}, high{d, b, c};
+  const std::uint64_t of_pair = work_of([&](Budget* budget) { classify(low, high, budget); });
+  CHECK(of_sign > 100);
+  CHECK(of_pair >= 3 * of_sign);
+  return of_sign;
 }
 
 void test_signs() {
-  const Vec3 a{0, 0, 0}, b{1, 0, 0.1}, c{0, 1, 0.3};
-  CHECK(work_of([&] { orientation(a, b, c, {0.25, 0.5, 1}); }) == 0);
-  CHECK(work_of([&] { orientation(a, b, c, {0.1, 0.7, 0.1 * 0.1 + 0.7 * 0.3}); }) > 100);
+  const Vec3 a{0, 0, 0}, b{1, 0, 0.1}, c{0, 1, 0.3}, beside{0.25, 0.5, 1}, near{0.1, 0.7, 0.1 * 0.1 + 0.7 * 0.3};
+  CHECK(work_of([&](Budget* budget) { orientation(a, b, c, beside, budget); }) == 0);
+  CHECK(work_of([&](Budget* budget) { orientation(a, b, c, near, budget); }) > 100);
+  CHECK(work_in_plane(1e-250) > 2 * work_in_plane(1e-100));
+  CHECK(work_in_plane(1e-100) > work_in_plane(0.1));
 }
 
-void test_numbers() {
-  const Dyadic third = 1.0 / 3;
-  Dyadic longer = third;
-  for (int k = 0; k < 6; ++k) longer = longer * longer;
-  const std::uint64_t of_short = work_of([&] { third * third; }), of_long = work_of([&] { longer * longer; });
-  CHECK(of_short > 0);
-  CHECK(of_long > 100 * of_short);
-  CHECK(work_of([&] { longer + third; }) > work_of([&] { third + third; }));
+void test_points() {
+  const auto sign_with = [](double height) {
+    const Vec3 a{0, 0, 0}, b{1, 0, height}, c{0, 1, 0.3};
+    const ExactPoint third = weighted_point(a, b, c, 1, 1, 1);
+    return work_of([&](Budget* budget) { CHECK(orientation(a, b, c, third, budget) == 0); });
+  };
+  CHECK(sign_with(0.1) > 100);
+  CHECK(sign_with(1e-250) > 2 * sign_with(0.1));
 }
 
 }  // namespace
 
 UNIT(exact_work) {
   test_signs();
-  test_numbers();
+  test_points();
 }

@@ -22,12 +22,13 @@ std::uint32_t left_patch(const TwoBodies& bodies) {
 UNIT(cell_cut) {
   const Surface a = make_surface(testing::box({0, 0, 0}, {1, 1, 1}), true), b = make_surface(testing::box({0, 0, 0}, {1, 2, 1}), true);
   TwoBodies bodies(a, b, {});
-  bodies.make_patches({{0, 0, 0}, {1, 2, 1}}, 2, 1e-9);
+  Budget budget;
+  bodies.make_patches({{0, 0, 0}, {1, 2, 1}}, 2, 1e-9, budget);
   const Mat3 axes{};
   // The distance is exact in the lower half, y < 1, and bends where the face ends.
   const Cell cell = make_cell(axes, {0.25, 0, 0.25}, {0.5, 2, 0.75}, -1, 2);
   const std::vector<double> shares(8, 1.0 / 8);
-  const CellGap gap{bodies, axes, cell, {{{left_patch(bodies), false, 0, 0, 1}, 1}}, shares, {0.375, 1, 0.5}};
+  const CellGap gap{bodies, axes, cell, {{{left_patch(bodies), false, 0, 0, 1}, 1}}, shares, {0.375, 1, 0.5}, budget};
   const auto cut = cut_at_gap(gap, 0);
   CHECK(cut && std::fabs(cut->normal.y) == 1 && std::fabs(cut->height * cut->normal.y - 1) < 1e-12);
   // Half of the corners lie 1 beyond the face. The mean of their distances is 0.72, the distance at the middle 0.375.
