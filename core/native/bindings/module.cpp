@@ -21,7 +21,6 @@ using namespace satcheck;
 namespace satcheck {
 void bind_broad_phase(nb::module_& m);
 void bind_climb(nb::module_& m);
-void bind_resolve(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
@@ -146,7 +145,6 @@ void satcheck::bind_core(nb::module_& m) {
   bind_mesh(m);
   bind_surface(m);
   bind_broad_phase(m);
-  bind_resolve(m);
   bind_contacts(m);
   bind_depth(m);
   bind_overlap(m);
