@@ -15,12 +15,10 @@ from satcheck.audit.request.settings import Method, Settings
 from satcheck.report.report import OVERLAPS
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge
-from satcheck.studies.tradeoff.reading import climb_end
-from satcheck.studies.tradeoff.resources import OwnMemory
 from satcheck.studies.tradeoff.result import PairTradeoff, with_front
 from satcheck.studies.tradeoff.rows import row_of, truth_by
 from satcheck.studies.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
-from satcheck.studies.tradeoff.runs import LadderRun, ask, ask_parts, ask_volume, body_volumes
+from satcheck.studies.tradeoff.runs import LadderRun, ask, ask_parts, ask_volume, climb_end
 
 # What one run of convex parts may take whatever the budget: the default of a check.
 PART_SECONDS = Settings().part_seconds
@@ -51,12 +49,10 @@ def measure_pair(
             if gauge.wants_more and gauge.left(budget) > gauge.longest:
                 _warm_up(bodies, budget)
                 _run(gauge, bodies, budget, apart=apart, method=method)
-                _weigh(gauge, bodies, budget, apart=apart, method=method)
             if on_run is not None:
                 on_run()
     truth = truth_by(gauges[EXACT])
-    own = (None, None) if plainly is None else body_volumes(bodies)
-    rows = [row_of(gauge, truth, own) for gauge in gauges.values()]
+    rows = [row_of(gauge, truth) for gauge in gauges.values()]
     default = None if plainly is None else climb_end(plainly.finding)
     return PairTradeoff(a, b, truth, default, with_front(rows, truth.pad))
 
@@ -113,19 +109,6 @@ def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: M
             gauge.saw(answer, answer.seconds, None)
     took = budget.spent - start
     gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
-
-
-def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: Method) -> None:
-    """One more run of a rung that starts no child process, not timed: for its memory."""
-    first = len(gauge.cold) == 1 and gauge.state == "answered"
-    if not first or gauge.rung.accuracy in (None, "parts") or gauge.left(budget) < gauge.longest:
-        return
-    start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart, method=method)
-    memory = OwnMemory()
-    with _failing_alone(gauge):
-        ask(bodies, settings)
-        gauge.megabytes = memory.grown
-    gauge.spent += budget.spent - start
 
 
 @contextmanager
