@@ -11,6 +11,7 @@
 
 #include "base/large_pages.hpp"
 #include "bindings/arguments.hpp"
+#include "bindings/tuples.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
 #include "ladder/words.hpp"
@@ -37,8 +38,6 @@ namespace {
 
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Triple = std::array<double, 3>;
-
-Vec3 to_vec(const Triple& t) { return {t[0], t[1], t[2]}; }
 
 std::vector<Vec3> to_points(const Points& points) {
   std::vector<Vec3> out(points.shape(0));
