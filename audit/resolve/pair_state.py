@@ -21,7 +21,7 @@ from satcheck.report.report import OVERLAPS, Finding
 
 
 class PairState(Struct, frozen=True):
-    """How a pair is judged where it is.
+    """The judgement of a pair where it is.
 
     open: a hole of one body leaves open whether they overlap. push: a translation of the first body
     that ends the overlap, widens the gap to the clearance, or leads away from the hole; None: none
@@ -39,8 +39,8 @@ class PairState(Struct, frozen=True):
 
 
 def is_objected(finding: Finding, fail_on: FailOn) -> bool:
-    """Whether a check fails because of the pair, or cannot decide whether an overlap is within its
-    limits."""
+    """Return whether a check fails because of the pair, or cannot decide whether an overlap is
+    within its limits."""
     if finding.undecided == "limit" and finding.at_rest in OVERLAPS:
         return True
     return fails(finding, fail_on)
@@ -66,7 +66,7 @@ def state_of(pair: Pair, finding: Finding, *, banded: bool) -> PairState:
 
 
 def _may_overlap(pair: Pair) -> float:
-    """How deep the bodies may overlap; no overlap is thicker than it is deep. If depth is an
+    """Return how deep the bodies may overlap; no overlap is thicker than it is deep. If depth is an
     interval, the limit is reduced by its width, so that the upper end stays below the limit. A
     limit of the volume gives no length."""
     limits = [pair.request.max_depth, pair.request.max_thickness]

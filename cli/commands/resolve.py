@@ -138,7 +138,7 @@ def command(
 
 
 def _refuse_output(inputs: Inputs, moved: Path, output: Path | None) -> None:
-    """What cannot be written is said before any work is done."""
+    """Refuse what cannot be written before any work is done."""
     refuse_early(inputs, moved, option="--scene-out")
     if output is not None and output.absolute() == moved.absolute():
         raise click.UsageError("--scene-out and -o name the same file")

@@ -30,13 +30,13 @@ class Budget:
         return self.seconds - self.spent
 
     def share(self, waiting: int) -> Budget:
-        """Of what is left, for one of so many that wait."""
+        """Return a share of what is left, for one of so many that wait."""
         return Budget(self.left / waiting, self.per_rung)
 
 
 @dataclass(slots=True)
 class Gauge:
-    """What has been seen of a rung so far."""
+    """The measurements of a rung so far."""
 
     rung: Rung
     state: State = "not run"

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
+"""The cost of accuracy in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Figure(Struct, frozen=True):
 
 
 class Truth(Struct, frozen=True):
-    """What the exact rung has proven; relation, figure: None where it has not, reason says why.
+    """The proof of the exact rung; relation, figure: None where it has not, reason says why.
 
     pad: what the rounding of a coordinate can make of a length. thickness: 0 where there is no
     overlap; None: not known.
@@ -62,7 +62,7 @@ class Truth(Struct, frozen=True):
         return 0.0 if abs(error) <= self.pad else error
 
     def is_right(self, overlap: bool | None, relation: Relation | None) -> bool | None:
-        """Whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
+        """Return whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
         `inside` and `coincident` are overlaps like any. relation: None where only that is said."""
         if self.relation is None or overlap is None:
             return None

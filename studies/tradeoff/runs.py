@@ -119,18 +119,20 @@ def climb_end(finding: Finding) -> ClimbEnd:
 
 
 def is_of_bodies(finding: Finding) -> bool:
-    """Whether it says how the bodies relate, not their surfaces alone, or nothing."""
+    """Return whether it says how the bodies relate, not their surfaces alone, or nothing."""
     return finding.undecided not in ("relation", "inside")
 
 
 def _cpu_seconds() -> float:
-    """Of this process, on all threads, and of its children that ended; Windows knows of none."""
+    """Return the CPU time of this process, on all threads, and of its children that ended; Windows
+    knows of none."""
     used = os.times()
     return time.process_time() + used.children_user + used.children_system
 
 
 def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
-    """Of the Boolean of manifold3d, in a child process of its own; or why there is none."""
+    """Measure the volume by the Boolean of manifold3d, in a child process of its own; or why there
+    is none."""
     times: list[float] = []
     volume = error = 0.0
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes

@@ -68,7 +68,7 @@ def tradeoff(
 
 
 def _pairs(scene: Scene) -> list[Bodies]:
-    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet.
+    """Return of two bodies the pair, wherever they are; of more the asked ones whose boxes meet.
 
     Raises SatcheckError for a body that cannot be placed.
     """

@@ -68,7 +68,7 @@ class PairView(Struct, frozen=True):
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """Of IFC elements, sorted; (): one body is none."""
+        """Return the classes of IFC elements, sorted; (): one body is none."""
         kinds = [member.kind for member in self.members if member.kind is not None]
         return tuple(sorted(kinds)) if len(kinds) == len(self.members) else ()
 
@@ -78,7 +78,7 @@ class PairView(Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        """What the pairs of a topic have in common."""
+        """Return what the pairs of a topic have in common."""
         if not self.classes:
             return "\n".join(sorted(member.id for member in self.members))
         projects = sorted(member.project or member.file for member in self.members)
@@ -159,7 +159,7 @@ def _of_finding(finding: Finding, report: Report, members: Mapping[str, Member])
 
 
 def _gone(known: KnownFinding, members: Mapping[str, Member]) -> PairView:
-    """Of a known finding of the baseline that is no finding any more."""
+    """Return the topic of a known finding of the baseline that is no finding any more."""
     return PairView(
         guid=_view_guid(known.a, known.b),
         members=(members[known.a], members[known.b]),
@@ -228,6 +228,6 @@ def _description(views: Sequence[PairView]) -> str:
 
 
 def _labels(view: PairView) -> tuple[str, ...]:
-    """Of IFC elements: the pair of classes, and the storeys."""
+    """Return the labels of IFC elements: the pair of classes, and the storeys."""
     classes = (" / ".join(view.classes),) if view.classes else ()
     return (*classes, *view.storeys)
