@@ -101,7 +101,7 @@ def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[Kno
 
 
 def _would_fail(known: KnownFinding, report: Report) -> bool:
-    """Whether the settings of this report may show the finding as it is known."""
+    """Return whether the settings of this report may show the finding as it is known."""
     if SEVERITIES.index(known.severity) > SEVERITIES.index(report.settings.fail_on):
         return False
     if known.units != report.units or (known.moves and not report.motions):

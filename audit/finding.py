@@ -271,12 +271,12 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
 
 
 def _has_bounds(pair: Pair, gap: Gap) -> bool:
-    """Whether the finding states bounds of the gap."""
+    """Return whether the finding states bounds of the gap."""
     return _is_shown(pair, gap) and (pair.closer > 0 or not gap.exact)
 
 
 def _is_shown(pair: Pair, gap: Gap) -> bool:
-    """Whether the finding states the gap."""
+    """Return whether the finding states the gap."""
     return pair.request.clearance is not None and gap.distance is not None
 
 
@@ -285,7 +285,8 @@ def _within_curves(pair: Pair) -> str:
 
 
 def _overlaps_within(verdict: Verdict, tolerance: float) -> bool:
-    """Whether any overlap of two convex bodies is proven to be at most the tolerance deep."""
+    """Return whether any overlap of two convex bodies is proven to be at most the tolerance
+    deep."""
     lower = None if verdict.signed_distance is None else verdict.signed_distance.lower
     return lower is not None and lower >= -tolerance
 

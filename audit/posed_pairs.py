@@ -202,8 +202,8 @@ def _moved(body: Body, rows: Numbers) -> Body:
 
 
 def same_way(scene: Scene, settings: Settings, bodies: PlacedBodies) -> bool:
-    """Whether every pose asks the same question of every pair: nothing moves while it is checked,
-    nothing is projected, no body has to stand, and every body can be used and compared."""
+    """Return whether every pose asks the same question of every pair: nothing moves while it is
+    checked, nothing is projected, no body has to stand, and every body can be used and compared."""
     special = bodies.unusable or scene.motions or scene.body_rules or any(bodies.endless_pairs())
     everywhere = not special and settings.planar is None
     extras = settings.certificate or settings.cross_check

@@ -86,7 +86,7 @@ class PairTally(Struct):
 
     @property
     def settled(self) -> bool:
-        """Whether the pair is proven separated in all samples."""
+        """Return whether the pair is proven separated in all samples."""
         return not (self.contacts or self.near or self.undecided)
 
     def count(self, finding: Finding, number: int, fail_on: FailOn) -> None:

@@ -86,20 +86,20 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
 
 
 def fails(finding: Finding, fail_on: FailOn) -> bool:
-    """Whether the finding is decided and at least as grave as `fail_on`. An error always counts as
-    decided."""
+    """Return whether the finding is decided and at least as grave as `fail_on`. An error always
+    counts as decided."""
     decided = finding.undecided is None or finding.severity == "error"
     return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
 
 
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
-    """Whether the check fails by it: a baseline does not hold it unchanged."""
+    """Return whether the check fails by it: a baseline does not hold it unchanged."""
     return fails(finding, fail_on) and finding.baseline_state != "unchanged"
 
 
 def severity_of_answer(answer: State, own: str | None) -> Severity:
-    """Of an answer to a question about a single body, without a doubt. own: the severity that rules
-    give the errors of the body."""
+    """Return the severity of an answer to a question about a single body, without a doubt. own: the
+    severity that rules give the errors of the body."""
     if answer == "yes":
         return "none"
     if answer == "open":
@@ -108,7 +108,7 @@ def severity_of_answer(answer: State, own: str | None) -> Severity:
 
 
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
-    """Whether the check fails by the answer to a question about a single body."""
+    """Return whether the check fails by the answer to a question about a single body."""
     level = SEVERITIES.index(fail_on)
     return finding.answer != "open" and SEVERITIES.index(finding.severity) <= level
 
@@ -150,7 +150,7 @@ def _is_at_least(judgement: Judgement, severity: Severity) -> bool:
 
 
 def _limited(answer: Answer, request: Request) -> Judgement:
-    """Whether the overlap is within all limits, beyond one, or undecided."""
+    """Return whether the overlap is within all limits, beyond one, or undecided."""
     limits = list(_limits(answer, request))
     for limit in limits:
         if limit.kept is False:

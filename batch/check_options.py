@@ -1,4 +1,4 @@
-"""How worlds are read and checked: what a process needs to know about the call."""
+"""Options for reading and checking worlds: what a process needs to know about the call."""
 
 from __future__ import annotations
 

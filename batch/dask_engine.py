@@ -17,8 +17,7 @@ from distributed import Client, Future, KilledWorker, as_completed
 
 from satcheck.batch.check_options import CheckOptions, World
 from satcheck.batch.dask_worker import Chunk, Slots, Terms, check_chunk
-from satcheck.batch.limits import Limits
-from satcheck.batch.pace import Pace
+from satcheck.batch.limits import Limits, Pace
 from satcheck.batch.slot import lost
 from satcheck.batch.slot_server import Answer
 from satcheck.batch.urls import is_url

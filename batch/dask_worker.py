@@ -14,8 +14,7 @@ from msgspec import Struct
 
 from satcheck._version import __version__
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.limits import Limits
-from satcheck.batch.pace import Pace
+from satcheck.batch.limits import Limits, Pace
 from satcheck.batch.slot import Slot
 from satcheck.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError

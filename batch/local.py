@@ -9,8 +9,7 @@ from queue import Queue
 from threading import Thread
 
 from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.limits import Limits
-from satcheck.batch.pace import Pace
+from satcheck.batch.limits import Limits, Pace
 from satcheck.batch.slot import RESULTS, Slot
 from satcheck.batch.slot_server import Answer, Wanted
 from satcheck.core.worker_errors import WorkerNotStarted

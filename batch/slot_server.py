@@ -49,7 +49,7 @@ _digests = Digests()
 
 
 class Wanted(Struct, frozen=True):
-    """What is wanted of a check beside its answer. kept: the result is for a file that a later run
+    """The wishes for a check beside its answer. kept: the result is for a file that a later run
     resumes: it has its inputs, its key and no times. hashed: state the SHA-256 of the mesh files.
     threads: for one check, as the other slots have the other cores."""
 
@@ -84,7 +84,7 @@ def request_of(chunk: Chunk) -> bytes:
 
 
 def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
-    """Of these worlds, in this order."""
+    """Yield the answers of these worlds, in this order."""
     verdicts_and_lines = msgspec.msgpack.decode(reply, type=list[tuple[AssetVerdict, bytes]])
     return [Answer(world, *each) for world, each in zip(worlds, verdicts_and_lines, strict=True)]
 

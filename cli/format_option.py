@@ -21,7 +21,7 @@ _ENDINGS = {
 }
 _BCF_2 = ".bcfzip"
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", ".parquet", _BCF_2, *MESHES} - _ENDINGS.keys()
+_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2, *MESHES} - _ENDINGS.keys()
 
 form_option = click.option(
     "--format",
@@ -72,7 +72,8 @@ def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMAT
 
 
 def _is_overridden(name: str, typed: str) -> bool:
-    """Whether an option comes from a config file, and another one that decides it was typed."""
+    """Return whether an option comes from a config file, and another one that decides it was
+    typed."""
     ctx = click.get_current_context(silent=True)
     return (
         ctx is not None

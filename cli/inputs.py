@@ -122,14 +122,14 @@ class Inputs(Struct, frozen=True):
 
     @property
     def random_seed(self) -> int | None:
-        """Of the random poses, if there are any."""
+        """The seed of the random poses, if there are any."""
         return (self.seed or 0) if self.sample else None
 
 
 def refuse_early(
     inputs: Inputs, output: Path | None, baseline: Path | None = None, option: str = "-o"
 ) -> None:
-    """What can be seen to fail before any work is done. option: that names the output."""
+    """Refuse what can be seen to fail before any work is done. option: that names the output."""
     if not inputs.paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
     _refuse_first_word(inputs.paths[0])
@@ -224,7 +224,7 @@ def _more(inputs: Inputs) -> str:
 
 
 def _why_gone(scene: Scene) -> Iterator[str]:
-    """What in the inputs is no body, and why."""
+    """Return what in the inputs is no body, and why."""
     for issue in scene.issues:
         if issue.code in _OF_NO_BODY:
             yield f"satcheck: {issue_line(issue)}"

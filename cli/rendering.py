@@ -38,7 +38,7 @@ class Delivery(Struct, frozen=True):
 
 
 class Shown(Struct, frozen=True):
-    """What a table shows: the steps of each pair (explain), times, the worst rows only (top).
+    """The content of a table: the steps of each pair (explain), times, the worst rows only (top).
 
     cache: a picture may read and write the cache of convex parts.
     """

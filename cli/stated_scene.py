@@ -53,7 +53,8 @@ def stated_scene(
 
 
 def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | MeshFileError:
-    """Of a shape the report has the sizes: the file that states it is not read again."""
+    """Return the mesh file of a body. Of a shape the report has the sizes: the file that states it
+    is not read again."""
     location = root / entry.file
     if entry.shape is not None:
         try:

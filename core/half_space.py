@@ -74,7 +74,7 @@ class Height(Struct, frozen=True):
 
 
 def _height(p: Fraction, q: Fraction, w: Fraction, square: Fraction, point: Vector) -> Height:
-    if _sign_of_one(p, q, w) == 0:
+    if _sign_of_roots(p, Fraction(1), q, w) == 0:
         value = 0.0
     elif q == 0 and square == 1:
         value = float(p)
@@ -222,19 +222,8 @@ def _sign(value: Fraction) -> int:
     return (value > 0) - (value < 0)
 
 
-def _sign_of_one(r: Fraction, s: Fraction, m: Fraction) -> int:
-    """Of r + s sqrt(m)."""
-    a, b = _sign(r), _sign(s) * _sign(m)
-    if a == b or b == 0:
-        return a
-    if a == 0:
-        return b
-    larger = _sign(r * r - s * s * m)
-    return a if larger > 0 else b if larger < 0 else 0
-
-
 def _sign_of_roots(q: Fraction, w: Fraction, u: Fraction, v: Fraction) -> int:
-    """Of q sqrt(w) + u sqrt(v)."""
+    """Return the sign of q sqrt(w) + u sqrt(v)."""
     a, b = _sign(q) * _sign(w), _sign(u) * _sign(v)
     if a == b or b == 0:
         return a
@@ -245,11 +234,12 @@ def _sign_of_roots(q: Fraction, w: Fraction, u: Fraction, v: Fraction) -> int:
 
 
 def _sign_of_three(p: Fraction, q: Fraction, w: Fraction, u: Fraction, v: Fraction) -> int:
-    """Of p + q sqrt(w) + u sqrt(v)."""
+    """Return the sign of p + q sqrt(w) + u sqrt(v)."""
     a, b = _sign(p), _sign_of_roots(q, w, u, v)
     if a == b or b == 0:
         return a
     if a == 0:
         return b
-    larger = _sign_of_one(p * p - q * q * w - u * u * v, -2 * q * u, w * v)
+    rest = p * p - q * q * w - u * u * v
+    larger = _sign_of_roots(rest, Fraction(1), -2 * q * u, w * v)
     return a if larger > 0 else b if larger < 0 else 0

@@ -52,7 +52,8 @@ class HalfSpace(Sized, frozen=True, tag="half-space"):
 
     @property
     def reaches(self) -> float:
-        """How far from the origin the points of another body may be, in the frame of the shape."""
+        """Return how far from the origin the points of another body may be, in the frame of the
+        shape."""
         return self.reach * 3 / 8
 
 
@@ -104,7 +105,7 @@ PRIMITIVES: dict[str, type[Primitive]] = {
 
 
 def is_curved(shape: object) -> TypeGuard[Curved]:
-    """Whether a mesh only approximates the shape."""
+    """Return whether a mesh only approximates the shape."""
     return isinstance(shape, Curved)
 
 
@@ -200,7 +201,7 @@ def image_of(primitive: Primitive, transform: tuple[float, ...] | None) -> Shape
 
 
 def _is_turn(columns: Columns) -> bool:
-    """Whether the columns are a rotation, perhaps with a reflection."""
+    """Return whether the columns are a rotation, perhaps with a reflection."""
     for i in range(3):
         for j in range(i + 1):
             (a, b, c), (x, y, z) = columns[i], columns[j]
@@ -224,7 +225,7 @@ def _checked_size(name: str, value: float | tuple[float, ...]) -> float | tuple[
 
 
 def _are_positive(numbers: Sequence[float]) -> bool:
-    """Whether all numbers are positive and finite."""
+    """Return whether all numbers are positive and finite."""
     try:
         return min(numbers) > 0 and all(map(math.isfinite, numbers))
     except OverflowError:  # an integer beyond float64

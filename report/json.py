@@ -112,7 +112,7 @@ def line_of(value: Value, *, timings: bool = False) -> bytes:
 
 
 def read_line(line: bytes, type: type[Read]) -> Read:
-    """What `line_of` wrote, or a struct with some of its fields. Raises
+    """Return what `line_of` wrote, or a struct with some of its fields. Raises
     msgspec.DecodeError."""
     if _NOT_UTF8 not in line:
         return msgspec_json.decode(line, type=type)

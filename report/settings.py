@@ -1,5 +1,5 @@
-"""What can change an answer, as a report states it: the settings of a check, the options of a
-config file, and how files were read where their format leaves a choice."""
+"""Settings that can change an answer, as a report states them: the settings of a check, the options
+of a config file, and how files were read where their format leaves a choice."""
 
 from __future__ import annotations
 

@@ -104,7 +104,8 @@ class Body(Struct, frozen=True):
 
     @property
     def facet_tolerance(self) -> float:
-        """How far facets that a reader made may be off the surfaces of the file, world units."""
+        """Return how far facets that a reader made may be off the surfaces of the file, world
+        units."""
         given = self.as_given or self
         off = given.file.surface_tolerance
         if not off or given.transform is None:
@@ -175,12 +176,12 @@ class Scene(Struct, frozen=True):
 
     @property
     def asks_for_support(self) -> bool:
-        """Whether a rule asks if bodies are held."""
+        """Return whether a rule asks if bodies are held."""
         return any(rule.supported or rule.stable for rule in self.body_rules)
 
     @property
     def asks_for_regions(self) -> bool:
-        """Whether a rule asks if bodies lie in a region."""
+        """Return whether a rule asks if bodies lie in a region."""
         return any(rule.inside is not None for rule in self.body_rules)
 
     def require_one_unit(self) -> None:
@@ -215,7 +216,7 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 
 
 def _is_exact_scaling(transform: Transform) -> bool:
-    """Whether the transform scales by a power of two about the origin, which is exact."""
+    """Return whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
     return frexp(scale)[0] == 0.5 and transform == (
         scale,

@@ -20,8 +20,8 @@ class Line(NamedTuple):
 
 
 def entry_lines(scene: Scene, ids: Iterable[str]) -> dict[str, Line]:
-    """Of those of these bodies that such a file states. Reads scene files again: raises
-    SceneFileError."""
+    """Return the lines of those of these bodies that such a file states. Reads scene files again:
+    raises SceneFileError."""
     entries = {id_: scene.entries[id_] for id_ in ids if id_ in scene.entries}
     numbers: dict[str, list[int]] = {}
     for entry in entries.values():

@@ -50,8 +50,8 @@ def with_reach(scene: Scene) -> Scene:
 
 
 def holds(floor: Body, box: Box) -> bool:
-    """Whether the block of a half space is the same as the half space to a body in this box, world
-    units."""
+    """Return whether the block of a half space is the same as the half space to a body in this box,
+    world units."""
     origin, reach = reach_in_world(floor)
     return farthest(origin, box) <= reach
 
@@ -109,8 +109,8 @@ def _placed_radius(body: Body) -> float:
 
 
 def _own_radius(bounds: Box, transform: Transform) -> float:
-    """How far the points in the box of a file are from the image of its origin. The mesh of a
-    curved shape reaches its bounds along each axis, and the shape lies within them."""
+    """Return how far the points in the box of a file are from the image of its origin. The mesh of
+    a curved shape reaches its bounds along each axis, and the shape lies within them."""
     return largest_stretch(transform) * farthest((0.0, 0.0, 0.0), bounds)
 
 
@@ -154,7 +154,7 @@ def _carried_radii(robot: SceneRobot, scene: Scene) -> dict[str, float]:
 
 
 def _slide(joint: Joint, scene: Scene) -> float:
-    """How far the joint shifts its child at most."""
+    """Return how far the joint shifts its child at most."""
     count = {"prismatic": 1, "planar": 2, "floating": 3, "free": 3}.get(joint.kind, 0)
     start = joint.reference[0] if joint.kind == "prismatic" and joint.reference else 0.0
     limits = (joint.limits.lower, joint.limits.upper) if joint.limits and count == 1 else ()

@@ -1,4 +1,4 @@
-"""Whether a mesh can be trusted: its topology, what was repaired, and what to warn about."""
+"""The health of a mesh: its topology, what was repaired, and what to warn about."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def kind_of(path: str) -> InputKind:
 
 
 def is_model(location: Path) -> bool:
-    """Whether it is an MJCF file."""
+    """Return whether it is an MJCF file."""
     return _first_elements(location)[0] == "mujoco"
 
 

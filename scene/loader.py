@@ -176,14 +176,15 @@ def read_rules(path: str) -> SceneFile:
 
 
 def is_rules(path: str) -> bool:
-    """Whether the input is a scene file without bodies, whose rules apply to all bodies. Raises
-    SceneFileError."""
+    """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
+    Raises SceneFileError."""
     scene = _read_scenes([path], allow_outside=True).get(path)
     return scene is not None and not scene.bodies
 
 
 def has_only_rules(path: str) -> bool:
-    """Whether the input is a scene file with rules and without bodies. Raises SceneFileError."""
+    """Return whether the input is a scene file with rules and without bodies. Raises
+    SceneFileError."""
     if _begins_a_body(path):
         return False
     scene = _read_scenes([path], allow_outside=True).get(path)
@@ -191,7 +192,7 @@ def has_only_rules(path: str) -> bool:
 
 
 def _begins_a_body(path: str) -> bool:
-    """Whether the text of a scene file has a body, without parsing it. False: perhaps."""
+    """Return whether the text of a scene file has a body, without parsing it. False: perhaps."""
     content = content_of(Path(path)) if kind_of(path) == "scene" else None
     return content is not None and _BODY.search(content) is not None
 
@@ -201,5 +202,5 @@ def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
 
 
 def is_mesh(path: str) -> bool:
-    """Whether the input is read as a mesh file, and not as a scene or a robot."""
+    """Return whether the input is read as a mesh file, and not as a scene or a robot."""
     return kind_of(path) == "mesh"

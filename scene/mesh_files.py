@@ -177,7 +177,7 @@ class MeshFiles:
         return self._hulls[key]
 
     def model(self, path: str, packages: Mapping[str, str | Path] | None) -> Model:
-        """What an MJCF file says. Raises MeshFileError."""
+        """Return what an MJCF file says. Raises MeshFileError."""
         from satcheck.scene.robot.mjcf.asking import read_model
 
         with _reading(path, Path(path)):

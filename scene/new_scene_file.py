@@ -130,7 +130,7 @@ def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
 
 
 def _stated_units(body: Body) -> str | None:
-    """Of a mesh file that states none; None: nothing has to be said."""
+    """Return the units of a mesh file that states none; None: nothing has to be said."""
     if body.shape is None and body.file.units is None and body.unit_scale and body.units:
         return unit_in(body.units, body.unit_scale)
     return None

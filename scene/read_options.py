@@ -1,4 +1,4 @@
-"""What the user chooses where the format of a file leaves a choice of geometry."""
+"""Choices of the user where the format of a file leaves a choice of geometry."""
 
 from __future__ import annotations
 

@@ -84,6 +84,12 @@ class Placed:
     endless: bool = False
 
     @property
+    def mesh(self) -> World:
+        if self.world is None:
+            raise Rejected(f"{self.id} has no mesh in the world")
+        return self.world
+
+    @property
     def bounds(self) -> tuple[Floats, Floats] | None:
         if self.world is not None:
             return self.world.bounds

@@ -1,4 +1,4 @@
-"""Whether the boxes of two bodies are too far apart to matter."""
+"""Check that the boxes of two bodies are too far apart to matter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the gap of a finding keeps its clearance."""
+"""Check that the gap of a finding keeps its clearance."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def keeps_clearance(
     prove_apart: Callable[[Fraction], None],
     closer: Fraction = Fraction(0),
 ) -> bool | None:
-    """Whether the gap keeps the clearance, independent of the touch band; None: not proven either
-    way. squared: of the gap between two points. prove_apart: rejects a narrower gap. closer: by how
-    much curves may be closer than their polygons."""
+    """Return whether the gap keeps the clearance, independent of the touch band; None: not proven
+    either way. squared: of the gap between two points. prove_apart: rejects a narrower gap. closer:
+    by how much curves may be closer than their polygons."""
     if finding.exact_relation != "separated":
         return False
     if finding.relation == "separated":  # then that is a part of what was proven

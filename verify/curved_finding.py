@@ -66,7 +66,7 @@ def check_curved(
 
 
 def _in_band(certificate: Certificate, pair: CurvedPair, band: Fraction) -> bool:
-    """Whether the overlap along the axis of the certificate is within the tolerance."""
+    """Return whether the overlap along the axis of the certificate is within the tolerance."""
     proof = given(certificate.band, "band")
     if pair.gap(axis(given(proof.axis, "axis")), -band) < 0:
         raise Rejected("the bodies overlap by more than the tolerance")

@@ -26,7 +26,7 @@ MOST_NEAR = 2_000_000
 
 
 def squared_gap(ends: Ends, pair: Pair) -> Fraction:
-    """Of a point of either body, world units."""
+    """Return the squared distance of a point of either body, world units."""
     p = boundary_point(ends.a, pair.a, of_hull=pair.convex)
     q = boundary_point(ends.b, pair.b, of_hull=pair.convex)
     step = sub(q, p)  # type: ignore[arg-type]
@@ -36,9 +36,9 @@ def squared_gap(ends: Ends, pair: Pair) -> Fraction:
 def spanned(
     finding: Finding, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]
 ) -> bool:
-    """Whether the gap or the overlap of a convex pair along the normal is what the finding states.
-    Rejects a closer pair. is_apart: whether the gap along an axis is at least a length, world
-    units; the length may be negative.
+    """Return whether the gap or the overlap of a convex pair along the normal is what the finding
+    states. Rejects a closer pair. is_apart: whether the gap along an axis is at least a length,
+    world units; the length may be negative.
     """
     figure = finding.distance if finding.depth is None else -finding.depth
     if finding.normal is None or figure is None:

@@ -58,13 +58,13 @@ class Verification:
 
     @property
     def rejected(self) -> bool:
-        """Whether a checked claim is false."""
+        """Return whether a checked claim is false."""
         outcomes = [f.outcome for f in self.findings] + [f.outcome for f in self.support]
         return bool(self.faults) or "rejected" in outcomes
 
     @property
     def certified(self) -> bool:
-        """Whether the report was made with certificates, has some, or needs none."""
+        """Return whether the report was made with certificates, has some, or needs none."""
         outcomes = {f.outcome for f in self.findings}
         return (
             self.requested
@@ -275,7 +275,7 @@ class _Report:
 def _judged(
     name: str, judge: Callable[[], Iterator[CheckedSupport]], faults: list[str]
 ) -> tuple[CheckedSupport, ...]:
-    """What a part of the report claims about single bodies."""
+    """Return what a part of the report claims about single bodies."""
     try:
         return tuple(judge())
     except Rejected as why:
@@ -308,8 +308,8 @@ def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
 
 
 def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
-    """Whether bounds of the distance, if the finding has any, are as wide as the proof of it.
-    error: how far it may be off; None: it is not proven."""
+    """Return whether bounds of the distance, if the finding has any, are as wide as the proof of
+    it. error: how far it may be off; None: it is not proven."""
     bounds, distance = finding.distance_bounds, finding.distance
     if bounds is None or distance is None:
         return True

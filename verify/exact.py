@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 from math import isqrt, lcm
@@ -86,18 +86,22 @@ def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fra
     By trying every subset of up to four: the nearest point x is a convex combination of one of
     them, and the one for which no point v has v.x < x.x.
     """
+    found = _feet(points)  # one of them is it: no convex hull is without a nearest point
+    return next((x, weights) for x, weights in found if all(dot(v, x) >= dot(x, x) for v in points))
+
+
+def _feet(points: Sequence[IntVector]) -> Iterator[tuple[Point, dict[int, Fraction]]]:
+    """The point nearest to the origin of the hull of each subset, if it lies inside."""
     for size in range(1, 5):
         for chosen in combinations(range(len(points)), size):
             weights = _foot([points[k] for k in chosen])
-            if weights is None or min(weights) < 0:
-                continue
-            x: Point = tuple(  # type: ignore[assignment]
-                sum((w * points[k][axis] for w, k in zip(weights, chosen, strict=True)), Fraction())
-                for axis in range(3)
-            )
-            if all(dot(v, x) >= dot(x, x) for v in points):
-                return x, dict(zip(chosen, weights, strict=True))
-    raise AssertionError("every convex hull has a point next to the origin")
+            if weights is not None and min(weights) >= 0:
+                shares = dict(zip(chosen, weights, strict=True))
+                x, y, z = (
+                    sum((w * points[k][axis] for k, w in shares.items()), Fraction())
+                    for axis in range(3)
+                )
+                yield (x, y, z), shares
 
 
 def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:

@@ -1,4 +1,4 @@
-"""Whether the figures of a finding agree with each other and with the bodies, up to rounding.
+"""Check that the figures of a finding agree with each other and with the bodies, up to rounding.
 
 A certificate proves the other claims of the figures, or `coverage` lists them.
 """
@@ -105,7 +105,7 @@ def check_no_figures(finding: Finding) -> None:
 
 
 def check_figures(finding: Finding, a: Placed, b: Placed) -> None:
-    """Of a finding whose exact relation is known."""
+    """Check the figures of a finding whose exact relation is known."""
     rounding = rounding_of(a, b)
     if finding.exact_relation in OVERLAPS:
         _check_overlap(finding, rounding)
@@ -193,7 +193,8 @@ def _check_witness(finding: Finding, bodies: tuple[Placed, Placed], rounding: Ro
 
 
 def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
-    """Whether witness points are far enough apart that rounding does not change their direction."""
+    """Return whether witness points are far enough apart that rounding does not change their
+    direction."""
     if finding.witness is None or finding.normal is None:
         return False
     length = Fraction(finding.distance or finding.depth or 0)
@@ -201,15 +202,15 @@ def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
 
 
 def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
-    """Whether a point is within this distance of the surface, world units."""
+    """Return whether a point is within this distance of the surface, world units."""
     if body.curved is not None:
         return _on_curved(p, body.curved, slack)
     return body.world is not None and _on_mesh(p, body.world, slack)
 
 
 def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
-    """Whether a point is close to the surface of a convex shape: moved towards its origin it is
-    inside, moved away it is not."""
+    """Return whether a point is close to the surface of a convex shape: moved towards its origin it
+    is inside, moved away it is not."""
     x, y, z = map(Fraction, shape.image.origin)
     step = p[0] - x, p[1] - y, p[2] - z
     length = _length(step)
@@ -260,7 +261,7 @@ def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rou
 
 
 def _check_quality(finding: Finding) -> None:
-    """Of a relation that is proven."""
+    """Check the quality of a relation that is proven."""
     bounds = finding.depth_bounds
     low, high = map(Fraction, bounds or (0, 0))
     wide = high - low > EXACT_WIDTH * high

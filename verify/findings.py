@@ -55,9 +55,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     check_figures(finding, a, b)
     if a.curved is not None or b.curved is not None:
         return check_curved(finding, certificate, a, b, request, tolerance)
-    assert a.world is not None
-    assert b.world is not None
-    pair = pair_of(a, b, a.world, b.world)
+    pair = pair_of(a, b, a.mesh, b.mesh)
     relation, exact = finding.relation, finding.exact_relation
     closer = curve_error(a, b)
     hulls_apart = _prove_relation(finding, certificate, pair, a, b, request, tolerance)
@@ -141,7 +139,7 @@ def _prove_relation(
 
 
 def _check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
-    """How far the distance may be off; None: it is not proven."""
+    """Return how far the distance may be off; None: it is not proven."""
     if finding.exact_relation == "touching":
         return Fraction(0)
     if isinstance(certificate.distance, UnsetType) or finding.distance is None:
@@ -207,7 +205,8 @@ def _granted(figure: float | None, rounding: Rounding) -> Fraction:
 
 
 def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
-    """Whether a translation of A against this axis by the length, world units, frees it from B."""
+    """Return whether a translation of A against this axis by the length, world units, frees it from
+    B."""
     overlap = -gap_along(pair.a, pair.b, n)
     return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
 
@@ -244,8 +243,8 @@ def _is_in_band(
     band: Fraction,
     proven: ProvenFields,
 ) -> bool:
-    """Whether a way out of the overlap is within the tolerance, or surfaces that may be off explain
-    it."""
+    """Return whether a way out of the overlap is within the tolerance, or surfaces that may be off
+    explain it."""
     if isinstance(proof, UnsetType):
         if proven.depth and finding.depth is not None and finding.depth <= band:
             return True

@@ -39,7 +39,7 @@ ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 
 
 def curve_error(a: Placed, b: Placed) -> Fraction:
-    """How much closer (or deeper) two bodies may be than their polygons, world units; 0: the
+    """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
     polygons are exact."""
     return Fraction(a.deviation) + Fraction(b.deviation)
 
@@ -67,7 +67,7 @@ def check_overlap_of_curves(
 
 
 def _sticks_out(world: World, other: World, closer: Fraction, across: int) -> bool:
-    """By their boxes."""
+    """Return whether A sticks out of B, by their boxes."""
     (low, high), (least, most) = world.bounds, other.bounds
     steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
     return any(
@@ -76,7 +76,7 @@ def _sticks_out(world: World, other: World, closer: Fraction, across: int) -> bo
 
 
 def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: Pair) -> bool:
-    """Whether the polygons are as far apart along the axis as the curves may be off them."""
+    """Return whether the polygons are as far apart along the axis as the curves may be off them."""
     if not closer:
         return True
     if not isinstance(proof, AxisProof):
@@ -119,8 +119,8 @@ def check_in_plane(finding: Finding, certificate: Certificate, across: int) -> N
 
 
 def check_proof_in_plane(proof: Proof, pair: Pair, across: int) -> None:
-    """What shows that neither outline holds the other: no axis across the plane, and no point at
-    the ends of the prisms, which are of one height."""
+    """Check what shows that neither outline holds the other: no axis across the plane, and no point
+    at the ends of the prisms, which are of one height."""
     if isinstance(proof, PointProof | PolytopeProof) and any(
         vector(reach)[across] != 0 for reach in (proof.a_reaches, proof.b_reaches)
     ):

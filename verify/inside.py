@@ -1,4 +1,4 @@
-"""Whether bodies lie in their regions up to a tolerance, checked in exact arithmetic.
+"""Check that bodies lie in their regions up to a tolerance, checked in exact arithmetic.
 
 In a convex region a body lies if no point of it is farther beyond a face than the tolerance. In
 another region it lies if a shift by at most the tolerance brings all of it into the region, and it
@@ -136,8 +136,8 @@ def _check_beyond_faces(
 
 
 def _is_beyond(body: Placed, region: World, limit: float) -> bool:
-    """Whether a point of the body lies farther beyond a face of the convex region than the limit,
-    or as far and the limit is not 0."""
+    """Return whether a point of the body lies farther beyond a face of the convex region than the
+    limit, or as far and the limit is not 0."""
     k = region.lattice if body.world is None else max(region.lattice, body.world.lattice)
     faces = Exact(region, k)
     mesh = None if body.world is None else Exact(body.world, k)
@@ -163,7 +163,7 @@ def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
 def _reaches(
     body: Placed, mesh: Exact | None, normal: IntVector, at: IntVector, k: int, limit: Fraction
 ) -> bool:
-    """Whether the body reaches beyond the plane by more than the limit."""
+    """Return whether the body reaches beyond the plane by more than the limit."""
     squared = (limit * (1 << k)) ** 2 * dot(normal, normal)
     if mesh is not None:
         height = mesh.extent(normal) - dot(normal, at)
@@ -181,9 +181,7 @@ def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, toleran
     if dot(move, move) > Fraction(tolerance) ** 2:
         raise Rejected("the shift is longer than the tolerance")
     moved = body.moved([float(c) for c in move])
-    assert moved.world is not None
-    assert region.world is not None
-    check_within(pair_of(moved, region, moved.world, region.world))
+    check_within(pair_of(moved, region, moved.mesh, region.mesh))
 
 
 def _check_point(finding: InsideFinding, body: World, region: World, tolerance: float) -> None:
@@ -198,7 +196,7 @@ def _check_point(finding: InsideFinding, body: World, region: World, tolerance: 
 
 
 def _is_near(p: tuple[Fraction, ...], surface: Exact, reach: Fraction) -> bool:
-    """Whether the surface is closer than `reach`, or as close as the tolerance."""
+    """Return whether the surface is closer than `reach`, or as close as the tolerance."""
     scale = 1 << surface.k
     at = np.array([float(c / scale) for c in p])
     wide = np.nextafter(float(reach), np.inf) + np.spacing(np.abs(at))

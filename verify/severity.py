@@ -43,7 +43,7 @@ class Judgement:
 
 @dataclass(frozen=True, slots=True)
 class ProvenFigures:
-    """What a judgement needs besides the relation.
+    """The needs of a judgement besides the relation.
 
     depth_at_most, thickness_at_most: proven upper bounds. keeps: whether the gap has at least this
     length; None: undecided. rounding: the relative width that a limit is granted.
@@ -80,7 +80,7 @@ def check_severity(finding: Finding, request: Request, proven: ProvenFigures) ->
 
 
 def _is_disputed(finding: Finding) -> bool:
-    """Whether the report says that another library contradicts the relation."""
+    """Return whether the report says that another library contradicts the relation."""
     return any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan)
 
 
@@ -163,7 +163,8 @@ def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
 
 
 def severity_of_answer(answer: str, own: str | None) -> str:
-    """Of an answer about a single body. own: the severity that rules give its errors."""
+    """Return the severity of an answer about a single body. own: the severity that rules give its
+    errors."""
     if answer == "yes":
         return "none"
     if answer == "open":

@@ -1,4 +1,4 @@
-"""Whether A, moved by a translation, has no common interior with B."""
+"""Check that A, moved by a translation, has no common interior with B."""
 
 from __future__ import annotations
 
@@ -51,11 +51,9 @@ def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
     if a.curved is not None or b.curved is not None:
         curved_pair_of(moved, b).prove_free(proof)
         return
-    assert moved.world is not None
-    assert b.world is not None
     if not isinstance(proof, AxisProof):
         check_holes(moved, b, Fraction(0))
-    pair = pair_of(a, b, moved.world, b.world)
+    pair = pair_of(a, b, moved.mesh, b.mesh)
     prove_free(proof, pair)
     if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
         raise Rejected("the way out is shown of polygons alone, not of the curves")

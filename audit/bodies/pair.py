@@ -89,7 +89,7 @@ class Pair(Struct, frozen=True):
 
     @property
     def excuses(self) -> bool:
-        """Whether surfaces may be off by more than the touch band."""
+        """Return whether surfaces may be off by more than the touch band."""
         return max(self.off) > 0.5 * self.tolerance
 
     @property
@@ -98,7 +98,7 @@ class Pair(Struct, frozen=True):
         return self.request.wants("distance") or self.closer > self.tolerance
 
     def may(self, rung: Accuracy) -> bool:
-        """Whether --accuracy lets this pair climb to the rung."""
+        """Return whether --accuracy lets this pair climb to the rung."""
         return _RANK[rung] <= _RANK[self.settings.accuracy]
 
     @property

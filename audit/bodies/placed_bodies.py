@@ -91,7 +91,7 @@ class PlacedBodies(Struct, frozen=True):
         yield from self.endless_pairs()
 
     def is_comparable(self, i: int, j: int) -> bool:
-        """Whether two placed bodies may have the same unit of length."""
+        """Return whether two placed bodies may have the same unit of length."""
         return self.units.get(i) == self.units.get(j)
 
     def endless_pairs(self) -> Iterator[tuple[int, int, str]]:

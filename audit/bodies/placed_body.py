@@ -135,7 +135,8 @@ class SharedMesh:
 
 
 def _surface_tolerance(body: Body, setting: float | None) -> float:
-    """That of the scene, or else of the check, or else of the facets that a reader made."""
+    """Return the surface tolerance of the scene, or else of the check, or else of the facets that a
+    reader made."""
     if body.surface_tolerance is not None:
         return body.surface_tolerance
     return body.facet_tolerance if setting is None else setting

@@ -99,17 +99,15 @@ class _Maker:
     def __init__(self, pair: Pair, examined: Examined) -> None:
         self.pair, self.examined, self.finding = pair, examined, examined.finding
         a, b = pair.a.checked(), pair.b.checked()
-        if a.world is None or b.world is None:
-            raise AssertionError("a placed body has a world mesh")
         self.a, self.b = a, b
-        self.worlds = a.world, b.world
-        self.placed = self.ends = pair_of(a, b, a.world, b.world)
+        self.worlds = a.mesh, b.mesh
+        self.placed = self.ends = pair_of(a, b, *self.worlds)
         plane = pair.settings.planar
         self.closer = curve_error(a, b)
         self.across = None if plane is None else axis_across(plane)
         if self.across is not None:
             relation = self.finding.exact_relation
-            self.ends = pair_of(a, b, *reaching(relation, a.world, b.world, self.across))
+            self.ends = pair_of(a, b, *reaching(relation, *self.worlds, self.across))
 
     def certificate(self) -> Certificate | NoCertificate:
         finding = self.finding
@@ -170,7 +168,7 @@ class _Maker:
         return relation.triangle_a, relation.triangle_b
 
     def _hulls(self) -> core.PairResult:
-        """How the hulls of the bodies are apart; a lower rung may have settled the pair."""
+        """Prove how the hulls of the bodies are apart; a lower rung may have settled the pair."""
         climb = self.examined.verdict.climb
         if climb is not None and climb.hulls is not None:
             return climb.hulls
@@ -202,7 +200,7 @@ class _Maker:
         return AxisProof(direction) if self._separates(direction, least) else SURFACES
 
     def _separates(self, axis: ExactVector, least: Fraction) -> bool:
-        """Whether the gap along the axis is wider than that."""
+        """Return whether the gap along the axis is wider than that."""
         n = vector(list(axis))
         return any(n) and exceeds(gap_along(self.placed.a, self.placed.b, n), n, least)
 
@@ -232,12 +230,12 @@ class _Maker:
         return PolytopeProof(tuple(inner.vertices), tuple(inner.faces), *leads)
 
     def _lead(self, axis: ExactVector) -> Fraction:
-        """How far A reaches beyond B along the axis, on the lattice."""
+        """Return how far A reaches beyond B along the axis, on the lattice."""
         n = vector(list(axis))
         return Fraction(self.ends.a.extent(n) - self.ends.b.extent(n))
 
     def _depth(self) -> DepthProof | None:
-        """Of convex bodies."""
+        """Certify the depth of convex bodies."""
         bounds, normal = self.finding.depth_bounds, self.finding.normal
         if bounds is None or not self.placed.convex:
             return None
@@ -251,14 +249,14 @@ class _Maker:
         return DepthProof(_polytope(inner), integer_axis(shortened(complete.axis)))
 
     def _cover(self) -> Cover | None:
-        """Of bodies that are not both convex."""
+        """Certify the depth of bodies that are not both convex."""
         bounds = self.finding.depth_bounds
         if bounds is None or self.placed.convex:
             return None
         return cover(self.placed, Fraction(bounds[0]))
 
     def _cells(self) -> Cells | None:
-        """Of an overlap that is thinner than it is deep."""
+        """Certify the thickness of an overlap that is thinner than it is deep."""
         answer, finding = self.examined.answer, self.finding
         thickness = None if answer is None else answer.thickness
         if thickness is None or thickness.proof is None:
@@ -274,7 +272,7 @@ class _Maker:
         return None if self.closer and proof is SURFACES else proof
 
     def _free(self, move: Vector, least: Fraction = Fraction(0)) -> Proof:
-        """That A, moved, has no common interior with B. least: of the gap along an axis."""
+        """Prove that A, moved, has no common interior with B. least: of the gap along an axis."""
         world = self.worlds[0].moved(move)
         placed = pair_of(self.a, self.b, world, self.worlds[1])
         x, y, z = move

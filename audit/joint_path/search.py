@@ -62,8 +62,8 @@ class Nearest(Struct):
 
 
 class SweptPair(Struct):
-    """What is known about one pair. hit: a t with an overlap; free_until: before this t there is
-    none. touch: the first t at which the bodies may touch. nearest: if a clearance asks for it.
+    """The knowledge of one pair. hit: a t with an overlap; free_until: before this t there is none.
+    touch: the first t at which the bodies may touch. nearest: if a clearance asks for it.
     tolerance: half the width of the touch band. is_spent: whether the budget ended the search."""
 
     hit: float = inf
@@ -143,7 +143,7 @@ class Search:
             yield part, active[rows], self._travel.middle(part)
 
     def _margins(self, active: Flags, at: Middle) -> Numbers:
-        """How far each pair travels; NaN where it is not active."""
+        """Return how far each pair travels; NaN where it is not active."""
         margins = np.full(active.shape, np.nan)
         for k in np.flatnonzero(active.any(axis=0)).tolist():
             travelled = self._travel.between(at, *self._pairs.places[k])
@@ -179,8 +179,8 @@ class Search:
     def _stays_within(
         self, at: Middle, row: int, k: int, tolerance: float, travelled: float
     ) -> bool:
-        """Whether no overlap in the interval is beyond the tolerance, because none in its middle is
-        beyond what the bodies do not travel."""
+        """Return whether no overlap in the interval is beyond the tolerance, because none in its
+        middle is beyond what the bodies do not travel."""
         widest = max(self._pairs.tolerance(k), WIDEST * float(self._sizes[k]))
         if travelled >= tolerance or tolerance > widest:
             return False

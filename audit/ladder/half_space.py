@@ -82,7 +82,7 @@ class Above(Struct, frozen=True):
 
     @property
     def decides(self) -> bool:
-        """Whether the height proves the relation of the pair with the block."""
+        """Return whether the height proves the relation of the pair with the block."""
         return self.slack == 0.0 or self.side != 0
 
 

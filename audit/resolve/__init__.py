@@ -2,13 +2,6 @@
 
 from __future__ import annotations
 
-from satcheck.audit.resolve.resolution import Resolution
-from satcheck.audit.resolve.resolve import ITERATIONS, moved_scene, proof_of, resolve
+from satcheck.audit.resolve.resolve import Resolution, moved_scene, proof_of, resolve
 
-__all__ = [
-    "ITERATIONS",
-    "Resolution",
-    "moved_scene",
-    "proof_of",
-    "resolve",
-]
+__all__ = ["Resolution", "moved_scene", "proof_of", "resolve"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -17,8 +17,7 @@ from satcheck.audit.parallel import in_parallel
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
-from satcheck.audit.resolve.walls import ORIGIN, BodyPair
+from satcheck.audit.resolve.pair_state import PairState, state_of
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
@@ -27,6 +26,9 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Body, Scene
 
+BodyPair = tuple[int, int]
+
+ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Seconds of a slow machine that all ways out of a round may take together, and the least for one.
 ROUND_BUDGET = 4.0
 LEAST_BUDGET = 0.006
@@ -47,52 +49,30 @@ class Layout:
         staying: frozenset[str],
         meter: VolumeMeter | None = None,
     ) -> None:
-        """meter: needed where rules limit the volume of overlaps."""
-        # The verdicts of a check, and a way out for every overlap.
+        """settings: they ask for the depth. meter: needed where rules limit the volume of
+        overlaps."""
         self._meter = meter
-        self.settings = replace(
-            settings,
-            depth=True,
-            thickness=False,
-            contacts=False,
-            components=False,
-            volume=False,
-            cross_check=False,
-            certificate=False,
-        )
-        self._bodies = place(scene, self.settings)
-        self._planner = Planner(self.settings, self._bodies.book, scene.composed)
+        self._bodies = place(scene, settings)
+        self._planner = Planner(settings, self._bodies.book, scene.composed)
         self._index = sorted(self._bodies.placed, key=self._bodies.ids.__getitem__)
         self.home = [self._bodies.placed[index] for index in self._index]
         self.placed = list(self.home)
         self.movable = frozenset(i for i, body in enumerate(self.home) if body.id not in staying)
         self.offsets = [ORIGIN] * len(self.home)
-        self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, PairState]] = {}
         share = max(LEAST_BUDGET, ROUND_BUDGET / max(len(self.close_pairs()), 1))
-        budget = min(self.settings.depth_budget, share)
-        self.settings = replace(self.settings, depth_budget=budget)
+        self.settings = replace(settings, depth_budget=min(settings.depth_budget, share))
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""
         for i, offset in offsets.items():
-            if offset != self.offsets[i]:
-                home = self.home[i]
-                self.offsets[i] = offset
-                self.placed[i] = (
-                    home
-                    if offset == ORIGIN
-                    else PlacedBody(translated(home.body, offset), home.shared)
-                )
+            home = self.home[i]
+            self.offsets[i] = offset
+            self.placed[i] = PlacedBody(translated(home.body, offset), home.shared)
 
     def offset(self, pair: BodyPair) -> Vector:
         """t_a - t_b."""
         return added(self.offsets[pair[0]], scaled(self.offsets[pair[1]], -1.0))
-
-    def pair(self, pair: BodyPair) -> Pair:
-        """Without a touch band."""
-        request = replace(self._planner.request(*self._members(pair)), tolerance=0.0)
-        return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, request, self._meter)
 
     def clearance(self, pair: BodyPair) -> float:
         return self._planner.request(*self._members(pair)).clearance or 0.0
@@ -117,24 +97,16 @@ class Layout:
     def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:
         """The states of pairs at the current places. Pairs that did not move are not checked
         again."""
-        unknown = [pair for pair in pairs if not self._is_known(pair)]
-        for pair, state in zip(unknown, self._in_parallel(unknown), strict=True):
+        stale = [pair for pair in pairs if not self._is_known(pair)]
+        threads = min(self.settings.jobs or os.cpu_count() or 1, len(stale))
+        found = in_parallel(self._state, stale, threads) if threads > 1 else map(self._state, stale)
+        for pair, state in zip(stale, found, strict=True):
             self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], state)
-            if state.excused:
-                self._excused.add(pair)
-            else:
-                self._excused.discard(pair)
         return {pair: self._known[pair][2] for pair in pairs}
 
     def _is_known(self, pair: BodyPair) -> bool:
         known = self._known.get(pair)
         return known is not None and all(known[k] is self.placed[pair[k]] for k in range(2))
-
-    def _in_parallel(self, pairs: Sequence[BodyPair]) -> Iterable[PairState]:
-        threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
-        if threads <= 1:
-            return map(self._state, pairs)
-        return in_parallel(self._state, pairs, threads)
 
     def _state(self, pair: BodyPair) -> PairState:
         """A failure makes the pair undecided, so that the others are still resolved. The final
@@ -147,16 +119,14 @@ class Layout:
     def _judged(self, pair: BodyPair) -> PairState:
         """At home, and for excused pairs, the touch band of a check applies. Elsewhere it does not,
         because moved bodies must be free."""
-        at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
-        strict = self.pair(pair)
-        if at_home or pair in self._excused:
-            request = self._planner.request(*self._members(pair))
-            finding = examine(replace(strict, request=request), Trace()).finding
-            objected = is_objected(finding, self.settings.fail_on)
-            if not objected and finding.relation != "indeterminate":
-                return PairState("free", excused=is_overlap_excused(finding))
-            return state_of(strict, finding)
-        return state_of(strict, examine(strict, Trace()).finding)
+        known = self._known.get(pair)
+        request = self._planner.request(*self._members(pair))
+        a, b = (self.placed[i] for i in pair)
+        strict = Pair(a, b, self.settings, replace(request, tolerance=0.0), self._meter)
+        at_home = known is None and all(self.offsets[i] == ORIGIN for i in pair)
+        banded = at_home or (known is not None and known[2].excused)
+        asked = replace(strict, request=request) if banded else strict
+        return state_of(strict, examine(asked, Trace()).finding, banded=banded)
 
 
 def translated(body: Body, offset: Vector) -> Body:

@@ -7,21 +7,87 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.check import check, volume_meter
 from satcheck.audit.request.settings import Settings
-from satcheck.audit.resolve.layout import Layout, translated
-from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
-from satcheck.audit.resolve.rounds import Progress, Rounds
-from satcheck.audit.resolve.walls import ORIGIN
+from satcheck.audit.resolve.layout import ORIGIN, Layout, translated
+from satcheck.audit.resolve.left_pairs import left_pairs, objected, reasons
+from satcheck.audit.resolve.pushing import Progress, Pushing
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.report.resolution import Move
+from satcheck.report.report import OVERLAPS, Report
+from satcheck.report.resolution import (
+    Left,
+    Move,
+    MovedCheck,
+    ResolutionReport,
+    ResolutionSummary,
+    ResolutionVerdict,
+)
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 
-ITERATIONS = 50
+_VERDICTS: dict[str, ResolutionVerdict] = {
+    "pass": "resolved",
+    "fail": "unresolved",
+    "incomplete": "incomplete",
+}
+
+
+class Resolution(Struct, frozen=True):
+    """moves, pinned, left: as in the document. before: pairs of the unmoved scene by the kind of
+    their state. rounds: how often bodies were pushed. report: of the check of the moved scene.
+    """
+
+    moves: tuple[Move, ...]
+    pinned: tuple[str, ...]
+    before: Mapping[str, int]
+    rounds: int
+    left: tuple[Left, ...]
+    report: Report
+
+    @property
+    def summary(self) -> ResolutionSummary:
+        overlaps, gaps, holes = (self.before.get(kind, 0) for kind in ("overlap", "near", "open"))
+        lengths = [move.length for move in self.moves]
+        return ResolutionSummary(
+            verdict=_VERDICTS[self.report.summary.verdict],
+            conflicts=overlaps + gaps + holes,
+            gaps=gaps,
+            open=holes,
+            remaining=len(objected(self.report)),
+            flush=sum(
+                finding.at_rest == "touching" and finding.exact_relation in OVERLAPS
+                for finding in self.report.findings
+            ),
+            moved=len(self.moves),
+            pinned=len(self.pinned),
+            total_motion=math.fsum(lengths),
+            largest_motion=max(lengths, default=0.0),
+            rounds=self.rounds,
+        )
+
+    def document(self, output: str | None = None) -> ResolutionReport:
+        """output: the file that the moved scene was written to."""
+        report = self.report
+        counts = sorted(report.summary.by_relation.items())
+        return ResolutionReport(
+            tool=report.tool,
+            units=report.units,
+            output=output,
+            summary=self.summary,
+            moves=self.moves,
+            pinned=self.pinned,
+            left=self.left,
+            check=MovedCheck(
+                report.summary.verdict,
+                report.summary.pairs,
+                {relation: count for relation, count in counts if count},
+            ),
+            issues=report.issues,
+        )
 
 
 def resolve(
@@ -30,7 +96,7 @@ def resolve(
     *,
     pins: Sequence[str] = (),
     max_motion: float | None = None,
-    iterations: int = ITERATIONS,
+    iterations: int = 50,
     progress: Progress | None = None,
 ) -> Resolution:
     """Translations, without rotation, that end every overlap of a scene that can be ended.
@@ -42,48 +108,43 @@ def resolve(
 
     pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
     links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
-    after which bodies are taken out to free places. progress(done, total) counts pairs.
+    after which bodies go to free places. progress(done, total) counts pairs.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
-    settings = settings or Settings()
-    _require_limits(max_motion, iterations)
-    scene.require_in_space("resolve moves bodies in space only")
-    scene.require_one_unit()
-    staying = _staying(scene, pins)
-    with ExitStack() as stack:
-        meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None
-        layout = Layout(scene, settings, staying, meter)
-        before = layout.states(layout.close_pairs())
-        kinds = Counter(state.kind for state in before.values())
-        longest = max_motion or math.inf
-        rounds = Rounds(layout, longest)
-        rounds.run(iterations, progress)
-        why = reasons(layout, staying, _links(scene), rounds.left)
-    translations = _translations(layout)
-    moves = _moves(scene, translations)
-    report = check(moved_scene(scene, translations), proof_of(settings))
-    return Resolution(
-        moves=moves,
-        pinned=tuple(body.id for body in scene.bodies if body.id in staying),
-        overlaps=kinds["overlap"],
-        gaps=kinds["near"],
-        open=kinds["open"],
-        rounds=rounds.count,
-        left=tuple(left_pairs(report, why)),
-        report=report,
-    )
-
-
-def _require_limits(max_motion: float | None, iterations: int) -> None:
     if max_motion is not None and not (math.isfinite(max_motion) and max_motion > 0):
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
-
-
-def _limits_volume(scene: Scene) -> bool:
-    return any(rule.max_volume is not None for rule in scene.rules)
+    proof = proof_of(settings or Settings())
+    scene.require_in_space("resolve moves bodies in space only")
+    scene.require_one_unit()
+    robots = (robot for robot in scene.robots if not robot.loose)
+    links = frozenset(part.id for robot in robots for part in robot.bodies)
+    staying = links | _staying(scene, pins)
+    with ExitStack() as stack:
+        limits_volume = any(rule.max_volume is not None for rule in scene.rules)
+        meter = stack.enter_context(volume_meter(proof)) if limits_volume else None
+        layout = Layout(scene, replace(proof, depth=True, thickness=False), staying, meter)
+        before = layout.states(layout.close_pairs())
+        pushing = Pushing(layout, max_motion or math.inf)
+        pushing.run(iterations, progress)
+        why = reasons(layout, staying, links, pushing.left)
+    offsets = zip(layout.home, layout.offsets, strict=True)
+    moved = {body.id: offset for body, offset in offsets if offset != ORIGIN}
+    report = check(moved_scene(scene, moved), proof)
+    return Resolution(
+        moves=tuple(
+            Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
+            for body in scene.bodies
+            if body.id in moved
+        ),
+        pinned=tuple(body.id for body in scene.bodies if body.id in staying),
+        before=Counter(state.kind for state in before.values()),
+        rounds=pushing.rounds,
+        left=tuple(left_pairs(report, why)),
+        report=report,
+    )
 
 
 def proof_of(settings: Settings) -> Settings:
@@ -99,40 +160,15 @@ def proof_of(settings: Settings) -> Settings:
     )
 
 
-def _links(scene: Scene) -> frozenset[str]:
-    """The bodies of robots, which are placed by joints."""
-    robots = (robot for robot in scene.robots if not robot.loose)
-    return frozenset(part.id for robot in robots for part in robot.bodies)
-
-
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
-    links = _links(scene)
-    pinned: set[str] = set()
+    """The bodies that are static, pinned by the scene, or chosen by these selectors."""
+    pinned = {body.id for body in scene.bodies if body.static or body.pinned}
     for selector in map(Selector, pins):
         chosen = selector.select(scene.in_order())
         if not chosen:
             raise SatcheckError("unknown-pin", f"no body is called {selector.text!r}")
         pinned.update(body.id for body in chosen)
-    return frozenset(
-        body.id
-        for body in scene.bodies
-        if body.static or body.pinned or body.id in links or body.id in pinned
-    )
-
-
-def _translations(layout: Layout) -> dict[str, Vector]:
-    """Of the bodies that moved."""
-    offsets = zip(layout.home, layout.offsets, strict=True)
-    return {body.id: offset for body, offset in offsets if offset != ORIGIN}
-
-
-def _moves(scene: Scene, translations: Mapping[str, Vector]) -> tuple[Move, ...]:
-    """In the order of the scene."""
-    return tuple(
-        Move(body.id, offset, math.hypot(*offset))
-        for body in scene.bodies
-        if (offset := translations.get(body.id, ORIGIN)) != ORIGIN
-    )
+    return frozenset(pinned)
 
 
 def moved_scene(scene: Scene, translations: dict[str, Vector]) -> Scene:

@@ -15,7 +15,6 @@ Record = dict[str, Any]
 Row = dict[str, Any]
 PARTS, EXACT = "parts", "exact"
 _MICROSECONDS = 1e6
-_ROUNDING = 1e-9  # of a volume: a difference that sums of products may make
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +28,8 @@ class Errors:
 @dataclass(frozen=True, slots=True)
 class RungSummary:
     """False proofs: verdicts said to be proven that are wrong. The rest is of the `pairs` on which
-    it worked: times in seconds, medians of a pair's runs; steadiness: slowest over fastest run;
-    excess: of the volume that stood for a body, over that of the body, without its sign."""
+    it worked: times in seconds, medians of a pair's runs; steadiness: slowest over fastest
+    run."""
 
     label: str
     outcomes: dict[Outcome, int]
@@ -39,8 +38,6 @@ class RungSummary:
     cold: Spread | None
     cached: Spread | None
     steadiness: Spread | None
-    megabytes: Spread | None
-    excess: Spread | None
     errors: Errors
 
     @property
@@ -111,10 +108,6 @@ def summary(records: Sequence[Record], label: str) -> RungSummary:
         steadiness=spread(
             row["cold"]["high"] / row["cold"]["low"] for _, row in mine if _repeated(row)
         ),
-        megabytes=spread(
-            row["peak_megabytes"] for _, row in mine if row["peak_megabytes"] is not None
-        ),
-        excess=spread(share for _, row in mine for share in _excess(row)),
         errors=_errors(mine),
     )
 
@@ -204,12 +197,6 @@ def _repeated(row: Row) -> bool:
 
 def _times(rows: Iterable[tuple[Record, Row]], kind: str) -> Spread | None:
     return spread(time for _, row in rows if (time := seconds(row, kind)) is not None)
-
-
-def _excess(row: Row) -> list[float]:
-    """Of the bodies whose volume is known."""
-    known = [abs(share) for share in row["excess"] or () if share is not None]
-    return [share if share > _ROUNDING else 0.0 for share in known]
 
 
 def _errors(rows: Sequence[tuple[Record, Row]]) -> Errors:

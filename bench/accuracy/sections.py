@@ -13,7 +13,6 @@ from bench.accuracy.rungs import EXACT, PARTS, RungSummary, depth_widths, labels
 from bench.accuracy.stages import process, settled_by, stage_times
 from bench.accuracy.verdicts import agreement
 from bench.drawing import embedded
-from satcheck.cli.formats.numbers import mebibytes
 from satcheck.cli.formats.words import counted
 
 Record = dict[str, Any]
@@ -61,15 +60,11 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
 def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
     rows = []
     for rung in found.values():
-        memory = words.NONE if rung.megabytes is None else mebibytes(rung.megabytes.median)
         cached = words.NONE if rung.cached is None else words.time(rung.cached.median)
-        room = words.NONE if rung.excess is None else words.percent(rung.excess.median)
         errors = [*words.shares(rung.errors.apart), *words.shares(rung.errors.overlapping)]
-        rows.append(
-            [rung.label, str(rung.pairs), *words.times(rung.cold), cached, memory, *errors, room]
-        )
-    head = ["rung", "pairs", "time", "worst", "cached", "memory"]
-    head += ["error apart", "worst", "overlapping", "worst", "volume error"]
+        rows.append([rung.label, str(rung.pairs), *words.times(rung.cold), cached, *errors])
+    head = ["rung", "pairs", "time", "worst", "cached"]
+    head += ["error apart", "worst", "overlapping", "worst"]
     return "\n\n".join(
         [
             "## Cost and error of each rung, over all pairs",
@@ -77,9 +72,7 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "All figures are medians, unless they are the worst. The wall time is cold: from "
             "meshes in memory to the answer, with building hulls, trees and parts, and with the "
             "start of the child process in which manifold3d computes the common volume. Cached: "
-            "parts are on disk, and the child process runs. Memory: of the child process, or the "
-            "growth of the calling process if that is larger. The Boolean gives no distance. "
-            "Volume error: of the shapes that replace a body, without its sign.",
+            "parts are on disk, and the child process runs. The Boolean gives no distance.",
             words.table(head, rows),
         ]
     )

@@ -169,7 +169,7 @@ class _Watch:
 
 
 def _refuse(worlds: Sequence[World], inputs: Inputs, output: str, baseline: Path | None) -> None:
-    """What can be seen to fail before any work is done."""
+    """Refuse what can be seen to fail before any work is done."""
     if output == "-":
         raise click.UsageError("-o - has no place for --resume: name a file")
     files = tuple(name for world in worlds for name in world if not is_url(name))

@@ -76,8 +76,7 @@ def _in_words(option: click.Option, value: Any) -> str:
 
 def _source(ctx: click.Context, key: str, option: click.Option) -> str:
     source = ctx.get_parameter_source(option.name or "")
-    if source is ParameterSource.DEFAULT_MAP:
-        file = config_of(ctx)
-        assert file is not None
+    file = config_of(ctx)
+    if file is not None and source is ParameterSource.DEFAULT_MAP:
         return file.where(key)
     return "command line" if source is ParameterSource.COMMANDLINE else "default"

@@ -199,7 +199,7 @@ def _split(
 
 
 def _rounding(bodies: list[_Parts], output: Path | None) -> float | None:
-    """Of the file that was written."""
+    """Return the rounding of the file that was written."""
     parts = [part for each in bodies for part in each.named()]
     return None if output is None else parts_file.rounding(parts, output.suffix.lower())
 

@@ -87,9 +87,9 @@ def command(
     """Move the bodies of a scene apart, by short translations.
 
     SCENE is a scene file or mesh files, with or without robots. Static and pinned bodies stay, and
-    so do the links of robots and pairs that the scene allows. Among several ways resolve takes one
-    with a small sum of squared lengths. The moved scene is checked again (with --scene-out the file
-    that was written), and what still overlaps is reported.
+    so do the links of robots and pairs that the scene allows. The translations are short, not the
+    shortest. The moved scene is checked again (with --scene-out the file that was written), and
+    what still overlaps is reported.
 
     Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable input,
     or an internal error; 3, nothing is known to overlap, but not everything could be checked.
@@ -104,13 +104,14 @@ def command(
     if scene_out is not None:
         _refuse_output(inputs, scene_out, output)
     document = Document()
-    scene = _posed(load(inputs), inputs)
+    scene = load(inputs)
+    if inputs.has_poses:
+        scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
     stray = scene_out and _stray(scene_out, scene, allow_outside=inputs.allow_outside)
     settings = settings_of({**options, **inputs.limits}, scene)
+    farthest = None
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
-    else:
-        farthest = None
     with Bar(verb="pushing apart") as bar:
         result = resolve(
             scene,
@@ -137,7 +138,7 @@ def command(
 
 
 def _refuse_output(inputs: Inputs, moved: Path, output: Path | None) -> None:
-    """What cannot be written is said before any work is done."""
+    """Refuse what cannot be written before any work is done."""
     refuse_early(inputs, moved, option="--scene-out")
     if output is not None and output.absolute() == moved.absolute():
         raise click.UsageError("--scene-out and -o name the same file")
@@ -149,14 +150,9 @@ def _refuse_output(inputs: Inputs, moved: Path, output: Path | None) -> None:
     kinds = {kind_of(path) for path in bodies}
     if not (kinds <= {"mesh", "document"} or (kinds == {"scene"} and len(bodies) == 1)):
         raise click.UsageError(
-            "--scene-out needs one scene file, or mesh files alone: links of robots are not moved"
+            "--scene-out needs one scene file, or files without joints and rules: links of robots "
+            "are not moved"
         )
-
-
-def _posed(scene: Scene, inputs: Inputs) -> Scene:
-    if not inputs.has_poses:
-        return scene
-    return posed_once(scene, inputs, "resolve takes one pose, which places the links")
 
 
 def _stray(output: Path, scene: Scene, *, allow_outside: bool) -> str | None:

@@ -125,7 +125,7 @@ def _missing(result: Verification, root: Path) -> str:
 
 
 def _table(result: Verification) -> str:
-    """What was not accepted, line by line, and a sentence about all."""
+    """Return what was not accepted, line by line, and a sentence about all."""
     unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
     lines = [_line(finding) for finding in result.findings if finding.outcome not in unsaid]
     lines += [_support_line(answer) for answer in result.support if answer.outcome != "accepted"]

@@ -53,7 +53,7 @@ def read_config(path: Path) -> ConfigFile:
 
 
 def has_table(path: Path, data: bytes) -> bool:
-    """Whether it has [tool.satcheck]. Raises as `read_config`."""
+    """Return whether it has [tool.satcheck]. Raises as `read_config`."""
     tools = _parsed(path, data).get("tool")
     return isinstance(tools, dict) and "satcheck" in tools
 

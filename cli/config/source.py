@@ -46,13 +46,13 @@ def take_config(ctx: click.Context, given: str | None) -> None:
 
 
 def config_of(ctx: click.Context) -> ConfigFile | None:
-    """That `take_config` has read."""
+    """Return the file that `take_config` has read."""
     file: ConfigFile | None = ctx.meta.get(_META)
     return file
 
 
 def stated_config(ctx: click.Context) -> StatedConfig | None:
-    """What took effect, for a report; None: nothing."""
+    """Return what took effect, for a report; None: nothing."""
     file = config_of(ctx)
     if file is None:
         return None

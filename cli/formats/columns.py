@@ -2,7 +2,7 @@
 
 A terminal that is too narrow costs, in this order: the frame, figures in one line, names in one
 line. Figures are broken between numbers only, and where that does not help there is no table
-(cli/formats/stack.py).
+(cli/formats/table.py).
 """
 
 from __future__ import annotations

@@ -66,10 +66,3 @@ def _rounded(value: float, *, down: bool) -> str:
         return text
     step = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
     return number(value - step if down else value + step)
-
-
-def mebibytes(value: float) -> str:
-    """`36 MiB`, `1.2 MiB`, `< 0.1 MiB`."""
-    if value < 0.1:
-        return "< 0.1 MiB"
-    return f"{value:.1f} MiB" if value < 10 else f"{value:.0f} MiB"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
-    from satcheck.report.resolution import Left, Move
+    from satcheck.report.resolution import Left, Move, ResolutionSummary
 
 # More rows than this, and the longest moves are shown.
 ROWS = 60
@@ -36,10 +36,11 @@ def render(resolution: Resolution, page: Page, output: str | None) -> str:
         console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
     for left in resolution.left:
         console.print(_left_line(left))
-    console.print(_motion_line(resolution))
-    if resolution.flush:
+    summary = resolution.summary
+    console.print(_motion_line(resolution, summary))
+    if summary.flush:
         console.print(
-            f"{counted(resolution.flush, 'pair')} within the tolerance: they count as touching."
+            f"{counted(summary.flush, 'pair')} within the tolerance: they count as touching."
         )
     subject = "The moved scene" if output is None else output
     console.print(f"{subject}, checked again: {counts_line(resolution.report)}")
@@ -80,35 +81,35 @@ _RELATIONS = {
 }
 
 
-def _conflicts(resolution: Resolution) -> str:
+def _conflicts(summary: ResolutionSummary) -> str:
     """`2 overlaps, 3 gaps below their clearance, 1 pair left open by a hole`."""
+    overlaps = summary.conflicts - summary.gaps - summary.open
+    below = counted(summary.gaps, "gap below its clearance", "gaps below their clearance")
     kinds = {
-        counted(resolution.overlaps, "overlap"): resolution.overlaps,
-        counted(
-            resolution.gaps, "gap below its clearance", "gaps below their clearance"
-        ): resolution.gaps,
-        counted(resolution.open, "pair") + " left open by a hole": resolution.open,
+        counted(overlaps, "overlap"): overlaps,
+        below: summary.gaps,
+        counted(summary.open, "pair") + " left open by a hole": summary.open,
     }
     return ", ".join(text for text, count in kinds.items() if count)
 
 
-def _motion_line(resolution: Resolution) -> str:
+def _motion_line(resolution: Resolution, summary: ResolutionSummary) -> str:
     """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
     unit = unit_of(resolution.report.units)
     unit = f" {unit}" if unit else ""
     stays = ""
-    if count := len(resolution.pinned):
-        stays = f" {counted(count, 'body', 'bodies')} had to stay."
-    if not resolution.conflicts:
+    if summary.pinned:
+        stays = f" {counted(summary.pinned, 'body', 'bodies')} had to stay."
+    if not summary.conflicts:
         motions = resolution.report.motions
         where = "as the bodies are placed" if motions else "beyond what is allowed"
         return f"Nothing overlaps {where}: nothing was moved.{stays}"
-    conflicts = _conflicts(resolution)
-    total, largest = number(resolution.total_motion), number(resolution.largest_motion)
-    if not resolution.moves:
+    conflicts = _conflicts(summary)
+    total, largest = number(summary.total_motion), number(summary.largest_motion)
+    if not summary.moved:
         return f"{conflicts}: nothing was moved.{stays}"
     return (
-        f"{conflicts}: {counted(len(resolution.moves), 'body', 'bodies')} moved, "
+        f"{conflicts}: {counted(summary.moved, 'body', 'bodies')} moved, "
         f"by {total}{unit} in total and {largest}{unit} at most, "
-        f"in {counted(resolution.rounds, 'round')}.{stays}"
+        f"in {counted(summary.rounds, 'round')}.{stays}"
     )

@@ -21,12 +21,12 @@ from satcheck.cli.formats.lines import (
 )
 from satcheck.cli.formats.order import groups_of, severity, worst_first
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.stack import stacked
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.verdict import next_step, verdict_line
 from satcheck.cli.formats.words import counted, is_unusable, past_holes
 
 if TYPE_CHECKING:
+    from satcheck.cli.formats.columns import Column
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding, Report, Severity
 
@@ -56,7 +56,7 @@ def render(
         styles = [_style(finding) for finding in shown]
         layout = fit(columns, page.width)
         if layout is None:
-            lines += stacked(columns, page, styles)
+            lines += _stacked(columns, page, styles)
         else:
             lines += Grid(layout, page, styles, set(_breaks(groups))).lines()
     for rest in _left_out(report, rows, top):
@@ -127,3 +127,18 @@ def _left_out(report: Report, rows: Sequence[Finding], top: int | None) -> Itera
     rest = report.summary.by_relation.get("separated", 0) - listed
     if rows and rest:
         yield f"{counted(rest, 'more pair')}, all separated"
+
+
+def _stacked(columns: Sequence[Column], page: Page, styles: Sequence[str]) -> Iterator[str]:
+    """Pairs as paragraphs, for a terminal that is too narrow for a table: `box and lid:
+    penetrating`, then a line for each figure.
+
+    columns: A, B and the relation come first. styles: of each pair.
+    """
+    a, b, relation, *others = columns
+    rows = zip(a.cells, b.cells, relation.cells, styles, strict=True)
+    for number, (first, second, told, style) in enumerate(rows):
+        yield from fitted(f"{first} and {second}: {told}", page, style)
+        for column in others:
+            if cell := column.cells[number]:
+                yield from fitted(f"  {column.name}: {cell}", page)

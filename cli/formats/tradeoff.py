@@ -9,18 +9,17 @@ from rich.table import Table
 from rich.text import Text
 
 from satcheck.cli.formats.canvas import Canvas
-from satcheck.cli.formats.numbers import DIGITS, bounds, duration, mebibytes, number
+from satcheck.cli.formats.numbers import DIGITS, bounds, duration, number
 from satcheck.cli.formats.tradeoff_steps import steps
 from satcheck.cli.formats.words import counted
 from satcheck.studies.tradeoff import labels_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
     from satcheck.cli.output import Page
     from satcheck.studies.tradeoff import (
         Figure,
-        MethodCost,
         PairTradeoff,
         Row,
         Rung,
@@ -32,7 +31,7 @@ _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}
 _COLOURS = {"right": "green", "WRONG": "bold red"}
 # Left out, in this order, where a terminal is too narrow.
-_SPARE = ("runs", "thickness time", "memory", "volume error", "width", "spread", "hulls", "cached")
+_SPARE = ("runs", "thickness time", "width", "spread", "cached")
 # Never broken between lines.
 _WHOLE = ("rung", "verdict", "error", "time")
 _FRAME = 3
@@ -50,9 +49,8 @@ def render(result: Tradeoff, page: Page) -> str:
     console.print(
         "* on the Pareto front: no rung is better in time, error or proof without being worse in "
         "another; times within the spread of their runs (middle half) are alike. Error: signed "
-        "distance said minus proven; below 0: closer or deeper than it is. Volume error: of what "
-        "stands for A, and for B. Thickness: of the overlap of what stands for the bodies: hulls "
-        "bound it, parts (~) do not. Memory: what a rung adds."
+        "distance said minus proven; below 0: closer or deeper than it is. Thickness: of the "
+        "overlap of what stands for the bodies: hulls bound it, parts (~) do not."
     )
     spent = f"{number(round(result.spent, 1))} s of {number(result.budget)} s"
     console.print(f"Medians of up to {counted(result.repeat, 'run')} in turn, {spent}.")
@@ -69,25 +67,7 @@ def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
     if pair.default is not None:
         ended = "settled by" if pair.default.settled else "not settled, ends at"
         console.print(f"Default: {ended} {pair.default.rung}. {pair.default.why}.")
-    if pair.methods:
-        console.print("The depth of convex hulls, of some of the vertices and of all:")
-        console.print(_methods(pair.methods, page))
     console.print()
-
-
-def _methods(costs: Sequence[MethodCost], page: Page) -> Table:
-    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
-    for name in ("vertices", "SAT", "GJK + EPA", "ratio", "verdicts"):
-        table.add_column(name, justify="right")
-    for cost in costs:
-        table.add_row(
-            " and ".join(map(str, cost.vertices)),
-            duration(cost.sat / 1000),
-            duration(cost.gjk / 1000),
-            f"{cost.sat / cost.gjk:.1f}",
-            "agree" if cost.agree else "DISAGREE",
-        )
-    return table
 
 
 def _remarks(pair: PairTradeoff) -> list[str]:
@@ -144,13 +124,10 @@ def _columns(pair: PairTradeoff) -> dict[str, list[str]]:
         "width": column(_width_of),
         "thickness": column(_thickness),
         "thickness time": column(lambda row: _time(row.thickness_times)),
-        "volume error": column(_excess),
-        "hulls": column(lambda row: "" if row.hulls is None else "{} + {}".format(*row.hulls)),
         "time": column(lambda row: _time(row.cold)),
         "spread": column(lambda row: _spread(row.cold)),
         "runs": column(lambda row: "" if row.cold is None else str(len(row.cold.runs))),
         "cached": column(lambda row: _time(row.cached)),
-        "memory": column(lambda row: "" if row.megabytes is None else mebibytes(row.megabytes)),
     }
     return {name: cells for name, cells in made.items() if any(cells)}
 
@@ -227,22 +204,6 @@ def _width_of(row: Row) -> str:
         return ""
     width = row.figure.width
     return "open" if width is None else f"{width:.2g}"
-
-
-def _excess(row: Row) -> str:
-    """`+31 % + 0 %`: of A and of B."""
-    if row.excess is None or row.excess == (None, None):
-        return ""
-    return " + ".join("?" if share is None else _percent(share) for share in row.excess)
-
-
-def _percent(share: float) -> str:
-    """Two digits; 0 where rounding alone makes a difference."""
-    return "0" if abs(share) <= EXACT_WIDTH else f"{_plain(100 * share)} %"
-
-
-def _plain(value: float) -> str:
-    return f"{value:.0f}" if abs(value) >= 10 else f"{value:.2g}"
 
 
 def _time(times: Times | None) -> str:

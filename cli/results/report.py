@@ -24,8 +24,8 @@ TOP = 100
 
 
 class Chosen(Struct, frozen=True):
-    """How the report is made. top: how many of the worst. folder: where pictures go. root: where
-    the paths in the results start."""
+    """The choices for the report. top: how many of the worst. folder: where pictures go. root:
+    where the paths in the results start."""
 
     form: str
     output: Path | None
@@ -111,7 +111,7 @@ def _render(
 
 
 def _tell(seen: Overview, form: str, output: Path | None) -> None:
-    """What the document does not say, and with -o the summary and where the report is."""
+    """Tell what the document does not say, and with -o the summary and where the report is."""
     if output is not None or form != "table":
         for issue in seen.issues:
             talk(f"satcheck: {issue_line(issue)}")

@@ -12,7 +12,7 @@ FILE_SHARE_OF_MEMORY = 4
 MAX_PLACEMENTS = 1_000_000
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
-MAX_DEPTH = 200  # of elements in XML; no program writes deeper ones
+MAX_DEPTH = 200  # of elements in XML and keys in TOML; no program nests deeper
 
 # XML compresses about 4:1 to 20:1. A part with a higher ratio that unpacks to more than a few
 # megabytes is an attack or filler.

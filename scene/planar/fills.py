@@ -21,8 +21,8 @@ _MOST_TRIANGLES = 1000
 
 
 def covers(region: Region, outline: Floats) -> bool:
-    """Whether the region covers a convex polygon. outline: its corners, counter-clockwise, (n, 2).
-    False if the test would take too long."""
+    """Return whether the region covers a convex polygon. outline: its corners, counter-clockwise,
+    (n, 2). False if the test would take too long."""
     corners = region.points[region.triangles]
     low, high = outline.min(axis=0), outline.max(axis=0)
     meets = (corners.min(axis=1) < high).all(axis=1) & (corners.max(axis=1) > low).all(axis=1)

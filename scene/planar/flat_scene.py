@@ -120,7 +120,7 @@ def _outline(body: Body, plane: Plane) -> Region:
 
 
 def _stands_on(floor: Body, plane: Plane) -> bool:
-    """Whether the boundary of a half space is upright over the plane."""
+    """Return whether the boundary of a half space is upright over the plane."""
     normal = plane_of(floor.transform).normal
     return normal[axis_across(plane)] == 0
 

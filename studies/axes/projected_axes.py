@@ -98,7 +98,7 @@ def projected(
 
 
 def _feature_counts(candidates: Candidates, group: Indices, groups: int) -> Indices:
-    """How many faces and pairs of edges each group has; triangles of one face count once."""
+    """Return how many faces and pairs of edges each group has; triangles of one face count once."""
     features = np.column_stack((group, candidates.index_a, candidates.index_b))
     features = features[candidates.counted]
     return np.bincount(np.unique(features, axis=0)[:, 0], minlength=groups)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
-from satcheck.studies.tradeoff.methods import MethodCost, method_costs
 from satcheck.studies.tradeoff.pareto import Times
 from satcheck.studies.tradeoff.result import (
     ClimbEnd,
@@ -26,7 +25,6 @@ __all__ = [
     "Budget",
     "ClimbEnd",
     "Figure",
-    "MethodCost",
     "PairTradeoff",
     "Row",
     "Rung",
@@ -36,6 +34,5 @@ __all__ = [
     "choices",
     "labels_of",
     "measure_pair",
-    "method_costs",
     "tradeoff",
 ]

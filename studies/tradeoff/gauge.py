@@ -30,13 +30,13 @@ class Budget:
         return self.seconds - self.spent
 
     def share(self, waiting: int) -> Budget:
-        """Of what is left, for one of so many that wait."""
+        """Return a share of what is left, for one of so many that wait."""
         return Budget(self.left / waiting, self.per_rung)
 
 
 @dataclass(slots=True)
 class Gauge:
-    """What has been seen of a rung so far."""
+    """The measurements of a rung so far."""
 
     rung: Rung
     state: State = "not run"
@@ -46,7 +46,6 @@ class Gauge:
     cached: list[float] = field(default_factory=list)
     cpu: list[float] = field(default_factory=list)
     thickness: list[float] = field(default_factory=list)
-    megabytes: float | None = None
     longest: float = 0.0
     spent: float = 0.0
     stopped_after: float | None = None
@@ -72,11 +71,9 @@ class Gauge:
         self.state, self.reason = "answered", None
         self.answer = self.answer or answer
         self.cold.append(cold)
-        if isinstance(answer, LadderRun) and answer.cpu is not None:
+        if isinstance(answer, LadderRun):
             self.cpu.append(answer.cpu)
-        if isinstance(answer, LadderRun) and answer.thickness is not None:
-            self.thickness.append(answer.thickness.seconds)
+            if answer.thickness is not None:
+                self.thickness.append(answer.thickness.seconds)
         if cached is not None:
             self.cached.append(cached)
-        if answer.megabytes is not None:
-            self.megabytes = max(self.megabytes or 0.0, answer.megabytes)

@@ -15,12 +15,10 @@ from satcheck.audit.request.settings import Method, Settings
 from satcheck.report.report import OVERLAPS
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge
-from satcheck.studies.tradeoff.reading import climb_end
-from satcheck.studies.tradeoff.resources import OwnMemory
 from satcheck.studies.tradeoff.result import PairTradeoff, with_front
 from satcheck.studies.tradeoff.rows import row_of, truth_by
-from satcheck.studies.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
-from satcheck.studies.tradeoff.runs import LadderRun, ask, ask_parts, ask_volume, body_volumes
+from satcheck.studies.tradeoff.rungs import EXACT, GROUPS, RUNGS, Rung
+from satcheck.studies.tradeoff.runs import LadderRun, ask, ask_parts, ask_volume, climb_end
 
 # What one run of convex parts may take whatever the budget: the default of a check.
 PART_SECONDS = Settings().part_seconds
@@ -51,12 +49,10 @@ def measure_pair(
             if gauge.wants_more and gauge.left(budget) > gauge.longest:
                 _warm_up(bodies, budget)
                 _run(gauge, bodies, budget, apart=apart, method=method)
-                _weigh(gauge, bodies, budget, apart=apart, method=method)
             if on_run is not None:
                 on_run()
     truth = truth_by(gauges[EXACT])
-    own = (None, None) if plainly is None else body_volumes(bodies)
-    rows = [row_of(gauge, truth, own) for gauge in gauges.values()]
+    rows = [row_of(gauge, truth) for gauge in gauges.values()]
     default = None if plainly is None else climb_end(plainly.finding)
     return PairTradeoff(a, b, truth, default, with_front(rows, truth.pad))
 
@@ -76,7 +72,8 @@ def _leave_out(gauge: Gauge, gauges: dict[Rung, Gauge]) -> None:
 
 
 def _plain_check(bodies: Bodies, budget: Budget) -> LadderRun | None:
-    """What `satcheck A B` finds; None where the budget is spent, or the exact rung will fail."""
+    """Return what `satcheck A B` finds; None where the budget is spent, or the exact rung will
+    fail."""
     if budget.left <= 0:
         return None
     try:
@@ -96,7 +93,7 @@ def _warm_up(bodies: Bodies, budget: Budget) -> None:
 
 
 def _import_early() -> None:
-    """What the first question imports is no cost of the rung that asks it."""
+    """Import what the first question needs: it is no cost of the rung that asks it."""
     import satcheck.core.overlap_volume
     import satcheck.decompose.computation  # noqa: F401
 
@@ -104,28 +101,19 @@ def _import_early() -> None:
 def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: Method) -> None:
     start = budget.spent
     with _failing_alone(gauge):
-        if gauge.rung == BOOLEAN:
+        accuracy, threshold = gauge.rung.accuracy, gauge.rung.threshold
+        if accuracy is None:
             _run_boolean(gauge, bodies, budget)
-        elif gauge.rung.threshold is not None:
-            _run_parts(gauge, bodies, budget)
+        elif threshold is not None:
+            _run_parts(gauge, threshold, bodies, budget)
         else:
-            answer = ask(bodies, _settings(gauge.rung, bodies, apart=apart, method=method))
+            settings = Settings(depth=True, accuracy=accuracy, method=method)
+            if apart and gauge.rung == EXACT:
+                settings = replace(settings, clearance=_beyond(bodies))
+            answer = ask(bodies, settings)
             gauge.saw(answer, answer.seconds, None)
     took = budget.spent - start
     gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
-
-
-def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: Method) -> None:
-    """One more run of a rung that starts no child process, not timed: for its memory."""
-    first = len(gauge.cold) == 1 and gauge.state == "answered"
-    if not first or gauge.rung.accuracy in (None, "parts") or gauge.left(budget) < gauge.longest:
-        return
-    start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart, method=method)
-    memory = OwnMemory()
-    with _failing_alone(gauge):
-        ask(bodies, settings)
-        gauge.megabytes = memory.grown
-    gauge.spent += budget.spent - start
 
 
 @contextmanager
@@ -137,21 +125,14 @@ def _failing_alone(gauge: Gauge) -> Iterator[None]:
         gauge.fail(f"internal error: {type(error).__name__}: {error}")
 
 
-def _settings(rung: Rung, bodies: Bodies, *, apart: bool, method: Method) -> Settings:
-    """The exact rung is asked for the gap of bodies that are apart, by a clearance beyond any; the
-    others say what their test has shown."""
-    assert rung.accuracy is not None
-    settings = Settings(depth=True, accuracy=rung.accuracy, method=method)
-    if not apart or rung != EXACT:
-        return settings
+def _beyond(bodies: Bodies) -> float:
+    """A clearance beyond any gap of the bodies: it has the exact rung measure it."""
     corners = [corner for body in bodies for corner in body.world_mesh().bounds]
     largest = max(abs(c) for corner in corners for c in corner)
-    return replace(settings, clearance=math.ldexp(1.0, math.frexp(largest)[1] + 2))
+    return math.ldexp(1.0, math.frexp(largest)[1] + 2)
 
 
-def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
-    threshold = gauge.rung.threshold
-    assert threshold is not None
+def _run_parts(gauge: Gauge, threshold: float, bodies: Bodies, budget: Budget) -> None:
     limit = min(PART_SECONDS, gauge.left(budget))
     with ExitStack() as stack:
         folder = Path(tempfile.mkdtemp(prefix="satcheck-tradeoff-"))
@@ -165,19 +146,14 @@ def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
         )
         cold = ask_parts(bodies, settings)
         if cold.failure is not None:
-            _fail_parts(gauge, cold, limit)
+            if limit < PART_SECONDS and cold.seconds >= limit:
+                gauge.stop(limit)
+            else:
+                gauge.fail(cold.failure)
             return
         cached = ask_parts(bodies, settings) if cold.split else None
     reread = cached is not None and cached.from_cache
     gauge.saw(cold, cold.seconds, cached.seconds if cached is not None and reread else None)
-
-
-def _fail_parts(gauge: Gauge, asked: LadderRun, limit: float) -> None:
-    if limit < PART_SECONDS and asked.seconds >= limit:
-        gauge.stop(limit)
-        return
-    assert asked.failure is not None
-    gauge.fail(asked.failure)
 
 
 def _run_boolean(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
+"""The cost of accuracy in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS, Relation, Tool
-from satcheck.studies.tradeoff.methods import MethodCost
 from satcheck.studies.tradeoff.pareto import Times, front
 from satcheck.studies.tradeoff.rungs import Rung
 
@@ -31,7 +30,7 @@ class Figure(Struct, frozen=True):
 
 
 class Truth(Struct, frozen=True):
-    """What the exact rung has proven; relation, figure: None where it has not, reason says why.
+    """The proof of the exact rung; relation, figure: None where it has not, reason says why.
 
     pad: what the rounding of a coordinate can make of a length. thickness: 0 where there is no
     overlap; None: not known.
@@ -63,7 +62,7 @@ class Truth(Struct, frozen=True):
         return 0.0 if abs(error) <= self.pad else error
 
     def is_right(self, overlap: bool | None, relation: Relation | None) -> bool | None:
-        """Whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
+        """Return whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
         `inside` and `coincident` are overlaps like any. relation: None where only that is said."""
         if self.relation is None or overlap is None:
             return None
@@ -80,13 +79,10 @@ class Row(Struct, frozen=True, kw_only=True):
     a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
     right: held against the truth; None: one of the two is not known. figure: the signed
     distance. error: see Truth.error. thickness: of an overlap, by what stood for the bodies;
-    thickness_error: see Truth; thickness_times: of its search. hulls: convex bodies that stood for
-    A and B. excess: for A and for B, how much more volume than the body what stood for it takes, as
-    a share of the body's; None: not known. settled_by: the rung at which its climb ended. cold:
-    nothing kept from before; cached: with the parts on disk, or the child process running. cpu: of
-    the cold runs, child processes included; None: not known. megabytes: MiB that it takes at most:
-    by which this process grows, or of its child process, whichever is more. on_front: of error
-    against time.
+    thickness_error: see Truth; thickness_times: of its search. settled_by: the rung at which its
+    climb ended. cold: nothing kept from before; cached: with the parts on disk, or the child
+    process running. cpu: of the cold runs, child processes included. on_front: of error against
+    time.
     """
 
     rung: Rung
@@ -103,13 +99,10 @@ class Row(Struct, frozen=True, kw_only=True):
     thickness_times: Times | None = None
     volume: float | None = None
     volume_error: float | None = None
-    hulls: tuple[int, int] | None = None
-    excess: tuple[float | None, float | None] | None = None
     settled_by: str | None = None
     cold: Times | None = None
     cached: Times | None = None
     cpu: Times | None = None
-    megabytes: float | None = None
     on_front: bool = False
 
     @property
@@ -150,12 +143,9 @@ class Row(Struct, frozen=True, kw_only=True):
             "volume": self.volume,
             "volume_error": self.volume_error,
             "settled_by": self.settled_by,
-            "hulls": None if self.hulls is None else list(self.hulls),
-            "excess": None if self.excess is None else list(self.excess),
             "cold": _times(self.cold),
             "cached": _times(self.cached),
             "cpu": _times(self.cpu),
-            "peak_megabytes": self.megabytes,
             "pareto": self.on_front,
         }
 
@@ -181,15 +171,13 @@ class ClimbEnd(Struct, frozen=True):
 
 
 class PairTradeoff(Struct, frozen=True):
-    """default: None where the budget was spent before anything ran. methods: SAT against GJK
-    and EPA on convex hulls of the two."""
+    """default: None where the budget was spent before anything ran."""
 
     a: str
     b: str
     truth: Truth
     default: ClimbEnd | None
     rows: tuple[Row, ...]
-    methods: tuple[MethodCost, ...] = ()
 
     @property
     def overlap(self) -> bool | None:
@@ -208,15 +196,6 @@ class PairTradeoff(Struct, frozen=True):
             },
             "default": None if self.default is None else self.default.to_dict(),
             "rungs": [row.to_dict() for row in self.rows],
-            "methods": [
-                {
-                    "vertices": list(cost.vertices),
-                    "sat_nanoseconds": cost.sat,
-                    "gjk_nanoseconds": cost.gjk,
-                    "agree": cost.agree,
-                }
-                for cost in self.methods
-            ],
         }
 
 

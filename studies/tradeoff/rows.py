@@ -1,16 +1,20 @@
-"""The row of a rung: its measurements, compared with the truth, in the words of a report."""
+"""The row of a rung: its measurements, compared with the truth, in the words of a report.
+
+Signed distance: > 0 a gap, < 0 an overlap, as deep as the shortest translation that ends it.
+"""
 
 from __future__ import annotations
 
+import math
+
 from msgspec.structs import replace
 
-from satcheck.report.report import OVERLAPS
+from satcheck.audit.bodies.verdict import Verdict
+from satcheck.report.report import OVERLAPS, Finding, Relation
 from satcheck.studies.tradeoff.gauge import Gauge
 from satcheck.studies.tradeoff.pareto import Times
-from satcheck.studies.tradeoff.reading import figure_of, is_of_bodies, plain, truth_of
 from satcheck.studies.tradeoff.result import Figure, Row, Truth
-from satcheck.studies.tradeoff.rungs import EXACT
-from satcheck.studies.tradeoff.runs import LadderRun, VolumeRun, Volumes
+from satcheck.studies.tradeoff.runs import LadderRun, VolumeRun, is_of_bodies
 
 
 def truth_by(exact: Gauge) -> Truth:
@@ -25,8 +29,7 @@ def truth_by(exact: Gauge) -> Truth:
     return truth if answer.thickness is None else replace(truth, thickness=answer.thickness.figure)
 
 
-def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
-    """own: volumes of the bodies."""
+def row_of(gauge: Gauge, truth: Truth) -> Row:
     row = Row(
         rung=gauge.rung,
         state=gauge.state,
@@ -34,7 +37,6 @@ def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
         cold=Times(tuple(gauge.cold)) if gauge.cold else None,
         cached=Times(tuple(gauge.cached)) if gauge.cached else None,
         cpu=Times(tuple(gauge.cpu)) if gauge.cpu else None,
-        megabytes=gauge.megabytes,
     )
     answer = gauge.answer
     if gauge.state != "answered" or answer is None:
@@ -58,8 +60,6 @@ def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
         thickness=thickness,
         thickness_error=truth.thickness_error(thickness),
         thickness_times=Times(tuple(gauge.thickness)) if gauge.thickness else None,
-        hulls=answer.hulls,
-        excess=_excess(own if answer.ended == EXACT.name else answer.volumes, own),
         settled_by=answer.ended,
         reason=None if known else finding.reason,
     )
@@ -78,9 +78,36 @@ def _with_volume(row: Row, answer: VolumeRun, truth: Truth) -> Row:
     )
 
 
-def _excess(volumes: Volumes, own: Volumes) -> tuple[float | None, float | None]:
-    a, b = (
-        None if taken is None or not true else taken / true - 1.0
-        for taken, true in zip(volumes, own, strict=True)
-    )
-    return a, b
+def figure_of(finding: Finding, verdict: Verdict) -> Figure | None:
+    """verdict: of the same ladder, for what it proves and nobody asked to report. None: no figure
+    of the bodies; how far their surfaces are apart says nothing of one that may lie inside."""
+    if not is_of_bodies(finding):
+        return None
+    if finding.depth_bounds is not None:
+        low, high = finding.depth_bounds
+        # An overlap that is not proven may be a gap, of any width.
+        return Figure(-high + 0.0, -high + 0.0, -low + 0.0 if verdict.proven else None)
+    signed = verdict.signed_distance
+    if signed is not None and signed.distance is not None:
+        return Figure(signed.distance, signed.lower, signed.upper)
+    if finding.distance is not None:
+        return Figure(finding.distance, finding.distance, finding.distance)
+    if verdict.relation == "separated":
+        return Figure(verdict.gap_lower, verdict.gap_lower if verdict.proven else None, None)
+    if verdict.relation == "touching":
+        return Figure(0.0, 0.0, 0.0)
+    band = finding.tolerance
+    return None if finding.relation != "touching" or band is None else Figure(0.0, -band, None)
+
+
+def truth_of(finding: Finding, figure: Figure | None, pad: float) -> Truth:
+    relation = plain(finding.relation)
+    if finding.exact_relation is None or not is_of_bodies(finding):
+        return Truth(None, None, pad, finding.reason or "the exact rung has not proven it")
+    known = figure is not None and figure.width is not None and math.isfinite(figure.width)
+    return Truth(relation, figure if known else None, pad, finding.reason)
+
+
+def plain(relation: Relation) -> Relation:
+    """Without the clearance that is asked only to have the gap measured."""
+    return "separated" if relation == "near" else relation

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import time
 from time import perf_counter
 
 from msgspec import Struct
@@ -18,12 +20,14 @@ from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Finding
 from satcheck.studies.pair import Bodies, pair_of
-from satcheck.studies.tradeoff.reading import climb_end
-from satcheck.studies.tradeoff.resources import ChildMemory, CpuClock, OwnMemory
+from satcheck.studies.tradeoff.result import ClimbEnd
 from satcheck.studies.tradeoff.thickness import ThicknessRun, thickness_by
-from satcheck.studies.tradeoff.volumes import body_volume, stand_in_volume
 
-Volumes = tuple[float | None, float | None]
+# Stages of a trace that are rungs, and how they are called here.
+STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
+STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
+# What a stage records that had nothing to add to the one below.
+SKIPPED = "skipped"
 
 
 class LadderRun(Struct, frozen=True):
@@ -32,26 +36,21 @@ class LadderRun(Struct, frozen=True):
     verdict: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
     can make of a length here. seconds: from the meshes in memory to the finding, hulls and
     hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
-    so long, on all threads and in child processes together; None: not known. ended: the rung at
-    which the climb ended. volumes: of the shapes that it put in the place of A and of B. hulls:
-    how many convex bodies stood for A and for B, where hulls answered. thickness: of these shapes;
-    its time is in `seconds` only where the finding has it. split: convex parts were
-    asked for; from_cache: and found there. megabytes: of the child that made them, or by which this
-    process grew, whichever is more. failure: why there are none.
+    so long, on all threads and in ended child processes together. ended: the rung at which the
+    climb ended. thickness: of what stood for the bodies; its time is in `seconds` only where the
+    finding has it. split: convex parts were asked for; from_cache: and found there. failure: why
+    there are none.
     """
 
     finding: Finding
     verdict: Verdict
     pad: float
     seconds: float
-    cpu: float | None
+    cpu: float
     ended: str
-    volumes: Volumes
-    hulls: tuple[int, int] | None
     thickness: ThicknessRun | None = None
     split: bool = False
     from_cache: bool = False
-    megabytes: float | None = None
     failure: str | None = None
 
 
@@ -65,20 +64,11 @@ class VolumeRun(Struct, frozen=True):
     error: float
     cold: float
     cached: float
-    megabytes: float | None
-
-
-def ask(bodies: Bodies, settings: Settings) -> LadderRun:
-    """As far up the ladder as the settings let it, nothing known from before."""
-    return _climb(bodies, settings, children=False)[0]
 
 
 def ask_parts(bodies: Bodies, settings: Settings) -> LadderRun:
-    """The same of a ladder that ends with convex parts."""
-    with ChildMemory() as memory:
-        own = OwnMemory()
-        asked, pair = _climb(bodies, settings, children=True)
-        taken = [size for size in (memory.megabytes, own.grown) if size is not None]
+    """Climb a ladder that ends with convex parts."""
+    asked, pair = _climb(bodies, settings)
     results = [body.shared.decomposition.known for body in (pair.a, pair.b)]
     made = [result for result in results if result is not None]
     if not made:  # the hulls of the bodies are all there is
@@ -87,27 +77,21 @@ def ask_parts(bodies: Bodies, settings: Settings) -> LadderRun:
     if failures:
         return replace(asked, split=True, failure=failures[0])
     parts = [result for result in made if not isinstance(result, SatcheckError)]
-    a, b = (
-        1 if result is None or isinstance(result, SatcheckError) else len(result.parts)
-        for result in results
-    )
-    return replace(
-        asked,
-        hulls=(a, b),
-        split=True,
-        from_cache=all(result.from_cache for result in parts),
-        megabytes=max(taken, default=None),
-    )
+    return replace(asked, split=True, from_cache=all(result.from_cache for result in parts))
 
 
-def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[LadderRun, Pair]:
-    """children: some are at work."""
-    clock, start = CpuClock(), perf_counter()
+def ask(bodies: Bodies, settings: Settings) -> LadderRun:
+    """Climb as far up the ladder as the settings let it, nothing known from before."""
+    return _climb(bodies, settings)[0]
+
+
+def _climb(bodies: Bodies, settings: Settings) -> tuple[LadderRun, Pair]:
+    before, start = _cpu_seconds(), perf_counter()
     pair = pair_of(bodies, settings)
     examined = examine(pair, Trace())
     finding = examined.finding
-    seconds, cpu = perf_counter() - start, clock.seconds(children=children)
-    stages, ended = {stage.stage for stage in finding.plan}, climb_end(finding).rung
+    seconds, cpu = perf_counter() - start, _cpu_seconds() - before
+    ended = climb_end(finding).rung
     asked = LadderRun(
         finding=finding,
         verdict=examined.verdict,
@@ -115,26 +99,44 @@ def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Ladde
         seconds=seconds,
         cpu=cpu,
         ended=ended,
-        volumes=(stand_in_volume(ended, pair.a), stand_in_volume(ended, pair.b)),
-        # Where the hulls of the whole meshes answered.
-        hulls=(1, 1) if "hull" in stages and "triangles" not in stages else None,
         thickness=thickness_by(ended, pair, finding),
     )
     return asked, pair
 
 
-def body_volumes(bodies: Bodies) -> Volumes:
-    """Volumes of the bodies themselves."""
-    pair = pair_of(bodies, Settings())
-    return body_volume(pair.a), body_volume(pair.b)
+def climb_end(finding: Finding) -> ClimbEnd:
+    """The last stage that is a rung ended the climb; those before say why they could not."""
+    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
+    said = [
+        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
+        for stage in climbed
+    ]
+    ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
+    settled = finding.exact_relation is not None and is_of_bodies(finding)
+    if not settled and finding.reason is not None:
+        said.append(finding.reason)
+    return ClimbEnd(ran[-1] if ran else "none", settled, "; ".join(said))
+
+
+def is_of_bodies(finding: Finding) -> bool:
+    """Return whether it says how the bodies relate, not their surfaces alone, or nothing."""
+    return finding.undecided not in ("relation", "inside")
+
+
+def _cpu_seconds() -> float:
+    """Return the CPU time of this process, on all threads, and of its children that ended; Windows
+    knows of none."""
+    used = os.times()
+    return time.process_time() + used.children_user + used.children_system
 
 
 def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
-    """Of the Boolean of manifold3d, in a child process of its own; or why there is none."""
+    """Measure the volume by the Boolean of manifold3d, in a child process of its own; or why there
+    is none."""
     times: list[float] = []
     volume = error = 0.0
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
-    with ChildMemory() as memory, VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
+    with VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
         for _ in ("cold", "cached"):
             start = perf_counter()
             measured = _volume(pair_of(bodies, settings, meter))
@@ -142,8 +144,7 @@ def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
             if isinstance(measured, str):
                 return measured
             volume, error = measured
-        memory.look()
-    return VolumeRun(volume, error, times[0], times[1], memory.megabytes)
+    return VolumeRun(volume, error, times[0], times[1])
 
 
 def _volume(pair: Pair) -> tuple[float, float] | str:

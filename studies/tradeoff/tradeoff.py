@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from msgspec.structs import replace
-
 from satcheck import core
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.checked_pairs import Progress
@@ -16,7 +14,6 @@ from satcheck.scene import Scene
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
-from satcheck.studies.tradeoff.methods import method_costs
 from satcheck.studies.tradeoff.result import PairTradeoff, Tradeoff
 from satcheck.studies.tradeoff.rungs import RUNGS
 
@@ -58,8 +55,7 @@ def tradeoff(
     for bodies in met[:pairs]:
         waiting = min(len(met), pairs) - len(measurements)
         share = clock.share(waiting)
-        measured = measure_pair(bodies, repeat, share, on_run, method=method)
-        measurements.append(replace(measured, methods=method_costs(*bodies, share.left)))
+        measurements.append(measure_pair(bodies, repeat, share, on_run, method=method))
     return Tradeoff(
         tool(),
         scene.units,
@@ -72,7 +68,7 @@ def tradeoff(
 
 
 def _pairs(scene: Scene) -> list[Bodies]:
-    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet.
+    """Return of two bodies the pair, wherever they are; of more the asked ones whose boxes meet.
 
     Raises SatcheckError for a body that cannot be placed.
     """

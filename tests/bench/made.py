@@ -38,15 +38,13 @@ def row(label: str, **changed: Any) -> Record:
         "cold": times(1e-3),
         "cached": times(1e-4) if name in ("parts", "boolean") else None,
         "cpu": None if name == "boolean" else times(1e-3),
-        "peak_megabytes": 40.0 if name == "parts" else None,
-        "excess": None if name == "boolean" else [0.5, None],
     }
     return made | changed
 
 
 def silent(label: str, state: str, reason: str) -> Record:
-    nothing = dict.fromkeys(("overlap", "error", "settled_by", "cold", "cached", "cpu", "excess"))
-    return row(label, state=state, reason=reason, proven=False, peak_megabytes=None, **nothing)
+    nothing = dict.fromkeys(("overlap", "error", "settled_by", "cold", "cached", "cpu"))
+    return row(label, state=state, reason=reason, proven=False, **nothing)
 
 
 def record(

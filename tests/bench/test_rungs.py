@@ -49,14 +49,6 @@ def test_parts_that_were_not_made_cost_nothing_and_are_not_counted_as_cheap() ->
     assert found.cold.low == pytest.approx(1e-3)
 
 
-def test_what_rounding_makes_of_a_volume_is_no_error_and_the_sign_does_not_count() -> None:
-    shares = ([1e-12, -0.25], [None, 0.5], None)
-    rows = [{"hull": row("hull", excess=share)} for share in shares]
-    found = summary([record(str(k), rows=one) for k, one in enumerate(rows)], "hull").excess
-    assert found is not None
-    assert (found.count, found.low, found.median, found.high) == (3, 0.0, 0.25, 0.5)
-
-
 def test_a_step_compares_the_pairs_that_both_rungs_answered() -> None:
     one = step(RECORDS[:2], "hull", "exact")
     assert (one.pairs, one.compared, one.wrong_before, one.wrong_after) == (2, 2, 1, 0)

@@ -11,7 +11,6 @@ from satcheck.cli.formats.numbers import (
     after_rounding,
     bounds,
     duration,
-    mebibytes,
     number,
     vector,
 )
@@ -78,10 +77,3 @@ def test_a_vector_that_is_not_as_shown_is_named(
 )
 def test_durations(microseconds: float, text: str) -> None:
     assert duration(microseconds) == text
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "< 0.1 MiB"), (0.26, "0.3 MiB"), (9.94, "9.9 MiB"), (36.4, "36 MiB")]
-)
-def test_memory_has_two_digits(value: float, text: str) -> None:
-    assert mebibytes(value) == text

@@ -149,7 +149,7 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         (("missing.json",), "no such file"),
         ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
         ((*PUSHED, "--scene-out", "moved.obj"), ".json"),
-        ((*PUSHED, "workcell.json", "--scene-out", "moved.json"), "mesh files alone"),
+        ((*PUSHED, "workcell.json", "--scene-out", "moved.json"), "or files without joints"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
         (("arm.urdf", "arm.srdf", "--scene-out", "moved.toml"), "links of robots are not moved"),
         (("workcell.json", "--scene-out", "workcell.json"), "overwrite an input"),

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import gc
 import math
+from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, TypeVar, overload
 
 import numpy as np
 import pytest
 
 from satcheck import core
 
+T = TypeVar("T")
 CUBE = core.Mesh(
     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
     np.array(
@@ -39,19 +41,42 @@ def test_a_batch_keeps_its_bodies_when_the_caller_drops_them() -> None:
     gc.collect()
     junk = [np.full(20_000, 7.7) for _ in range(20)]
     climbs = climbing.results()
+    del junk
     assert [climb and climb.relation for climb in climbs] == ["penetrating"] * 11
-    assert len(junk) == 20
 
 
-def test_lists_of_bodies_are_held_while_the_core_computes() -> None:
-    """A sequence that is no list is read once, into references of the core's own."""
-    shapes = tuple(core.Hull(CUBE.convex_hull()) for _ in range(2))
+class Passing(Sequence[T]):
+    """Makes an item each time that it is asked, and keeps none."""
+
+    def __init__(self, make: Callable[[], T], count: int) -> None:
+        self.make, self.length, self.asked = make, count, 0
+
+    def __len__(self) -> int:
+        return self.length
+
+    @overload
+    def __getitem__(self, index: int) -> T: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[T]: ...
+    def __getitem__(self, index: int | slice) -> T | Sequence[T]:
+        if isinstance(index, slice) or index >= self.length:
+            raise IndexError(index)
+        self.asked += 1
+        return self.make()
+
+
+def test_a_sequence_of_bodies_is_read_once_and_its_items_are_held() -> None:
+    shapes = Passing(lambda: core.Hull(CUBE.convex_hull()), 2)
     indices = np.array([0, 1], np.uint32)
     poses = np.zeros((2, 7))
     poses[:, 6] = 1
     results = core.check_pairs(shapes, indices, indices[::-1].copy(), poses, poses, query="overlap")
     assert list(results.outcome) == [2, 2]
-    assert core.placed_bounds((CUBE,), [np.eye(4).ravel().tolist()]) == [CUBE.bounds]
+    assert shapes.asked == 2
+    meshes = Passing(lambda: CUBE.translated((1.0, 2.0, 3.0)), 1)
+    moved = core.placed_bounds(meshes, [np.eye(4).ravel().tolist()])
+    assert moved == [((1.0, 2.0, 3.0), (2.0, 3.0, 4.0))]
+    assert meshes.asked == 1
 
 
 def test_an_empty_mesh_is_no_surface_and_no_body() -> None:
@@ -93,9 +118,11 @@ def test_bounds_that_do_not_hold_the_mesh_are_refused() -> None:
         core.climb((right, wrong, 0.0, 0.0, 0.0, 0.0, False))
 
 
-def test_bytes_that_may_be_written_are_copied() -> None:
-    """The triangles of an array are checked and used; those of bytes cannot change in between."""
-    vertices, triangles = (np.frombuffer(part, np.uint8) for part in CUBE.to_bytes())
-    fixed = core.inspect_bytes(vertices.tobytes(), triangles.tobytes(), True)
-    written = core.inspect_bytes(vertices.copy().data, triangles.copy().data, True)
+def test_bytes_that_are_written_later_change_no_mesh() -> None:
+    vertices, triangles = CUBE.to_bytes()
+    fixed = core.inspect_bytes(vertices, triangles, True)
+    buffers = np.frombuffer(vertices, np.uint8).copy(), np.frombuffer(triangles, np.uint8).copy()
+    written = core.inspect_bytes(buffers[0].data, buffers[1].data, True)
+    for buffer in buffers:
+        buffer[:] = 0
     assert written.mesh.to_bytes() == fixed.mesh.to_bytes()

@@ -249,13 +249,6 @@ def close_pairs(
     exempt_kinds: Sequence[tuple[int, int]] = ...,
     exempt: Sequence[tuple[int, int]] = ...,
 ) -> list[tuple[int, int]]: ...
-def least_motion(
-    movable: Sequence[bool],
-    bodies: Sequence[tuple[int, int]],
-    normals: Sequence[Point],
-    least: Sequence[float],
-    multipliers: Sequence[float],
-) -> tuple[list[Point], list[float]]: ...
 def check_pair(
     a: Shape,
     b: Shape,

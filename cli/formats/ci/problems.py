@@ -1,5 +1,5 @@
-"""What a CI system shows of a report: findings that are errors, warnings or notes, and the issues
-of the inputs, the worst first."""
+"""The problems of a report that a CI system shows: findings that are errors, warnings or notes, and
+the issues of the inputs, the worst first."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ class Problem(NamedTuple):
 
 
 def problems(reports: Reports) -> list[Problem]:
-    """Of all reports, the worst first: by level, then findings as a table has them, then issues.
-    With several reports each message and each id names its asset."""
+    """Return the problems of all reports, the worst first: by level, then findings as a table has
+    them, then issues. With several reports each message and each id names its asset."""
     return sorted(_of_all(reports), key=_order)
 
 

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "bindings/tuples.hpp"
 #include "ladder/climb.hpp"
 #include "ladder/rung_words.hpp"
 #include "ladder/touch_proof.hpp"
@@ -30,8 +31,6 @@ using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 using Corner = std::array<double, 3>;
 using Box = std::pair<Corner, Corner>;
 using PairTuple = std::tuple<PlacedGeometry*, PlacedGeometry*, double, double, double, double, bool>;
-
-Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
 
 Rung rung_from(const std::string& name) {
   constexpr const char* names[] = {"aabb", "obb", "hull", "triangles"};

@@ -11,6 +11,7 @@
 
 #include "base/large_pages.hpp"
 #include "bindings/arguments.hpp"
+#include "bindings/tuples.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
 #include "ladder/words.hpp"
@@ -21,7 +22,6 @@ using namespace satcheck;
 namespace satcheck {
 void bind_broad_phase(nb::module_& m);
 void bind_climb(nb::module_& m);
-void bind_resolve(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
@@ -38,8 +38,6 @@ namespace {
 
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Triple = std::array<double, 3>;
-
-Vec3 to_vec(const Triple& t) { return {t[0], t[1], t[2]}; }
 
 std::vector<Vec3> to_points(const Points& points) {
   std::vector<Vec3> out(points.shape(0));
@@ -146,7 +144,6 @@ void satcheck::bind_core(nb::module_& m) {
   bind_mesh(m);
   bind_surface(m);
   bind_broad_phase(m);
-  bind_resolve(m);
   bind_contacts(m);
   bind_depth(m);
   bind_overlap(m);

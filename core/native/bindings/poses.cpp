@@ -27,8 +27,6 @@ using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::d
 using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using Sifting = std::vector<Sifted>;
 
-Vec3 to_vec(const Corner& c) { return {c[0], c[1], c[2]}; }
-
 nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<PairTuple>& pairs,
                     const Matrices& matrices, unsigned threads, const std::optional<Margins>& margins) {
   const nb::tuple held(given);

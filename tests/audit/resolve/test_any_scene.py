@@ -27,12 +27,12 @@ def test_random_boxes_end_free(tmp_path, seed) -> None:
     still = {pair for pair in before if set(pair) <= set(static)}
     assert overlapping(after(scene, found)) == still
     assert not set(moves(found)) & set(static)
-    assert found.verdict == ("unresolved" if still else "resolved")
+    assert found.summary.verdict == ("unresolved" if still else "resolved")
     # Scaled about one corner by the largest extent over the least distance of two centres, free
     # boxes would be apart; that is far more than what is needed, so a bound that is easy to keep.
     if not static:
         spread = sum(math.dist(low, (0, 0, 0)) for low, _ in boxes.values())
-        assert found.total_motion <= spread * 4
+        assert found.summary.total_motion <= spread * 4
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -45,7 +45,7 @@ def test_random_brackets_end_free(tmp_path, seed) -> None:
     found = resolve(scene)
     report = check(after(scene, found), Settings(depth=False, tolerance=0.0))
     assert report.summary.verdict == "pass"
-    assert found.verdict == "resolved"
+    assert found.summary.verdict == "resolved"
 
 
 def test_the_order_of_the_scene_changes_nothing(tmp_path) -> None:

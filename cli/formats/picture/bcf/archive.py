@@ -24,6 +24,7 @@ def archive(files: Mapping[str, bytes]) -> bytes:
 
 
 def date() -> str:
-    """Of topics: now, or SOURCE_DATE_EPOCH (https://reproducible-builds.org), in UTC."""
+    """Return the date of topics: now, or SOURCE_DATE_EPOCH (https://reproducible-builds.org), in
+    UTC."""
     seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
     return datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -7,7 +7,10 @@ follows from what its pairs have in common, so a second run updates the topic.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 from uuid import NAMESPACE_URL, uuid5
 
@@ -15,8 +18,9 @@ from msgspec import Struct
 
 from satcheck.cli.formats.ci.problems import kind_of, measured
 from satcheck.cli.formats.order import is_listed, worst_first
-from satcheck.cli.formats.picture.bcf.projects import project_of
 from satcheck.cli.formats.words import counted
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.ifc.model import unpacked
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -24,6 +28,7 @@ if TYPE_CHECKING:
     from satcheck.report.report import Finding, Report
     from satcheck.scene import Body, Scene
 
+_PROJECT = re.compile(rb"=\s*IFCPROJECT\s*\(\s*'([0-9A-Za-z_$]{22})'", re.IGNORECASE)
 Status = Literal["Open", "ReOpened", "Closed"]
 STATUSES: tuple[Status, ...] = ("Open", "ReOpened", "Closed")
 TYPES = {
@@ -68,7 +73,7 @@ class PairView(Struct, frozen=True):
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """Of IFC elements, sorted; (): one body is none."""
+        """Return the classes of IFC elements, sorted; (): one body is none."""
         kinds = [member.kind for member in self.members if member.kind is not None]
         return tuple(sorted(kinds)) if len(kinds) == len(self.members) else ()
 
@@ -78,7 +83,7 @@ class PairView(Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        """What the pairs of a topic have in common."""
+        """Return what the pairs of a topic have in common."""
         if not self.classes:
             return "\n".join(sorted(member.id for member in self.members))
         projects = sorted(member.project or member.file for member in self.members)
@@ -138,7 +143,7 @@ def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
         file=file,
         guid=path,
         name=body.name,
-        project=project_of(file),
+        project=_project_of(file),
         kind=body.name.partition(" ")[0],
         storeys=tuple(storey.removeprefix(_STOREY) for storey in storeys),
     )
@@ -159,7 +164,7 @@ def _of_finding(finding: Finding, report: Report, members: Mapping[str, Member])
 
 
 def _gone(known: KnownFinding, members: Mapping[str, Member]) -> PairView:
-    """Of a known finding of the baseline that is no finding any more."""
+    """Return the topic of a known finding of the baseline that is no finding any more."""
     return PairView(
         guid=_view_guid(known.a, known.b),
         members=(members[known.a], members[known.b]),
@@ -228,6 +233,17 @@ def _description(views: Sequence[PairView]) -> str:
 
 
 def _labels(view: PairView) -> tuple[str, ...]:
-    """Of IFC elements: the pair of classes, and the storeys."""
+    """Return the labels of IFC elements: the pair of classes, and the storeys."""
     classes = (" / ".join(view.classes),) if view.classes else ()
     return (*classes, *view.storeys)
+
+
+@cache
+def _project_of(file: str) -> str | None:
+    """The GlobalId of the project of an IFC file; None: the file is not there any more, or names no
+    project."""
+    try:
+        match = _PROJECT.search(unpacked(memoryview(Path(file).read_bytes())))
+    except (OSError, MeshFileError):
+        return None
+    return match[1].decode("ascii", "replace") if match else None

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from satcheck.report.report import Finding, Stage
-from satcheck.studies.tradeoff.reading import climb_end
+from satcheck.studies.tradeoff.runs import climb_end
 
 MEET = Stage("aabb", "meet", 1.0, "world boxes meet")
 UNTURNED = Stage("obb", "skipped", 1.0, "not turned")
