@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
+from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
@@ -18,10 +19,6 @@ if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.rules import Rule
     from satcheck.scene.statics import BodyRule, StaticsTerms
-
-# The name of the schema in a scene file of each form.
-SCENE_1 = "satcheck.scene/1"
-SIMPLE = "satcheck-scene-1"
 
 
 class MeshPath(Struct, frozen=True):
@@ -70,6 +67,13 @@ class SceneFile(Struct, frozen=True):
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     reading: Mapping[str, Any] = {}
+
+
+def add_id(id_: str, ids: set[str]) -> None:
+    """Raises Wrong if a body before has this id."""
+    if id_ in ids:
+        raise Wrong(f"a second body {shown(id_)}", "id", code="duplicate-id")
+    ids.add(id_)
 
 
 def unknown_units(units: str | None, path: str) -> list[Issue]:
