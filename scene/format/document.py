@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Annotated, Any, ClassVar, Literal
 
 from msgspec import UNSET, Meta, UnsetType, field
 
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
-from satcheck.scene.format.form import Table
+from satcheck.scene.format.form import LARGEST, Table
 from satcheck.scene.planar.outline import Outline
 from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import Severity
@@ -19,7 +18,6 @@ from satcheck.scene.units import LENGTH_PATTERN
 
 SCENE_1 = "satcheck.scene/1"
 RULES_FILE_KEYS = ("schema", "$schema", "name", "description", "units", "rules", "statics")
-LARGEST = sys.float_info.max  # as a limit, it refuses infinity and NaN
 
 
 def _kind(wanted: str, **more: Any) -> Meta:

@@ -3,8 +3,8 @@ allowed there. An error hides others of its table alone: those of all tables are
 
 from __future__ import annotations
 
-import math
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+LARGEST = sys.float_info.max  # as a limit of a number, it refuses infinity and NaN
 MOST = 20  # problems reported for one file
 _MOST_SHOWN = 40  # characters of a text in a message
 _PLACE = re.compile(r" - at `\$((?:\.[\w$]+|\[\d+\])*)`$")  # at the end of an error of msgspec
@@ -153,8 +154,9 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
         if missing := [key for key in fields if fields[key].required and key not in value]:
             return Wrong(f'"{missing[0]}" is missing', *keys)
     is_number = str(error).startswith(("Expected `float", "Number out of range"))
-    if is_number and isinstance(value, float | int) and not _is_finite(value):
-        return Wrong("a finite number expected", *keys, code="non-finite")
+    if is_number and isinstance(value, float | int) and not -LARGEST <= value <= LARGEST:
+        message = f"a finite number expected, not {shown(value)}"
+        return Wrong(message, *keys, code="non-finite")
     choices = map(str, form.values) if isinstance(form, inspect.LiteralType) else ()
     hint = meant(value, choices) if isinstance(value, str) else ""
     return Wrong(f"{_wanted(kind)} expected, not {shown(value)}{hint}", *keys)
@@ -203,13 +205,6 @@ def _wanted(kind: inspect.Type) -> str:
         case inspect.TupleType(item_types=items):
             return f"a list of {len(items)}"
     return _WORDS[type(kind)]
-
-
-def _is_finite(value: float) -> bool:
-    try:
-        return math.isfinite(value)
-    except OverflowError:  # an integer beyond float64
-        return False
 
 
 def shown(value: Any) -> str:

@@ -18,15 +18,14 @@ from satcheck.scene.format.document import RULES_FILE_KEYS, SCENE_1
 from satcheck.scene.format.entries import (
     NO_MESH,
     BodyEntry,
+    MeshPlaces,
     SceneFile,
     add_id,
     unknown_groups,
     unknown_units,
 )
 from satcheck.scene.format.form import Problems, Wrong, converted, shown
-from satcheck.scene.format.mesh_places import MeshPlaces
-from satcheck.scene.format.moving import motion_of, selector
-from satcheck.scene.format.placement import placement
+from satcheck.scene.format.placement import motion_of, placement, selector
 from satcheck.scene.format.text import Parsed, is_toml, parse
 from satcheck.scene.motion import Motion
 from satcheck.scene.rules import LENGTHS, Rule

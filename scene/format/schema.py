@@ -8,8 +8,8 @@ from typing import Any
 
 from msgspec.json import schema_components
 
-from satcheck.scene.format.document import LARGEST, RULES_FILE_KEYS, BodyRule, Rule, Scene
-from satcheck.scene.format.form import Table
+from satcheck.scene.format.document import RULES_FILE_KEYS, BodyRule, Rule, Scene
+from satcheck.scene.format.form import LARGEST, Table
 from satcheck.scene.rules import KEYS
 from satcheck.scene.statics import KEYS as BODY_KEYS
 

@@ -20,13 +20,13 @@ from msgspec import Meta
 from satcheck.scene.format.document import Matrix, Text, Texts
 from satcheck.scene.format.entries import (
     BodyEntry,
+    MeshPlaces,
     SceneFile,
     add_id,
     unknown_groups,
     unknown_units,
 )
 from satcheck.scene.format.form import Problems, Table, Wrong, converted
-from satcheck.scene.format.mesh_places import MeshPlaces
 from satcheck.scene.format.placement import matrix
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.issue import Issue, issue
