@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from msgspec import UNSET, Struct, ValidationError, convert, inspect
@@ -25,6 +26,7 @@ LARGEST = sys.float_info.max  # as a limit of a number, it refuses infinity and 
 MOST = 20  # problems reported for one file
 _MOST_SHOWN = 40  # characters of a text in a message
 _PLACE = re.compile(r" - at `\$((?:\.[\w$]+|\[\d+\])*)`$")  # at the end of an error of msgspec
+_type_info = lru_cache(inspect.type_info)  # takes milliseconds, and many bodies may be wrong
 _LISTS = (inspect.TupleType, inspect.VarTupleType)
 _WORDS: dict[type[inspect.Type], str] = {
     inspect.StructType: "a table",
@@ -59,7 +61,8 @@ class Table(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
                 for other in others:
                     if getattr(self, other) is not UNSET:
                         raise Wrong(f'remove this key, or "{key}": they exclude each other', other)
-        if self.one_of and sum(getattr(self, key) is not UNSET for key in self.one_of) != 1:
+        stated = [key for key in self.one_of if getattr(self, key) is not UNSET]
+        if self.one_of and len(stated) != 1:
             raise Wrong(f"exactly one of {', '.join(self.one_of)} is required")
 
     def stated(self) -> dict[str, Any]:
@@ -140,7 +143,7 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
     keys: Keys = tuple(name or int(index) for name, index in parts)
     if isinstance(cause := error.__cause__, ValueError):
         return Wrong(str(cause), *keys, *(cause.keys if isinstance(cause, Wrong) else ()))
-    kind = inspect.type_info(kind)
+    kind = _type_info(kind)
     for key in keys:
         kind, value = _inner(_form(kind, value), key), value[key]
     form = _form(kind, value)
@@ -217,7 +220,7 @@ def shown(value: Any) -> str:
     if value is None:
         return "null"
     if isinstance(value, int | float):
-        return f"{value:.6g}" if abs(value) < 1e300 else "a number as large as that"
+        return "a number as large as that" if abs(value) >= 1e300 else f"{value:.6g}"
     if isinstance(value, list):
         return f"a list of {len(value)}"
     return "keys and values" if isinstance(value, dict) else "a date or a time"

@@ -99,6 +99,8 @@ WRONG = {
     "zero row": ({"matrix": [*IDENTITY[:2], [0, 0, 0, 0], IDENTITY[3]]}, "scales by 0"),
     "scale 0": ({"scale": 0}, "a scale must not be 0"),
     "scale 0 along y": ({"scale": [1, 0, 1]}, "a scale must not be 0"),
+    "two scales": ({"scale": [1, 2]}, "a number, or three numbers, expected, not a list of 2"),
+    "scale nan": ({"scale": math.nan}, "a finite number expected, not nan"),
     "needle": ({"scale": [1e-30, 1, 1], "euler": [0, 0, 45]}, "flattens space"),
 }
 

@@ -9,6 +9,7 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule
 from satcheck.scene import SceneFileError
+from satcheck.scene.format import form
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
 from satcheck.scene.rules import Rule, Selector
@@ -381,6 +382,14 @@ def test_a_file_full_of_errors_is_told_of_in_part(tmp_path):
     found = errors(tmp_path, document)
     assert len(found) == 21
     assert str(found[-1]) == "cell.json: 30 more errors"
+
+
+def test_the_types_of_a_table_are_looked_up_once_for_many_errors(tmp_path):
+    """It takes milliseconds each time."""
+    form._type_info.cache_clear()
+    document = scene_of(*({"id": f"b{k}", "shape": BOX, "position": k} for k in range(50)))
+    errors(tmp_path, document)
+    assert form._type_info.cache_info().misses == 1
 
 
 def test_a_key_given_twice_is_wrong_in_json_too(tmp_path):
