@@ -68,11 +68,7 @@ def read_text(path: str, location: Path) -> str:
 
 def parse(path: str, location: Path) -> Parsed:
     """Raises SceneFileError if the file is not well-formed TOML or JSON."""
-    return parsed(path, location, read_text(path, location))
-
-
-def parsed(path: str, location: Path, text: str) -> Parsed:
-    """The same for a text that is already in memory."""
+    text = read_text(path, location)
     if is_toml(location):
         return Parsed(path, location, text, _toml(path, text), False)
     return Parsed(path, location, text, *_json(path, text))
