@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TypeGuard
+from typing import Annotated, TypeGuard
 
-from msgspec import Struct, to_builtins
+from msgspec import Meta, Struct, to_builtins
 from msgspec.structs import force_setattr
 
 from satcheck.core.conventions import Vector
 
+Size = Annotated[float, Meta(gt=0)]
+Sizes = tuple[Size, Size, Size]
 Values = dict[str, str | float | Vector]
 Columns = tuple[Vector, Vector, Vector]
 
@@ -25,7 +27,7 @@ UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _TURN_ROUNDING = 2.0**-47
 
 
-class Sized(Struct, frozen=True, tag_field="type", tag=str.lower):
+class Sized(Struct, frozen=True, forbid_unknown_fields=True, tag_field="type", tag=str.lower):
     """Base of shapes. Fields are positive finite numbers, or tuples of three. Else raises
     ValueError."""
 
@@ -37,7 +39,7 @@ class Sized(Struct, frozen=True, tag_field="type", tag=str.lower):
 class Box(Sized, frozen=True):
     """size: full extents along x, y and z."""
 
-    size: Vector
+    size: Sizes
 
 
 class HalfSpace(Sized, frozen=True, tag="half-space"):
@@ -48,7 +50,7 @@ class HalfSpace(Sized, frozen=True, tag="half-space"):
     such a body is nearer to another face.
     """
 
-    reach: float = 1.0
+    reach: Size = 1.0
 
     @property
     def reaches(self) -> float:
@@ -60,48 +62,39 @@ class HalfSpace(Sized, frozen=True, tag="half-space"):
 class Sphere(Sized, frozen=True):
     """All points at most `radius` from the origin."""
 
-    radius: float
+    radius: Size
 
 
 class Capsule(Sized, frozen=True):
     """All points at most `radius` from a segment of `length` along z. `length` excludes the
     caps."""
 
-    radius: float
-    length: float
+    radius: Size
+    length: Size
 
 
 class Cylinder(Sized, frozen=True):
     """height: from one flat end to the other."""
 
-    radius: float
-    height: float
+    radius: Size
+    height: Size
 
 
 class Cone(Sized, frozen=True):
     """radius: of its base, at z = -height / 2; the apex is at z = height / 2."""
 
-    radius: float
-    height: float
+    radius: Size
+    height: Size
 
 
 class Ellipsoid(Sized, frozen=True):
     """radii: along x, y and z."""
 
-    radii: Vector
+    radii: Sizes
 
 
 Curved = Sphere | Capsule | Cylinder | Cone | Ellipsoid
 Primitive = Box | HalfSpace | Curved
-PRIMITIVES: dict[str, type[Primitive]] = {
-    "box": Box,
-    "sphere": Sphere,
-    "capsule": Capsule,
-    "cylinder": Cylinder,
-    "cone": Cone,
-    "ellipsoid": Ellipsoid,
-    "half-space": HalfSpace,
-}
 
 
 def is_curved(shape: object) -> TypeGuard[Curved]:
@@ -134,27 +127,6 @@ def half_sizes(shape: Primitive) -> Vector:
             return x / 2, y / 2, z / 2
         case HalfSpace(reach):
             return reach, reach, reach / 2
-
-
-def primitive_of(values: object) -> Primitive:
-    """The inverse of `values_of`. Raises ValueError if the values are not a shape."""
-    if not isinstance(values, dict):
-        raise ValueError("not a shape: an object with a type and its sizes expected")
-    kind = values.get("type")
-    form = PRIMITIVES.get(kind) if isinstance(kind, str) else None
-    if form is None:
-        raise ValueError(f"type should be one of {', '.join(PRIMITIVES)}, not {kind!r}")
-    sizes = {key: value for key, value in values.items() if key != "type"}
-    wanted = form.__struct_fields__
-    if sorted(sizes) != sorted(wanted) and not (form is HalfSpace and not sizes):
-        raise ValueError(
-            f"a {kind} has {' and '.join(wanted)}, not {', '.join(sizes) or 'nothing'}"
-        )
-    numbers = {
-        key: tuple(value) if isinstance(value, list | tuple) else value
-        for key, value in sizes.items()
-    }
-    return form(**numbers)  # type: ignore[arg-type]  # each shape validates its sizes
 
 
 def support(shape: Primitive, direction: Vector) -> float:

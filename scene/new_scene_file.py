@@ -16,7 +16,8 @@ from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.common_units import scaled_mesh
-from satcheck.scene.format.entries import SCENE_1, BodyEntry, MeshPath, SceneFile
+from satcheck.scene.format.document import SCENE_1
+from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.text import is_toml
 from satcheck.scene.loading.formats import FORMATS
 from satcheck.scene.mesh_files import MeshFiles

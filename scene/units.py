@@ -28,8 +28,11 @@ _SYNONYMS = {
 # The COLLADA reader states the unit of a file as "0.0254 * meters".
 _OF_METRES = " * meters"
 _SAME = 1e-9  # relative: a factor written with few digits still means the unit
-# Few calls need it: compiled at its first use.
-_LENGTH = r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*"
+# Few calls need it: compiled at its first use. Also for JSON Schema, so without flags.
+_BLANK = r"[ \t\n\r\f\v]*"
+_UNIT = "|".join("".join(f"[{c}{c.upper()}]" for c in unit) for unit in MICROMETRES)
+_NUMBER = r"[+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][+-]?[0-9]+)?"
+LENGTH_PATTERN = f"^{_BLANK}({_NUMBER}){_BLANK}({_UNIT})?{_BLANK}$"
 
 
 class Length(Struct, frozen=True):
@@ -54,13 +57,12 @@ class Length(Struct, frozen=True):
 
 def parse_length(text: str) -> Length:
     """Parses `0.5` or `2mm`. Raises ValueError if the text is not a length."""
-    match = re.fullmatch(_LENGTH, text, re.ASCII)
-    digits, suffix = match.groups() if match else ("nan", "")
-    number, suffix = float(digits), suffix.lower()
-    if not math.isfinite(number) or (suffix and suffix not in MICROMETRES):
+    match = re.fullmatch(LENGTH_PATTERN, text)
+    number = float(match[1]) if match else math.nan
+    if match is None or not math.isfinite(number):
         units = "/".join(MICROMETRES)
         raise ValueError(f"{text!r} is not a length: a number >= 0, or one with {units}")
-    return Length(number, suffix or None)
+    return Length(number, match[2].lower() if match[2] else None)
 
 
 def unit_of(declared: str | None) -> str | None:

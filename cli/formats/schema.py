@@ -30,7 +30,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "suggestions": SuggestionsReport,
     "verification": VerificationReport,
 }
-SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
@@ -38,7 +37,9 @@ def text(name: str = "report") -> str:
     `resolution`, `result`, `samples`, `suggestions`, `tradeoff`,
     `verification`; `scene`; `config`."""
     if name == "scene":
-        return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
+        from satcheck.scene.format.schema import schema as scene_schema
+
+        return json.dumps(scene_schema(), indent=2) + "\n"
     if name == "config":
         from satcheck.cli.config.schema import schema
 

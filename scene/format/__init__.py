@@ -1,5 +1,5 @@
 """Scene files: the forms satcheck.scene/1 (TOML or JSON) and satcheck-scene-1 (JSON).
 
-`text` parses. `table` and `values` read a document key by key. `problems` collects its errors with
-their places. `scene_1` and `simple` read the two forms. `writing` writes new placements.
+`text` parses. `document` has the keys of satcheck.scene/1 as typed structs, `simple` those of the
+other form. `form` converts to structs and says what is wrong. `reading` makes a `SceneFile`.
 """

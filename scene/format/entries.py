@@ -1,14 +1,19 @@
-"""A scene file as checked data. Its meshes are not read yet."""
+"""A scene file as checked data, and the mesh files that it may name. These are not read yet."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
+from satcheck.scene.files_read import note
+from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.path_kind import followed, is_file
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
 
@@ -18,10 +23,6 @@ if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.rules import Rule
     from satcheck.scene.statics import BodyRule, StaticsTerms
-
-# The name of the schema in a scene file of each form.
-SCENE_1 = "satcheck.scene/1"
-SIMPLE = "satcheck-scene-1"
 
 
 class MeshPath(Struct, frozen=True):
@@ -70,6 +71,60 @@ class SceneFile(Struct, frozen=True):
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     reading: Mapping[str, Any] = {}
+
+
+class MeshPlaces:
+    """Finds the mesh files of one scene file.
+
+    Each is checked once, even if many bodies use it. path: of the scene file, for messages;
+    location: on disk. anywhere: meshes may lie outside of its folder. Links are resolved before
+    this is decided.
+    """
+
+    def __init__(self, path: str, location: Path, *, anywhere: bool) -> None:
+        self._above = Path(path).parent
+        self._folder = location.parent
+        self._root = None if anywhere else followed(self._folder)
+        self._known: dict[str, MeshPath | Wrong] = {}
+
+    def find(self, mesh: str) -> MeshPath:
+        """The mesh file that a body names. Raises Wrong if it is missing or may not be opened."""
+        if mesh not in self._known:
+            try:
+                self._known[mesh] = self._judged(mesh)
+            except Wrong as wrong:
+                self._known[mesh] = wrong
+        place = self._known[mesh]
+        if isinstance(place, Wrong):
+            raise place
+        return place
+
+    def _judged(self, mesh: str) -> MeshPath:
+        if "\0" in mesh:
+            raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
+        location = self._folder / mesh
+        if location.suffix.lower() not in FORMATS:
+            known = ", ".join(sorted(FORMATS))
+            message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
+            raise Wrong(message, "mesh", code="unsupported-format")
+        note(location)
+        if self._root is not None and not followed(location).is_relative_to(self._root):
+            message = (
+                f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "
+                "(allow it with --allow-outside)"
+            )
+            raise Wrong(message, "mesh", code="outside-path")
+        if not is_file(location):
+            raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
+        path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
+        return MeshPath(path, location)
+
+
+def add_id(id_: str, ids: set[str]) -> None:
+    """Raises Wrong if a body before has this id."""
+    if id_ in ids:
+        raise Wrong(f"a second body {shown(id_)}", "id", code="duplicate-id")
+    ids.add(id_)
 
 
 def unknown_units(units: str | None, path: str) -> list[Issue]:

@@ -1,65 +1,72 @@
-"""Reads a placement, by position, rotation and scale or as a matrix, into one transform."""
+"""Where the bodies of a scene file are, and how they move.
+
+A placement, by position, rotation and scale or as a matrix, becomes one transform.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
-from satcheck.core.conventions import Vector
+from msgspec import UNSET
+
+from satcheck.core.errors import SatcheckError
 from satcheck.core.transform import (
     Quaternion,
-    Rotation,
     Transform,
     about_fixed_axes,
     cos_sin,
     quaternion_matrix,
 )
-from satcheck.scene.format.problems import Wrong
-from satcheck.scene.format.table import Table
-from satcheck.scene.format.values import (
-    items,
-    number,
-    numbers,
-    quadruple,
-    shown,
-    triple,
+from satcheck.core.transform import Rotation as RotationMatrix
+from satcheck.scene.format import document
+from satcheck.scene.format.document import Body, Row
+from satcheck.scene.format.entries import BodyEntry
+from satcheck.scene.format.form import Wrong, shown
+from satcheck.scene.motion import (
+    NO_TURN,
+    Motion,
+    Path,
+    PosePath,
+    Rotation,
+    Translation,
+    Waypoint,
 )
+from satcheck.scene.rules import Selector
 
 # A matrix counts as singular if its determinant is smaller than this share of the product of its
 # row lengths. Such a determinant may come from the rounding of the entries alone.
 _SINGULAR = 2.0**-40
 
-_TURNS = ("quaternion", "euler")
-PARTS = ("position", *_TURNS, "scale")
-KEYS = frozenset((*PARTS, "matrix"))
-
-_NO_TURN: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_STRAIGHT: RotationMatrix = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _NO_SCALE = (1.0, 1.0, 1.0)
 _ORIGIN = (0.0, 0.0, 0.0)
+_HALF_TURN = 180.0
 
 
-def placement(table: Table) -> Transform | None:
-    """Scales first, then rotates, then translates; None if the table has no such keys."""
-    if table.values.keys().isdisjoint(KEYS):
+def placement(body: Body) -> Transform | None:
+    """Scales first, then rotates, then translates; None if the body states none of it. Raises
+    Wrong."""
+    if body.matrix is not UNSET:
+        return matrix(body.matrix, "matrix")
+    if body.position is body.quaternion is body.euler is body.scale is UNSET:
         return None
-    if "matrix" in table:
-        for key in PARTS:
-            if key in table:
-                table.wrong("the matrix already places the body: remove this key", key)
-        return table.read("matrix", matrix, None)
-    if all(key in table for key in _TURNS):
-        table.wrong("the quaternion already sets the rotation: remove this key", "euler")
-    x, y, z = table.read("position", triple, _ORIGIN)
-    turn = table.read("quaternion", _quaternion, None) or table.read("euler", _euler, _NO_TURN)
-    scale = table.read("scale", _scale, _NO_SCALE)
-    made = moved(turn, scale, (x, y, z))
-    if scale is not _NO_SCALE and (fault := singular(made)) is not None:
-        table.wrong(fault, "scale", code="singular-transform")
-    return made
+    turn = _STRAIGHT
+    if body.quaternion is not UNSET:
+        turn = quaternion_matrix(*quaternion(body.quaternion))
+    elif body.euler is not UNSET:
+        turn = euler_matrix(body.euler)
+    position = _ORIGIN if body.position is UNSET else body.position
+    if body.scale is UNSET:
+        return moved(turn, _NO_SCALE, position)
+    scale = body.scale if isinstance(body.scale, tuple) else (body.scale,) * 3
+    if 0.0 in scale:
+        raise Wrong("a scale must not be 0", "scale", code="singular-transform")
+    return _regular(moved(turn, scale, position), "scale")
 
 
-def moved(turn: Rotation, scale: Sequence[float], position: Sequence[float]) -> Transform:
+def moved(turn: RotationMatrix, scale: Sequence[float], position: Sequence[float]) -> Transform:
     """world = turn * (scale * (x, y, z)) + position."""
     a, b, c = scale
     x, y, z = position
@@ -71,22 +78,15 @@ def moved(turn: Rotation, scale: Sequence[float], position: Sequence[float]) -> 
     )
 
 
-def matrix(rows: Any) -> Transform:
-    """Four rows of four numbers, affine and not singular. Raises Wrong, which names the first entry
-    that is not a finite number."""
-    if not isinstance(rows, list) or [_length(row) for row in rows] != [4, 4, 4, 4]:
-        raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
-    entries = numbers([entry for row in rows for entry in row])
-    if entries is None:
-        entries = [value for row in items(rows, lambda row: items(row, number)) for value in row]
-    transform = tuple(entries)
+def matrix(rows: Iterable[Row], key: str) -> Transform:
+    """An affine matrix that is not singular. Raises Wrong. key: of the rows."""
+    return _regular(tuple(entry for row in rows for entry in row), key)
+
+
+def _regular(transform: Transform, key: str) -> Transform:
     if (fault := singular(transform)) is not None:
-        raise Wrong(fault, code="singular-transform")
+        raise Wrong(fault, key, code="singular-transform")
     return transform
-
-
-def _length(row: Any) -> int:
-    return len(row) if isinstance(row, list) else -1
 
 
 def singular(transform: Transform) -> str | None:
@@ -104,30 +104,16 @@ def singular(transform: Transform) -> str | None:
     return "singular transform: it flattens space" if abs(determinant) < _SINGULAR else None
 
 
-def quaternion(value: Any) -> Quaternion:
-    """(x, y, z, w) from [w, x, y, z], the order of scene files; of any length except zero."""
-    w, x, y, z = quadruple(value)
-    if not any((w, x, y, z)):
-        raise Wrong("a quaternion must not be zero")
+def quaternion(value: Row, *keys: str | int) -> Quaternion:
+    """(x, y, z, w) from [w, x, y, z], the order of scene files; of any length except zero. Raises
+    Wrong. keys: to the table that states it."""
+    w, x, y, z = value
+    if not any(value):
+        raise Wrong("a quaternion must not be zero", *keys, "quaternion")
     return x, y, z, w
 
 
-def _quaternion(value: Any) -> Rotation:
-    return quaternion_matrix(*quaternion(value))
-
-
-def _euler(value: Any) -> Rotation:
-    return euler_matrix(triple(value))
-
-
-def _scale(value: Any) -> Vector:
-    factors = triple(value) if isinstance(value, list) else (number(value),) * 3
-    if 0.0 in factors:
-        raise Wrong("a scale must not be 0", code="singular-transform")
-    return factors
-
-
-def euler_matrix(degrees: Sequence[float]) -> Rotation:
+def euler_matrix(degrees: Sequence[float]) -> RotationMatrix:
     """The rotation about the fixed axes x, then y, then z. Quarter turns are exact."""
     x, y, z = map(cos_sin, degrees)
     return about_fixed_axes(x, y, z)
@@ -142,3 +128,72 @@ def quaternion_of_euler(degrees: Sequence[float]) -> Quaternion:
         cx * cy * sz - sx * sy * cz,
         cx * cy * cz + sx * sy * sz,
     )
+
+
+def selector(text: str, *keys: str | int) -> Selector:
+    """keys: to the text, for the error. Raises Wrong."""
+    try:
+        return Selector(text)
+    except SatcheckError as error:
+        raise Wrong(error.message, *keys, code=error.code) from None
+
+
+def motion_of(
+    table: document.Motion, number: int, bodies: Sequence[BodyEntry] | None, moved: dict[str, int]
+) -> list[Motion]:
+    """The motion, if the bodies of the scene are known. Raises Wrong and SatcheckError.
+
+    moved: id of each moving body -> number of its motion; this call adds to it.
+    """
+    path = _path(table)
+    if isinstance(table.bodies, str):
+        choices = [selector(table.bodies, "bodies")]
+    else:
+        choices = [selector(text, "bodies", k) for k, text in enumerate(table.bodies)]
+    if bodies is None:
+        return []
+    ids: dict[str, None] = {}
+    for choice in choices:
+        chosen = choice.select(bodies)
+        if not chosen:
+            raise _refused(f"no body matches {shown(choice.text)}")
+        for body in chosen:
+            if body.static:
+                raise _refused(f"body {shown(body.id)} is static")
+            ids[body.id] = None
+    for id_ in ids:
+        if (other := moved.setdefault(id_, number)) != number:
+            raise _refused(f"body {shown(id_)} is moved by motion[{other}] already")
+    return [Motion(tuple(ids), path, table.clear)]
+
+
+def _refused(message: str) -> Wrong:
+    return Wrong(message, "bodies", code="bad-motion")
+
+
+def _path(table: document.Motion) -> Path:
+    if table.translation is not UNSET:
+        return Translation(table.translation)
+    if (turn := table.rotation) is not UNSET:
+        return Rotation(turn.point, turn.axis, turn.degrees)
+    points = table.path or ()
+    for k, (before, after) in enumerate(pairwise(points), 1):
+        if before.quaternion is after.quaternion is UNSET and _turns_far(before, after):
+            message = "more than half a turn from the pose before: give a pose between"
+            raise Wrong(message, "path", k, "euler")
+    return PosePath(
+        tuple(Waypoint(p.time, p.position, _orientation(p, k)) for k, p in enumerate(points))
+    )
+
+
+def _turns_far(before: document.Waypoint, after: document.Waypoint) -> bool:
+    """Whether an angle changes by more than half a turn: a body takes the shortest turn, which may
+    differ from what the angles mean."""
+    start, end = before.euler or _ORIGIN, after.euler or _ORIGIN
+    return any(abs(b - a) > _HALF_TURN for a, b in zip(start, end, strict=True))
+
+
+def _orientation(point: document.Waypoint, number: int) -> Quaternion:
+    if point.quaternion is not UNSET:
+        return quaternion(point.quaternion, "path", number)
+    return NO_TURN if point.euler is UNSET else quaternion_of_euler(point.euler)

@@ -1,13 +1,40 @@
-"""Any scene file -> SceneFile, by the schema that it names."""
+"""Reads and checks any scene file, by the schema that it names.
+
+A scene with errors is refused as a whole, because a part of a scene has no meaning. An unknown key
+is an error, because it may be important.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+from msgspec import UNSET, UnsetType
+
+from satcheck.core.shapes import HalfSpace
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.entries import SCENE_1, SIMPLE, SceneFile
+from satcheck.scene.format import document, simple
+from satcheck.scene.format.document import RULES_FILE_KEYS, SCENE_1
+from satcheck.scene.format.entries import (
+    NO_MESH,
+    BodyEntry,
+    MeshPlaces,
+    SceneFile,
+    add_id,
+    unknown_groups,
+    unknown_units,
+)
+from satcheck.scene.format.form import Problems, Wrong, converted, shown
+from satcheck.scene.format.placement import motion_of, placement, selector
 from satcheck.scene.format.text import Parsed, is_toml, parse
-from satcheck.scene.format.values import shown
+from satcheck.scene.motion import Motion
+from satcheck.scene.rules import LENGTHS, Rule
+from satcheck.scene.statics import BodyRule, StaticsTerms
+from satcheck.scene.units import MICROMETRES, parse_length, unit_of
+from satcheck.scene.words import meant
+
+# The tables, and lists of tables, in a scene.
+_INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
 
 def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -> SceneFile:
@@ -18,16 +45,11 @@ def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -
     """
     parsed = parse(path, location)
     schema = _schema_of(parsed)
-    if schema in (None, SCENE_1):
-        from satcheck.scene.format import scene_1
-
-        if scene_1.has_only_rules(parsed.document):
-            return scene_1.read_rules(parsed)
+    if schema in (None, SCENE_1) and _has_only_rules(parsed.document):
+        return _read_rules(parsed)
     if schema == SCENE_1:
-        return scene_1.read_scene(parsed, allow_outside=allow_outside)
-    if schema == SIMPLE and not is_toml(location):
-        from satcheck.scene.format import simple
-
+        return _read(parsed, parsed.document, Problems(parsed), allow_outside)
+    if schema == simple.SIMPLE and not is_toml(location):
         return simple.read_scene(parsed)
     raise _not_a_scene(path, schema)
 
@@ -35,21 +57,159 @@ def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -
 def read_rules_file(path: str, location: Path) -> SceneFile:
     """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
     bodies; `schema` may be left out. path, location: as above. Raises SceneFileError."""
-    from satcheck.scene.format import scene_1
-
     parsed = parse(path, location)
     schema = _schema_of(parsed)
     if not isinstance(parsed.document, dict) or schema not in (None, SCENE_1):
         raise _not_a_scene(path, schema)
-    return scene_1.read_rules(parsed)
+    return _read_rules(parsed)
 
 
 def _schema_of(parsed: Parsed) -> object:
-    document = parsed.document
-    return document.get("schema") if isinstance(document, dict) else None
+    return parsed.document.get("schema") if isinstance(parsed.document, dict) else None
 
 
 def _not_a_scene(path: str, schema: object) -> SceneFileError:
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
     return SceneFileError("bad-scene", message, file=path)
+
+
+def _has_only_rules(values: Any) -> bool:
+    """Whether it has rules, and no key that only a scene with bodies has."""
+    return isinstance(values, dict) and "rules" in values and values.keys() <= {*RULES_FILE_KEYS}
+
+
+def _read_rules(parsed: Parsed) -> SceneFile:
+    """A file of rules: a scene without bodies, which may leave out `schema` and `bodies`."""
+    values, problems = parsed.document, Problems(parsed)
+    for key in values.keys() - {*RULES_FILE_KEYS, "bodies"}:
+        hint = meant(key, set(RULES_FILE_KEYS) - values.keys())
+        problems.add(Wrong(f"unknown key{hint}", key))
+    if values.get("bodies"):
+        problems.add(Wrong("a file of rules has no bodies", "bodies"))
+    if "rules" not in values:
+        problems.add(Wrong('"rules" is missing'))
+    stated = {key: values[key] for key in ("units", "rules", "statics") if key in values}
+    return _read(parsed, stated | {"schema": SCENE_1, "bodies": []}, problems, False)
+
+
+def _read(
+    parsed: Parsed, values: dict[str, Any], problems: Problems, allow_outside: bool
+) -> SceneFile:
+    """The inner tables are read one by one, so that an error in one does not hide those of others.
+
+    values: of the document. Raises SceneFileError with all errors.
+    """
+    path, units = parsed.path, values.get("units")
+    units = units if isinstance(units, str) else None
+    inner = {key: values[key] for key in _INNER if isinstance(values.get(key), _INNER[key])}
+    outer = {key: _INNER[key]() if key in inner else value for key, value in values.items()}
+    with problems.at():
+        top = converted(outer, document.Scene)
+
+    places = MeshPlaces(path, parsed.location, anywhere=allow_outside)
+    bodies: list[BodyEntry] = []
+    ids: set[str] = set()
+    for k, table in enumerate(inner.get("bodies", ())):
+        with problems.at("bodies", k):
+            bodies.append(_body(converted(table, document.Body), units, places, ids))
+    are_sound = not problems
+
+    rules: list[Rule | BodyRule] = []
+    tables = inner.get("rules", ())
+    lines = parsed.lines([("rules", k) for k, _ in enumerate(tables)])
+    for k, (table, line) in enumerate(zip(tables, lines, strict=True)):
+        with problems.at("rules", k):
+            of_bodies = isinstance(table, dict) and "bodies" in table
+            kind: Any = document.BodyRule if of_bodies else document.Rule
+            rules.append(_rule(converted(table, kind), units, path, line))
+
+    motions: list[Motion] = []
+    moved: dict[str, int] = {}
+    for k, table in enumerate(inner.get("motion", ())):
+        with problems.at("motion", k):
+            motion = converted(table, document.Motion)
+            motions += motion_of(motion, k, bodies if are_sound else None, moved)
+
+    terms = None
+    if "statics" in inner:
+        with problems.at("statics"):
+            terms = _terms(converted(inner["statics"], document.Statics), units)
+    with problems.at("reading"):
+        reading = converted(inner.get("reading", {}), document.Reading)
+    problems.raise_any()
+    ignored = frozenset(top.ignore_within_groups)
+    return SceneFile(
+        path=path,
+        name=top.name or parsed.location.stem,
+        units=units,
+        bodies=tuple(bodies),
+        ignore_within_groups=ignored,
+        check_static=top.check_static,
+        rules=tuple(rule for rule in rules if isinstance(rule, Rule)),
+        body_rules=tuple(rule for rule in rules if isinstance(rule, BodyRule)),
+        statics=terms,
+        motions=tuple(motions),
+        reading=reading.stated(),
+        issues=(*unknown_units(units, path), *unknown_groups(ignored, bodies, path)),
+    )
+
+
+def _body(body: document.Body, units: str | None, places: MeshPlaces, ids: set[str]) -> BodyEntry:
+    """units: of the scene. ids: of the bodies before; this call adds to them."""
+    add_id(body.id, ids)
+    own_units = None if body.units is UNSET else unit_of(body.units)
+    if own_units is None and body.units is not UNSET:
+        raise Wrong(f"one of {', '.join(MICROMETRES)} expected, not {shown(body.units)}", "units")
+    shape = body.shape or None
+    return BodyEntry(
+        id=body.id,
+        mesh=NO_MESH if body.mesh is UNSET else places.find(body.mesh),
+        part=body.part or None,
+        shape=HalfSpace() if isinstance(shape, document.HalfSpace) else shape,
+        transform=placement(body),
+        groups=body.groups,
+        static=body.static,
+        pinned=body.pinned,
+        units=own_units,
+        surface_tolerance=_length(body.surface_tolerance, units, "surface_tolerance"),
+    )
+
+
+def _rule(
+    table: document.Rule | document.BodyRule, units: str | None, file: str, line: int
+) -> Rule | BodyRule:
+    values: dict[str, Any] = table.stated()
+    for key in ("a", "b", "bodies"):
+        if key in values:
+            values[key] = selector(values[key], key)
+    place: dict[str, Any] = {"where": f"{file}:{line}", "file": file, "line": line}
+    if isinstance(table, document.BodyRule):
+        return BodyRule(**values, **place)
+    if table.allowed is True and table.reason is UNSET:
+        raise Wrong('"reason" is missing: why may these pairs overlap?')
+    lengths = {key: _length(values.get(key, UNSET), units, key) for key in LENGTHS}
+    return Rule(**values | lengths | place)
+
+
+def _terms(table: document.Statics, units: str | None) -> StaticsTerms:
+    if table.gravity and not any(table.gravity):
+        raise Wrong("a direction other than 0 expected", "gravity")
+    values = table.stated()
+    return StaticsTerms(**values | {"tolerance": _length(table.tolerance, units, "tolerance")})
+
+
+def _length(value: float | str | UnsetType, units: str | None, key: str) -> float | None:
+    """A length such as 0.5; also "2mm" if the scene declares units. Raises Wrong."""
+    if value is UNSET:
+        return None
+    if not isinstance(value, str):
+        return value
+    try:
+        length = parse_length(value)
+    except ValueError as error:
+        raise Wrong(str(error), key) from None
+    try:
+        return length.in_units_of(units)
+    except ValueError as error:
+        raise Wrong(f"{error}, or declare `units` in this file", key) from None

@@ -12,121 +12,134 @@ Scenes of this form share meshes across folders: the suffix of a mesh is checked
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any
 
-from satcheck.core.transform import Transform
+from msgspec import Meta
+
+from satcheck.scene.format.document import Matrix, Text, Texts
 from satcheck.scene.format.entries import (
-    NO_MESH,
     BodyEntry,
+    MeshPlaces,
     SceneFile,
+    add_id,
     unknown_groups,
     unknown_units,
 )
-from satcheck.scene.format.mesh_places import MeshPlaces
+from satcheck.scene.format.form import Problems, Table, Wrong, converted
 from satcheck.scene.format.placement import matrix
-from satcheck.scene.format.problems import Wrong
-from satcheck.scene.format.table import Table, read_bodies
 from satcheck.scene.format.text import Parsed
-from satcheck.scene.format.values import boolean, list_of, shown, text
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.words import meant
 
-_BODY_KEYS = frozenset(("id", "mesh", "transform", "group", "static"))
-_SCENE_KEYS = frozenset(
-    ("schema", "name", "units", "bodies", "ignore_within_groups", "allowed_pairs")
-)
+SIMPLE = "satcheck-scene-1"
 # Keys that say where a scene comes from. They change no answer.
 _INFORMATION = frozenset(
     ("$schema", "author", "comment", "description", "licence", "license", "original", "source")
 )
 
 
+class Body(Table, frozen=True):
+    id: Text
+    mesh: Text
+    transform: Matrix | None = None
+    group: Text | None = None
+    static: bool = False
+
+
+class Scene(Table, frozen=True, forbid_unknown_fields=False):
+    bodies: tuple[Any, ...]
+    schema: str
+    name: Text | None = None
+    units: Text | None = None
+    ignore_within_groups: Texts = ()
+    allowed_pairs: Annotated[tuple[Any, ...], Meta(extra={"wanted": "a list of pairs"})] = ()
+
+
+_PAIR = Meta(extra={"wanted": "[id, id, reason]"})
+Pair = Annotated[tuple[Text, Text], _PAIR]
+ExplainedPair = Annotated[tuple[Text, Text, Any], _PAIR]
+
+
 def read_scene(parsed: Parsed) -> SceneFile:
     """Raises SceneFileError with all errors of the file."""
-    path, problems = parsed.path, parsed.problems()
-    top = Table(parsed.document, (), problems)
+    path, values, problems = parsed.path, parsed.document, Problems(parsed)
+    inner = {k: v for k in ("bodies", "allowed_pairs") if isinstance(v := values.get(k), list)}
+    if "bodies" not in values:
+        hint = meant(
+            "bodies", values.keys() - set(Scene.__struct_fields__), " (did you mean it by {}?)"
+        )
+        problems.add(Wrong(f'"bodies" is missing{hint}'))
+    outer = {"bodies": [], **values, **{key: [] for key in inner}}
+    with problems.at():
+        top = converted(outer, Scene)
     places = MeshPlaces(path, parsed.location, anywhere=True)
-    if "bodies" not in top:
-        strangers = top.values.keys() - _SCENE_KEYS
-        hint = meant("bodies", strangers, " (did you mean it by {}?)")
-        top.wrong(f'"bodies" is missing{hint}')
-    bodies = read_bodies(top, lambda table: _body(table, places))
-    ignored = frozenset(top.read("ignore_within_groups", list_of("texts", text), []))
-    units = top.read("units", _text_or_null, None)
-    pairs = top.read("allowed_pairs", list_of("pairs", _pair), [])
-    name = top.read("name", _text_or_null, None) or parsed.location.stem
-    problems.raise_any(path, parsed.lines)
-    rules, unknown_bodies = _rules(pairs, {body.id for body in bodies}, path)
+    bodies: list[BodyEntry] = []
+    ids: set[str] = set()
+    for k, table in enumerate(inner.get("bodies", ())):
+        with problems.at("bodies", k):
+            bodies.append(_entry(converted(table, Body), places, ids))
+    pairs: list[tuple[Any, ...]] = []
+    for k, pair in enumerate(inner.get("allowed_pairs", ())):
+        with problems.at("allowed_pairs", k):
+            explained = isinstance(pair, list) and len(pair) == 3
+            kind: Any = ExplainedPair if explained else Pair
+            pairs.append(converted(pair, kind))
+    problems.raise_any()
+    rules, unknown_bodies = _rules(pairs, ids, path)
+    ignored = frozenset(top.ignore_within_groups)
     return SceneFile(
         path=path,
-        name=name,
-        units=units,
-        bodies=bodies,
+        name=top.name or parsed.location.stem,
+        units=top.units,
+        bodies=tuple(bodies),
         ignore_within_groups=ignored,
         check_static=True,
         rules=rules,
         motions=(),
         issues=(
-            *_unknown_keys(top, path),
-            *unknown_units(units, path),
+            *_unknown_keys(values, path),
+            *unknown_units(top.units, path),
             *unknown_groups(ignored, bodies, path),
             *unknown_bodies,
         ),
     )
 
 
-def _body(table: Table, places: MeshPlaces) -> BodyEntry:
-    table.only(_BODY_KEYS)
-    group = table.read("group", _text_or_null, None)
+def _entry(body: Body, places: MeshPlaces, ids: set[str]) -> BodyEntry:
+    """ids: of the bodies before; this call adds to them."""
+    add_id(body.id, ids)
     return BodyEntry(
-        id=table.required("id", text, ""),
-        mesh=table.required("mesh", places.find, NO_MESH),
-        transform=table.read("transform", _matrix_or_null, None),
-        groups=() if group is None else (group,),
-        static=table.read("static", boolean, False),
+        id=body.id,
+        mesh=places.find(body.mesh),
+        transform=None if body.transform is None else matrix(body.transform, "transform"),
+        groups=() if body.group is None else (body.group,),
+        static=body.static,
     )
 
 
-def _text_or_null(value: Any) -> str | None:
-    return None if value is None else text(value)
-
-
-def _matrix_or_null(value: Any) -> Transform | None:
-    return None if value is None else matrix(value)
-
-
-def _pair(value: Any) -> tuple[str, str, str]:
-    """(id, id, reason)"""
-    if not isinstance(value, list) or len(value) not in (2, 3):
-        raise Wrong(f"[id, id, reason] expected, not {shown(value)}")
-    reason = value[2] if len(value) == 3 and isinstance(value[2], str) else ""
-    return text(value[0]), text(value[1]), reason
-
-
 def _rules(
-    pairs: list[tuple[str, str, str]], ids: set[str], path: str
+    pairs: Iterable[tuple[Any, ...]], ids: set[str], path: str
 ) -> tuple[tuple[Rule, ...], list[Issue]]:
     rules, issues = [], []
-    for index, (a, b, reason) in enumerate(pairs):
+    for index, (a, b, *rest) in enumerate(pairs):
         if unknown := sorted({a, b} - ids):
             names = " and ".join(map(repr, unknown))
             message = f"unknown id {names} in allowed_pairs: the entry is ignored"
             issues.append(issue("unknown-body", message, file=path))
             continue
         first, second = Selector.exactly(a), Selector.exactly(b)
+        reason = rest[0] if rest and isinstance(rest[0], str) else ""
         where = f"{path}: allowed_pairs[{index}]"
         rules.append(Rule(a=first, b=second, allowed=True, reason=reason, where=where, file=path))
     return tuple(rules), issues
 
 
-def _unknown_keys(top: Table, path: str) -> list[Issue]:
+def _unknown_keys(values: Mapping[str, Any], path: str) -> list[Issue]:
+    keys = frozenset(Scene.__struct_fields__)
     return [
-        issue(
-            "unknown-key",
-            f"unknown key {key!r}{meant(key, _SCENE_KEYS)}: it is ignored",
-            file=path,
-        )
-        for key in top.values
-        if key not in _SCENE_KEYS and key not in _INFORMATION
+        issue("unknown-key", f"unknown key {key!r}{meant(key, keys)}: it is ignored", file=path)
+        for key in values
+        if key not in keys and key not in _INFORMATION
     ]

@@ -6,12 +6,13 @@ import json
 import math
 import re
 from codecs import BOM_UTF8
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.problems import Problems, Wrong
 from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.loading.regular_file import read_whole
 
@@ -28,17 +29,14 @@ _PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MAX_DEPTH}}}")
 
 
-class Parsed:
-    """path: for messages. repeated_keys: a JSON object has a key twice; the last one counts."""
+class Parsed(Struct, frozen=True):
+    """path: for messages. has_repeated_keys: a JSON object has a key twice."""
 
-    def __init__(
-        self, path: str, location: Path, text: str, document: Any, repeated_keys: bool
-    ) -> None:
-        self.path = path
-        self.location = location
-        self.text = text
-        self.document = document
-        self.repeated_keys = repeated_keys
+    path: str
+    location: Path
+    text: str
+    document: Any
+    has_repeated_keys: bool
 
     def lines(self, wanted: Sequence[Keys]) -> list[int]:
         """The line of each of these keys, or of the innermost table or list around it."""
@@ -47,15 +45,12 @@ class Parsed:
         lines = lines_of(self.text, wanted, toml=is_toml(self.location))
         return [innermost(lines, keys) for keys in wanted]
 
-    def problems(self) -> Problems:
-        """A new collection of problems. It starts with the keys that occur twice."""
-        problems = Problems()
-        if self.repeated_keys:
+    def repeated_keys(self) -> Iterator[Keys]:
+        """The keys that occur twice in an object, of which the document has the last value."""
+        if self.has_repeated_keys:
             from satcheck.scene.format.lines import repeated_keys
 
-            for keys in repeated_keys(self.text):
-                problems.add(keys, Wrong("a second value for this key"))
-        return problems
+            yield from repeated_keys(self.text)
 
 
 def is_toml(location: Path) -> bool:
@@ -73,11 +68,7 @@ def read_text(path: str, location: Path) -> str:
 
 def parse(path: str, location: Path) -> Parsed:
     """Raises SceneFileError if the file is not well-formed TOML or JSON."""
-    return parsed(path, location, read_text(path, location))
-
-
-def parsed(path: str, location: Path, text: str) -> Parsed:
-    """The same for a text that is already in memory."""
+    text = read_text(path, location)
     if is_toml(location):
         return Parsed(path, location, text, _toml(path, text), False)
     return Parsed(path, location, text, *_json(path, text))

@@ -2,39 +2,45 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+import sys
+from typing import TYPE_CHECKING, Annotated
 
-from msgspec import Struct
+from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import force_setattr
 
 from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core import Mesh
-from satcheck.core.shapes import Primitive, primitive_of
+from satcheck.core.shapes import Primitive
 
 if TYPE_CHECKING:
     from satcheck.scene.planar.turns import Floats, Indices
 
-Point = tuple[float, float]
+Coordinate = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
+Point = Annotated[tuple[Coordinate, Coordinate], Meta(extra={"wanted": "[x, y]"})]
+Points = Annotated[
+    tuple[Point, ...],
+    Meta(
+        min_length=3,
+        extra={"wanted": "a list of at least three points"},
+        extra_json_schema={"uniqueItems": True},
+    ),
+]
 
-OUTLINE = "outline"
-_NUMBERS = frozenset((int, float))
 
+class Outline(Struct, frozen=True, forbid_unknown_fields=True, tag_field="type", tag="outline"):
+    """A polygon in the plane z = 0 around one region, whose edges do not meet; else raises
+    ValueError.
 
-class Outline(Struct, frozen=True, tag_field="type", tag=OUTLINE):
-    """A polygon in the plane z = 0.
-
-    points: its corners, counter-clockwise from the least one, in whatever order they are given, so
-    that the order changes no answer. Raises ValueError unless they bound one region without
-    crossing.
+    points: Its corners in the order of its edges; checked with --planar xy. Whatever order is
+        given, it is stored counter-clockwise from the least one, so that it changes no answer.
     """
 
-    points: tuple[Point, ...]
+    points: Points
 
     def __post_init__(self) -> None:
-        if len(self.points) < 3:
-            raise ValueError(f"an outline has at least three points, not {len(self.points)}")
-        first: dict[Point, int] = {}
+        # No negative zeros.
+        force_setattr(self, "points", tuple((x + 0.0, y + 0.0) for x, y in self.points))
+        first: dict[tuple[float, float], int] = {}
         for k, point in enumerate(self.points):
             if (other := first.setdefault(point, k)) != k:
                 raise ValueError(f"points[{k}] repeats points[{other}]: state each corner once")
@@ -54,25 +60,11 @@ Shape = Primitive | Outline
 
 
 def shape_from(values: object) -> Shape:
-    """The shape that a scene file or a report states. Raises ValueError."""
-    if not isinstance(values, dict) or values.get("type") != OUTLINE:
-        return primitive_of(values)
-    points: Any = values.get("points")
-    if values.keys() != {"type", "points"} or not isinstance(points, list | tuple):
-        raise ValueError("an outline has points, a list of [x, y]")
-    return Outline(tuple(_point(k, point) for k, point in enumerate(points)))
-
-
-def _point(k: int, value: Any) -> Point:
-    given = value if isinstance(value, list | tuple) else ()
-    if len(given) == 2 and _NUMBERS.issuperset(map(type, given)):
-        try:
-            x, y = (float(number) + 0.0 for number in given)  # no negative zeros
-        except OverflowError:  # an integer beyond float64
-            x = y = math.inf
-        if math.isfinite(x) and math.isfinite(y):
-            return x, y
-    raise ValueError(f"points[{k}] should be [x, y], two finite numbers")
+    """The shape that a report states. Raises ValueError."""
+    try:
+        return convert(values, Shape)  # type: ignore[no-any-return]
+    except ValidationError as error:
+        raise ValueError(str(error)) from None
 
 
 def _refuse_crossing(points: tuple[Point, ...]) -> None:

@@ -389,7 +389,7 @@ def test_a_scene_states_no_reach(tmp_path: Path) -> None:
     from satcheck.core.errors import SatcheckError
 
     floor = {"id": "floor", "shape": {"type": "half-space", "reach": 2.0}}
-    with pytest.raises(SatcheckError, match="no sizes"):
+    with pytest.raises(SatcheckError, match=r"shape\.reach: unknown key"):
         written(tmp_path, [floor])
 
 

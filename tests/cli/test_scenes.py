@@ -40,14 +40,18 @@ def test_toml_and_json_say_the_same(tmp_path: Path) -> None:
 
 
 def test_all_errors_are_told_a_line_each(tmp_path: Path) -> None:
-    document = scene_of({"id": "a", "shape": BOX, "position": [1, 2]}, {"mesh": "gone.stl"})
+    document = scene_of(
+        {"id": "a", "shape": BOX, "position": [1, 2]},
+        {"shape": BOX},
+        {"id": "c", "mesh": "gone.stl"},
+    )
     write(tmp_path, document, "toml")
     ran = satcheck("cell.toml", cwd=tmp_path)
     assert (ran.code, ran.out) == (2, "")
     assert [line.removeprefix("satcheck: error: ") for line in ran.err.splitlines()] == [
-        "cell.toml:6: bodies[0].position: three numbers expected, not 2 [bad-scene]",
+        "cell.toml:6: bodies[0].position: three numbers expected, not a list of 2 [bad-scene]",
         'cell.toml:8: bodies[1]: "id" is missing [bad-scene]',
-        "cell.toml:9: bodies[1].mesh: mesh file 'gone.stl' is missing [missing-resource]",
+        "cell.toml:13: bodies[2].mesh: mesh file 'gone.stl' is missing [missing-resource]",
     ]
 
 

@@ -7,9 +7,9 @@ import math
 import pytest
 
 from satcheck.core.transform import quaternion_matrix
+from satcheck.scene.format.document import Body
+from satcheck.scene.format.form import Wrong, converted
 from satcheck.scene.format.placement import euler_matrix, placement, quaternion_of_euler
-from satcheck.scene.format.problems import Problems
-from satcheck.scene.format.table import Table
 
 HALF = math.sqrt(0.5)
 # A product of three cosines and sines, each within an ulp of its value.
@@ -17,10 +17,7 @@ ROUNDING = 8 * 2.0**-53
 
 
 def placed(**keys):
-    problems = Problems()
-    found = placement(Table(keys, (), problems))
-    assert len(problems) == 0
-    return found
+    return placement(converted({"id": "a", "mesh": "a.obj", **keys}, Body))
 
 
 def apply(transform, point):
@@ -31,7 +28,7 @@ def apply(transform, point):
 
 def test_nothing_said_is_as_in_the_file():
     assert placed() is None
-    assert placed(id="a") is None
+    assert placed(groups=["g"]) is None
 
 
 def test_position_alone():
@@ -85,13 +82,13 @@ def test_a_matrix_is_taken_as_it_is():
 
 IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 WRONG = {
-    "two numbers": ({"position": [1, 2]}, "three numbers expected, not 2"),
+    "two numbers": ({"position": [1, 2]}, "three numbers expected, not a list of 2"),
     "no list": ({"position": 1}, "three numbers expected, not 1"),
     "text": ({"position": [1, "2", 3]}, "a number expected, not '2'"),
     "bool": ({"euler": [1, True, 3]}, "a number expected, not true"),
-    "nan": ({"position": [1, math.nan, 3]}, "a finite number expected, not nan"),
+    "nan": ({"position": [1, math.nan, 3]}, "a finite number expected"),
     "huge": ({"position": [1, 10**400, 3]}, "a finite number expected"),
-    "quaternion of three": ({"quaternion": [1, 0, 0]}, "four numbers expected, not 3"),
+    "quaternion of three": ({"quaternion": [1, 0, 0]}, "four numbers expected, not a list of 3"),
     "quaternion of zero": ({"quaternion": [0, 0, 0, 0]}, "a quaternion must not be zero"),
     "two turns": ({"quaternion": [1, 0, 0, 0], "euler": [0, 0, 0]}, "remove this key"),
     "matrix and position": ({"matrix": IDENTITY, "position": [0, 0, 0]}, "remove this key"),
@@ -102,6 +99,8 @@ WRONG = {
     "zero row": ({"matrix": [*IDENTITY[:2], [0, 0, 0, 0], IDENTITY[3]]}, "scales by 0"),
     "scale 0": ({"scale": 0}, "a scale must not be 0"),
     "scale 0 along y": ({"scale": [1, 0, 1]}, "a scale must not be 0"),
+    "two scales": ({"scale": [1, 2]}, "a number, or three numbers, expected, not a list of 2"),
+    "scale nan": ({"scale": math.nan}, "a finite number expected, not nan"),
     "needle": ({"scale": [1e-30, 1, 1], "euler": [0, 0, 45]}, "flattens space"),
 }
 
@@ -109,6 +108,7 @@ WRONG = {
 @pytest.mark.parametrize("name", WRONG)
 def test_what_places_nothing_is_refused(name):
     values, message = WRONG[name]
-    problems = Problems()
-    placement(Table(values, (), problems))
-    assert [message in wrong.message for _, wrong in problems.entries] == [True]
+    with pytest.raises(Wrong) as caught:
+        placed(**values)
+    assert message in caught.value.message
+    assert caught.value.keys[0] in values

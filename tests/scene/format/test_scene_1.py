@@ -9,6 +9,7 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule
 from satcheck.scene import SceneFileError
+from satcheck.scene.format import form
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
 from satcheck.scene.rules import Rule, Selector
@@ -117,6 +118,8 @@ def outline(*points):
     return changed("bodies", 0, shape={"type": "outline", "points": list(points)})
 
 
+TURN = {"axis": [0, 0, 1], "degrees": 1}
+
 # name: (change, where it is said to be wrong, what is said, code)
 WRONG = {
     "no bodies": (changed(bodies=None), "", "is missing", "bad-scene"),
@@ -150,7 +153,12 @@ WRONG = {
     "old key": (changed("bodies", 3, group="a"), "bodies[3].group", "mean 'groups'", "bad-scene"),
     "two sources": (changed("bodies", 1, shape=BOX), "bodies[1]", "exactly one of", "bad-scene"),
     "no source": (changed("bodies", 1, mesh=None), "bodies[1]", "exactly one of", "bad-scene"),
-    "part of a shape": (changed("bodies", 3, part="x"), "bodies[3].part", "no parts", "bad-scene"),
+    "part of a shape": (
+        changed("bodies", 3, part="x"),
+        "bodies[3].part",
+        'or "shape"',
+        "bad-scene",
+    ),
     "missing": (
         changed("bodies", 1, mesh="a.stl"),
         "bodies[1].mesh",
@@ -172,9 +180,62 @@ WRONG = {
         "box",
         "bad-scene",
     ),
-    "size": (changed("bodies", 0, "shape", size=[1, 0, 1]), "bodies[0].shape", "size", "bad-scene"),
-    "radius": (changed("bodies", 0, "shape", radius=1), "bodies[0].shape", "radius", "bad-scene"),
-    "two points": (outline([0, 0], [1, 0]), "bodies[0].shape", "at least three", "bad-scene"),
+    "size": (
+        changed("bodies", 0, "shape", size=[1, 0, 1]),
+        "bodies[0].shape.size[1]",
+        "a number above 0",
+        "bad-scene",
+    ),
+    "two sizes": (
+        changed("bodies", 0, "shape", size=[1, 1]),
+        "bodies[0].shape.size",
+        "a list of 3",
+        "bad-scene",
+    ),
+    "radius": (
+        changed("bodies", 0, "shape", radius=1),
+        "bodies[0].shape.radius",
+        "unknown key",
+        "bad-scene",
+    ),
+    "reach": (
+        changed("bodies", 0, shape={"type": "half-space", "reach": 1}),
+        "bodies[0].shape.reach",
+        "unknown key",
+        "bad-scene",
+    ),
+    "no type": (
+        changed("bodies", 0, shape={}),
+        "bodies[0].shape",
+        '"type" is missing',
+        "bad-scene",
+    ),
+    "units of a shape": (
+        changed("bodies", 3, units="mm"),
+        "bodies[3].units",
+        'or "shape"',
+        "bad-scene",
+    ),
+    "matrix and scale": (changed("bodies", 4, scale=2), "bodies[4].scale", "matrix", "bad-scene"),
+    "row": (
+        lambda document: document["bodies"][4]["matrix"][1].pop(),
+        "bodies[4].matrix[1]",
+        "four numbers expected, not a list of 3",
+        "bad-scene",
+    ),
+    "null": (
+        lambda document: document["bodies"][1].update(euler=None),
+        "bodies[1].euler",
+        "three numbers expected, not null",
+        "bad-scene",
+    ),
+    "$schema": (changed(**{"$schema": 3}), "'$schema'", "a non-empty text", "bad-scene"),
+    "two points": (
+        outline([0, 0], [1, 0]),
+        "bodies[0].shape.points",
+        "at least three",
+        "bad-scene",
+    ),
     "repeated point": (
         outline([0, 0], [1, 0], [0, 1], [0, 0]),
         "bodies[0].shape",
@@ -183,8 +244,8 @@ WRONG = {
     ),
     "point in space": (
         outline([0, 0], [1, 0], [0, 1, 0]),
-        "bodies[0].shape",
-        "points[2] should be [x, y]",
+        "bodies[0].shape.points[2]",
+        "[x, y]",
         "bad-scene",
     ),
     "crossing": (
@@ -203,7 +264,7 @@ WRONG = {
     "position": (
         changed("bodies", 0, position=[1, 2]),
         "bodies[0].position",
-        "three numbers expected, not 2",
+        "three numbers expected, not a list of 2",
         "bad-scene",
     ),
     "scale": (changed("bodies", 2, scale=0), "bodies[2].scale", "0", "singular-transform"),
@@ -246,7 +307,7 @@ WRONG = {
         "'floor' is static",
         "bad-motion",
     ),
-    "two paths": (changed("motion", 0, path=[]), "motion[0]", "exactly one of", "bad-scene"),
+    "two paths": (changed("motion", 0, rotation=TURN), "motion[0]", "exactly one of", "bad-scene"),
     "no path": (changed("motion", 0, translation=None), "motion[0]", "exactly one of", "bad-scene"),
     "rotation": (changed("motion", 1, rotation=3), "motion[1].rotation", "a table", "bad-scene"),
     "no axis": (
@@ -272,7 +333,7 @@ WRONG = {
     "waypoint": (
         changed("motion", 2, "path", 1, position=[1]),
         "motion[2].path[1].position",
-        "three numbers expected, not 1",
+        "three numbers expected, not a list of 1",
         "bad-scene",
     ),
     "two turns": (
@@ -288,6 +349,8 @@ WRONG = {
 @pytest.mark.parametrize("name", WRONG)
 def test_refused_at_its_key_and_line(tmp_path, name, form):
     change, where, said, code = WRONG[name]
+    if form == "toml" and name in ("null", "$schema"):
+        pytest.skip("not written in TOML here")
     document = full()
     change(document)
     first, *others = errors(tmp_path, document, form)
@@ -302,15 +365,14 @@ def test_refused_at_its_key_and_line(tmp_path, name, form):
         assert last[0] in line
 
 
-def test_all_errors_are_told_at_once_in_the_order_of_the_file(tmp_path):
+def test_the_errors_of_all_tables_are_told_at_once_in_the_order_of_the_file(tmp_path):
     document = full()
-    for name in ("severity", "static", "position", "nobody"):
+    for name in ("severity", "position", "nobody"):
         WRONG[name][0](document)
     found = errors(tmp_path, document)
     assert [error.line for error in found] == sorted(error.line for error in found)
     assert [str(error).split(": ")[1] for error in found] == [
         "bodies[0].position",
-        "bodies[0].static",
         "rules[1].severity",
     ]
 
@@ -320,6 +382,14 @@ def test_a_file_full_of_errors_is_told_of_in_part(tmp_path):
     found = errors(tmp_path, document)
     assert len(found) == 21
     assert str(found[-1]) == "cell.json: 30 more errors"
+
+
+def test_the_types_of_a_table_are_looked_up_once_for_many_errors(tmp_path):
+    """It takes milliseconds each time."""
+    form._type_info.cache_clear()
+    document = scene_of(*({"id": f"b{k}", "shape": BOX, "position": k} for k in range(50)))
+    errors(tmp_path, document)
+    assert form._type_info.cache_info().misses == 1
 
 
 def test_a_key_given_twice_is_wrong_in_json_too(tmp_path):

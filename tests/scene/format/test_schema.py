@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import random
-from importlib.resources import files
 from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
 
+from satcheck.scene.format.schema import schema
 from tests.scene.format.scenes import BOX, errors, full
 from tests.scene.format.test_scene_1 import WRONG
 
-SCHEMA = json.loads(files("satcheck.scene.format").joinpath("scene.schema.json").read_text())
+SCHEMA = schema()
 VALIDATOR = Draft202012Validator(SCHEMA)
 
 # What no schema of one value can say; the schema's description names them.

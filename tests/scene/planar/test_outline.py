@@ -31,19 +31,19 @@ def test_points_are_corners_of_its_mesh_as_they_are() -> None:
 @pytest.mark.parametrize(
     ("points", "message"),
     [
-        ([[0, 0], [1, 0]], "at least three points, not 2"),
+        ([[0, 0], [1, 0]], "length >= 3"),
         ([[0, 0], [1, 1], [3, 3]], "no area"),
         ([[0, 0], [1, 1], [1, 0], [0, 1]], r"from points\[0\] and points\[2\] cross"),
         ([[0, 0], [2, 0], [1, 0], [1, 1]], r"points\[0\] and points\[2\] cross or touch"),
         ([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]], "cross or touch"),
         ([[0, 0], [1, 0], [1, 1], [0, 0]], r"points\[3\] repeats points\[0\]"),
         ([[0, 0], [-0.0, 0.0], [1, 1]], r"points\[1\] repeats points\[0\]"),
-        ([[0, 0], [1, 0], [float("nan"), 1]], r"points\[2\] should be \[x, y\], two finite"),
-        ([[0, 0], [1, 0], [10**400, 1]], r"points\[2\] should be"),
-        ([[0, 0], [1, 0], [1, True]], r"points\[2\] should be"),
-        ([[0, 0], [1, 0], [1, 1, 0]], r"points\[2\] should be"),
-        ([[0, 0], "x", [1, 1]], r"points\[1\] should be"),
-        (5, "a list of"),
+        ([[0, 0], [1, 0], [float("nan"), 1]], r"points\[2\]"),
+        ([[0, 0], [1, 0], [10**400, 1]], r"points\[2\]"),
+        ([[0, 0], [1, 0], [1, True]], r"points\[2\]"),
+        ([[0, 0], [1, 0], [1, 1, 0]], r"points\[2\]"),
+        ([[0, 0], "x", [1, 1]], r"points\[1\]"),
+        (5, "array"),
     ],
 )
 def test_what_bounds_no_region_is_refused(points: Any, message: str) -> None:
@@ -52,7 +52,7 @@ def test_what_bounds_no_region_is_refused(points: Any, message: str) -> None:
 
 
 def test_an_outline_has_no_other_key() -> None:
-    with pytest.raises(ValueError, match="an outline has points"):
+    with pytest.raises(ValueError, match="height"):
         shape_from({"type": "outline", "points": SQUARE, "height": 1.0})
 
 
