@@ -248,6 +248,18 @@ def test_certificates_are_made_and_accepted(tmp_path: Path) -> None:
             assert [one.outcome for one in found.findings] == ["accepted"], (kind, aim)
 
 
+@pytest.mark.parametrize("kind", ["sphere", "capsule", "cylinder", "cone", "ellipsoid"])
+def test_a_depth_next_to_the_tolerance_is_decided(tmp_path: Path, kind: str) -> None:
+    """Within the rounding of the corners of a turned block, too."""
+    rng = random.Random(f"next to the tolerance {kind}")
+    for beyond in (0.0, 1e-12, -1e-12, 1e-14, -1e-14, 3e-16, -3e-16, 1e-16, -1e-16):
+        case = Case(tmp_path, rng, kind, "tilted", -0.25 - beyond)
+        (finding,) = check(case.scene(), Settings(tolerance=0.25)).findings
+        deeper = -case.heights()[0] > Fraction(0.25)
+        assert finding.relation == ("penetrating" if deeper else "touching")
+        assert finding.undecided is None
+
+
 def test_a_block_that_is_too_small_proves_nothing(tmp_path: Path) -> None:
     """A body beside a small block would be apart from it, though it lies below the plane."""
     floor = {"id": "floor", "shape": {"type": "half-space"}}
