@@ -22,6 +22,7 @@ from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 # Seconds of a slow machine that all ways out of a round may take together, and the least for one.
 ROUND_BUDGET = 4.0
 LEAST_BUDGET = 0.006
+# Bodies may end farther out than any body of the scene, and half spaces still have to hold them.
+ROOM = 8.0
 
 
 class Layout:
@@ -60,7 +63,7 @@ class Layout:
             cross_check=False,
             certificate=False,
         )
-        self._bodies = place(scene, self.settings)
+        self._bodies = place(with_reach(scene, room=ROOM), self.settings)
         self._planner = Planner(self.settings, self._bodies.book, scene.composed)
         self._index = sorted(self._bodies.placed, key=self._bodies.ids.__getitem__)
         self.home = [self._bodies.placed[index] for index in self._index]

@@ -470,6 +470,46 @@ def test_resolve_lifts_what_is_sunk_and_a_new_scene_has_no_reach(tmp_path: Path)
     assert stated["bodies"][0]["shape"] == {"type": "half-space"}
 
 
+def slope(angle: float) -> dict[str, Any]:
+    c, s = math.cos(angle), math.sin(angle)
+    rows = [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
+    return {"id": "floor", "shape": {"type": "half-space"}, "matrix": placed(rows, [0, 0, 0])}
+
+
+def crate(id_: str, *at: float) -> dict[str, Any]:
+    return {"id": id_, "shape": {"type": "box", "size": [1, 1, 1]}, "position": at}
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4])
+def test_the_free_places_of_resolve_lie_on_a_floor_and_beside_no_half_space(
+    tmp_path: Path, angle: float
+) -> None:
+    """A turned block lies in boxes that end far from its top. No round of pushing goes before."""
+    scene = written(tmp_path, [slope(angle), crate("a", 0, 0, -2), crate("b", 0.5, 0, -2)])
+    found = resolve(scene, iterations=0)
+    assert found.verdict == "resolved"
+    assert len(found.moves) == 2
+    # The way along the normal, and the rest of a crate to get past the other one.
+    out = 2 * math.cos(angle) + (math.cos(angle) + math.sin(angle)) / 2
+    assert all(out - 1e-9 <= move.length <= out + math.sqrt(3) for move in found.moves)
+
+
+def test_there_is_no_way_out_of_a_half_space_but_over_its_plane(tmp_path: Path) -> None:
+    """A crate between a floor and a ceiling that are too close for it."""
+    rows = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]
+    ceiling = {
+        "id": "ceiling",
+        "shape": {"type": "half-space"},
+        "matrix": placed(rows, [0, 0, 0.5]),
+    }
+    found = resolve(written(tmp_path, [slope(0.0), ceiling, crate("a", 1, 2, -3)]))
+    assert found.moves == ()
+    assert [(left.a, left.b) for left in found.left] == [("floor", "a")]
+    higher = {**ceiling, "matrix": placed(rows, [0, 0, 1.5])}
+    (move,) = resolve(written(tmp_path, [slope(0.0), higher, crate("a", 1, 2, -3)])).moves
+    assert move.translation == pytest.approx((0, 0, 3.5), abs=1e-12)
+
+
 FAR = """<?xml version="1.0"?><sdf version="1.9"><world name="w">
 <model name="ground"><static>true</static><link name="l"><collision name="c"><geometry>
 <plane><normal>0 0 1</normal><size>1 1</size></plane></geometry></collision></link></model>
