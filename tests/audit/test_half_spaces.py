@@ -354,6 +354,71 @@ def test_a_path_of_joints_hits_the_floor(tmp_path: Path) -> None:
     assert swept.relation == "separated"
 
 
+CART = (
+    '<body name="cart" pos="0 0 0"><joint name="along" type="slide" axis="1 0 0"/>'
+    '<joint name="drop" type="slide" axis="0 0 1"/><joint name="spin" axis="0 0 1"/>'
+    '<geom name="cart" type="box" size=".5 .5 .5"/></body>'
+)
+
+
+@pytest.mark.parametrize(
+    ("height", "relation", "way"),
+    [(0.75, "separated", 1e6), (0.5001, "separated", 1e6), (0.5, "touching", 1000.0)],
+)
+def test_a_way_along_a_floor_takes_few_steps(
+    tmp_path: Path, height: float, relation: str, way: float
+) -> None:
+    """Only the height counts, not the way."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    start = {"along": (0.0,), "drop": (height,), "spin": (0.0,)}
+    path = [start, {"along": (way,), "drop": (height,), "spin": (9.0,)}]
+    scene = with_joint_path(in_mujoco(tmp_path, CART), path)
+    (finding,) = check(scene, Settings(depth=False)).findings
+    assert finding.motion is not None
+    assert finding.motion.relation == relation
+    assert finding.motion.steps is not None
+    assert finding.motion.steps < 64
+
+
+def test_an_impact_after_a_long_way_is_found(tmp_path: Path) -> None:
+    """Its time is as narrow as the rounding of a length of the way."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    scene = with_joint_path(in_mujoco(tmp_path, CART), [{"drop": (1e6,)}, {"drop": (0.0,)}])
+    (finding,) = check(scene, Settings(depth=False)).findings
+    assert finding.motion is not None
+    assert finding.motion.time_of_impact is not None
+    assert finding.motion.tolerance is not None
+    lower, upper = (1e6 * (1 - time) for time in finding.motion.time_of_impact)
+    assert upper <= 0.5 <= lower + finding.motion.tolerance
+    assert lower - upper <= 16 * finding.motion.tolerance
+    assert finding.motion.tolerance <= 1e-5
+
+
+def test_a_turn_about_a_tilted_axis_counts_by_what_rises(tmp_path: Path) -> None:
+    """Against the heights at many moments: no overlap is missed, and none is found too late."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    for seed in range(8):
+        rng = random.Random(seed)
+        axes = [" ".join(repr(rng.gauss(0, 1)) for _ in range(3)) for _ in range(3)]
+        arm = (
+            f'<body name="arm" pos="0 0 1.5"><joint name="a" axis="{axes[0]}"/>'
+            f'<joint name="b" type="slide" axis="{axes[1]}"/><joint name="c" axis="{axes[2]}"/>'
+            '<geom name="arm" type="box" size="1 .25 .25" pos=".75 0 0"/></body>'
+        )
+        scene = in_mujoco(tmp_path, arm)
+        start, end = ({j: (rng.uniform(-2, 2),) for j in "abc"} for _ in range(2))
+        (finding,) = check(with_joint_path(scene, [start, end]), Settings(depth=False)).findings
+        shares = [k / 256 for k in range(257)]
+        poses = [{j: (start[j][0] * (1 - t) + end[j][0] * t,) for j in "abc"} for t in shares]
+        found = check_poses(scene, poses, Settings(depth=False)).samples
+        hits = [t for t, sample in zip(shares, found, strict=True) if sample.verdict == "fail"]
+        hit = finding.motion and finding.motion.time_of_impact
+        assert not hits if hit is None else min(hits, default=1.0) >= hit[0]
+
+
 def test_a_motion_hits_the_floor(tmp_path: Path) -> None:
     floor = {"id": "floor", "shape": {"type": "half-space"}}
     body = {"id": "body", "shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 0, 2]}
