@@ -36,13 +36,14 @@ def is_half_space(body: Body) -> bool:
     return isinstance(body.shape, HalfSpace)
 
 
-def with_reach(scene: Scene) -> Scene:
+def with_reach(scene: Scene, room: float = 1.0) -> Scene:
     """The scene with blocks that reach beyond its bodies: as they are placed, in all poses that the
-    limits of their joints allow, and on their ways. Blocks that do so already stay."""
+    limits of their joints allow, and on their ways. Blocks that do so already stay. room: how many
+    times as far they reach."""
     floors = [body for body in scene.bodies if is_half_space(body)]
     if not floors:
         return scene
-    radius = _radius_of(scene)
+    radius = room * _radius_of(scene)
     fitted = {body.id: _fitted(body, radius) for body in floors}
     if all(fitted[body.id] is body for body in floors):
         return scene

@@ -293,7 +293,9 @@ class SceneBuilder:
             body = Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             self._bodies.append(replace(body, surface_tolerance=surface_tolerance))
         else:
-            reason = issue(file.code, str(file), body=id_, file=path)
+            # A file of shapes has many bodies: the message is about the body, not the file.
+            message = str(file) if shape is None else file.message
+            reason = issue(file.code, message, body=id_, file=path)
             self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
         return id_
 

@@ -16,6 +16,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.resolution import FLOAT64_ROUNDING
+from satcheck.scene.words import told_apart
 
 SHAPE_FORMAT = "shape"
 
@@ -53,9 +54,11 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
 def _require_in_range(shape: Primitive, path: str) -> None:
     for size in sizes_of(shape):
         if not SMALLEST_SIZE <= size <= LARGEST_LENGTH:
+            limit = SMALLEST_SIZE if size < SMALLEST_SIZE else LARGEST_LENGTH
             message = (
-                f"the {type(shape).__name__.lower()} has a size of {size:.3g}, out of range: sizes "
-                f"may be from {SMALLEST_SIZE:g} to {LARGEST_LENGTH:g}; use another unit of length"
+                f"the {type(shape).__name__.lower()} has a size of {told_apart(size, limit)[0]}, "
+                f"out of range: sizes may be from {SMALLEST_SIZE:g} to {LARGEST_LENGTH:g}; use "
+                "another unit of length"
             )
             raise MeshFileError("out-of-range", message, file=path)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
@@ -19,6 +20,22 @@ def _closest(word: str, known: frozenset[str]) -> str | None:
     from difflib import get_close_matches
 
     return next(iter(get_close_matches(word, sorted(known), n=1)), None)
+
+
+def told_apart(a: float, b: float) -> tuple[str, str]:
+    """Both numbers, with three digits or as many as they differ in."""
+    for digits in range(3, 18):
+        texts = f"{a:.{digits}g}", f"{b:.{digits}g}"
+        if texts[0] != texts[1]:
+            break
+    return texts
+
+
+def why_unreadable(error: Exception) -> str:
+    """Of a document that is too deep, or has an integer of thousands of digits: then Python says
+    how a program may read it, which is no advice for a user."""
+    long = "int_max_str_digits" in str(error)
+    return f"a number of more than {sys.get_int_max_str_digits()} digits" if long else str(error)
 
 
 def listed(names: Sequence[str]) -> str:

@@ -21,6 +21,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
 from satcheck.scene.half_spaces import farthest, reach_in_world
+from satcheck.scene.words import told_apart
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -156,9 +157,10 @@ class BodyCache:
             self.meshes[key] = SharedMesh(body.file, settings, in_file)
         placed = PlacedBody(body, self.meshes[key], bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
+            far, most = told_apart(largest, LARGEST_PLACED)
             raise OverflowError(
-                f"the body reaches {largest:.3g}, and world coordinates may be up to "
-                f"{LARGEST_PLACED:g}; use a larger unit of length"
+                f"the body reaches {far}, and world coordinates may be up to {most}; use a larger "
+                "unit of length"
             )
         self.placed[body.id] = placed
         return placed

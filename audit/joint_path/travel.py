@@ -4,7 +4,8 @@ The displacement bound of Fabian Schwarzer, Mitul Saha, Jean-Claude Latombe, "Ad
 Collision Checking for Single and Multiple Robots in Complex Environments" (2005): a joint that
 turns by an angle moves a point by at most the angle times its distance from the axis. Where we
 deviate: the distances are those in the middle of the interval, plus what the joints nearer to the
-body add to them. The joints above both bodies move neither relative to the other.
+body add to them. The joints above both bodies move neither relative to the other. Of the way over a
+half space that stays, only the part along its normal counts: the gap is the least height.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
+from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.robot import Joint, JointPath
 from satcheck.scene.robot.kinematics import motion
 from satcheck.scene.robot.pose_batches import link_frames, placements
@@ -31,6 +34,10 @@ Ball = tuple[tuple[float, float, float], float]
 JOINT_ROUNDOFFS = 64
 # The bound itself is a short sum of products.
 _ROUNDED_UP = 1 + 1e-12
+# The rounding of the angle between a joint and a normal, in roundoffs.
+_ANGLE_ROUNDOFFS = 16
+# How many numbers of a joint are lengths; the others turn it.
+_LENGTHS = {"prismatic": 1, "planar": 2, "floating": 3, "free": 3}
 
 
 class Interval(Struct, frozen=True):
@@ -76,6 +83,11 @@ class Travel:
             if joint.name in path.moving
         ]
         self._above = self._chains()
+        self._floors = {
+            number: np.array(plane_of(body.transform).unit)
+            for number, body in enumerate(scene.bodies)
+            if is_half_space(body) and not self._above[number]
+        }
 
     def moves(self, a: int, b: int) -> bool:
         """Whether two bodies move relative to each other, by their numbers in the scene."""
@@ -110,7 +122,12 @@ class Travel:
 
     def between(self, at: Middle, a: int, b: int) -> Numbers:
         """An upper bound of how far any point of B moves in the frame of A, or one of A in that of
-        B, from the middle of each interval until its ends, rounding included."""
+        B, from the middle of each interval until its ends, rounding included. Over a half space
+        that stays: of how much its height changes."""
+        for floor, other in ((a, b), (b, a)):
+            if floor in self._floors:
+                up = self._floors[floor]
+                return self._carried(at, other, self._above[other], up) * _ROUNDED_UP + 2 * at.pad
         only_a = [j for j in self._above[a] if j not in self._above[b]]
         only_b = [j for j in self._above[b] if j not in self._above[a]]
         of_b = self._carried(at, b, [*only_b, *reversed(only_a)])
@@ -124,16 +141,26 @@ class Travel:
         centres = at.centres[body]
         return (centres - grown[:, None]).min(axis=0), (centres + grown[:, None]).max(axis=0)
 
-    def _carried(self, at: Middle, body: int, joints: Sequence[int]) -> Numbers:
-        """joints: those that carry the body, the nearest first."""
+    def _carried(
+        self, at: Middle, body: int, joints: Sequence[int], up: Numbers | None = None
+    ) -> Numbers:
+        """joints: those that carry the body, the nearest first. up: a normal, along which alone the
+        way counts. Nearer joints move first, so each moves about its axis in the middle."""
         total = np.zeros(len(at.matrices))
+        risen = np.zeros(len(at.matrices))
         for j in joints:
             from_origin = at.centres[body] - at.origins[j]
             along = (from_origin * at.axes[j]).sum(axis=1)[:, None] * at.axes[j]
             lever = np.linalg.norm(from_origin - along, axis=1) + self._radii[body]
             lever += total + at.shifts[j]
-            total += at.shifts[j] + np.minimum(at.turns[j], 2.0) * lever
-        return total
+            turned = np.minimum(at.turns[j], 2.0) * lever
+            total += at.shifts[j] + turned
+            if up is not None:
+                rise = np.abs(at.axes[j] @ up)
+                across = np.linalg.norm(np.cross(at.axes[j], up), axis=1)
+                slides = self._joints[j][1].kind == "prismatic"
+                risen += at.shifts[j] * (rise if slides else across) + turned * across
+        return total if up is None else risen + _ANGLE_ROUNDOFFS * UNIT_ROUNDOFF * total
 
     def _chains(self) -> list[list[int]]:
         """Of each body the joints that move it, the nearest first."""
@@ -168,11 +195,15 @@ class Travel:
         return np.array(turns), np.array(shifts)
 
     def _pad(self, values: dict[str, tuple[Numbers, ...]], reach: float) -> float:
-        largest = max(
-            (float(np.abs(number).max()) for own in values.values() for number in own), default=0.0
-        )
+        angle = length = 0.0
+        for robot in self._scene.robots:
+            for joint in robot.robot.joints:
+                sizes = [float(np.abs(number).max()) for number in values.get(joint.name, ())]
+                lengths = _LENGTHS.get(joint.kind, 0)
+                length = max([length, *sizes[:lengths]])
+                angle = max([angle, *sizes[lengths:]])
         depth = max((len(robot.robot.joints) for robot in self._scene.robots), default=0)
-        return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + largest) * reach
+        return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + angle) * (reach + length)
 
 
 def _moved(joint: Joint, links: Mapping[str, Transform], values: Mapping[str, Any]) -> Transform:

@@ -3,7 +3,7 @@
 The height is that of the hull, so that no hole and no hollow of the body leaves it open: `core/
 half_space.py` computes it exactly. The triangles of the block of the half space (`core.shapes`)
 answer for what is not a height. If the block is turned, its corners are rounded, and so is the
-plane through them: heights within this rounding are left to the block.
+plane through them: whether a body crosses it within this rounding is left to the block.
 """
 
 from __future__ import annotations
@@ -68,17 +68,13 @@ class Above(Struct, frozen=True):
     @property
     def side(self) -> int:
         """The sign of the signed distance; 0: it may also be within the slack."""
-        return self._beyond(0.0)
-
-    def compare(self, length: float) -> int | None:
-        """The sign of (signed distance - length); None: the slack leaves it open."""
-        side = self._beyond(length)
-        return side if side or self.slack == 0.0 else None
-
-    def _beyond(self, length: float) -> int:
-        if self.low.compare(length + self.slack) > 0:
+        if self.low.compare(self.slack) > 0:
             return 1
-        return -1 if self.low.compare(length - self.slack) < 0 else 0
+        return -1 if self.low.compare(-self.slack) < 0 else 0
+
+    def compare(self, length: float) -> int:
+        """The exact sign of (signed distance - length), from the plane itself."""
+        return self.low.compare(length)
 
     @property
     def decides(self) -> bool:

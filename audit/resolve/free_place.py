@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core.conventions import Vector
+from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import rounding_pad
 
 Array = npt.NDArray[np.float64]
@@ -29,12 +30,19 @@ AXES = np.array(
     ]
 )
 RAYS = np.concatenate([AXES, -AXES])
+# The cosine of the angle between an axis and a normal that count as parallel.
+PARALLEL = 1 - 1e-12
 
 
 def extents(body: PlacedBody) -> Array:
-    """(2, axes): the lowest and the highest projections on the axes."""
+    """(2, axes): the lowest and the highest projections on the axes. A half space ends along its
+    normal alone."""
     along = body.mesh.vertices @ AXES.T
-    return np.stack([along.min(axis=0), along.max(axis=0)])
+    low, high = along.min(axis=0), along.max(axis=0)
+    if body.endless:
+        up = AXES @ np.array(plane_of(body.body.transform).unit)
+        low, high = np.where(up < -PARALLEL, low, -np.inf), np.where(up > PARALLEL, high, np.inf)
+    return np.stack([low, high])
 
 
 def free_place(body: Array, others: Array, gaps: Array, longest: float) -> Vector | None:
@@ -43,7 +51,8 @@ def free_place(body: Array, others: Array, gaps: Array, longest: float) -> Vecto
 
     body: its extents. others: (bodies, 2, axes). gaps: (bodies,).
     """
-    pad = gaps[:, None] + 2 * rounding_pad(float(max(np.abs(body).max(), np.abs(others).max())))
+    reach = np.abs(np.concatenate([body.ravel(), others.ravel()]))
+    pad = gaps[:, None] + 2 * rounding_pad(float(reach.max(where=np.isfinite(reach), initial=0.0)))
     # It overlaps another one at s along a ray while below < s * rate < above on each axis.
     below, above = others[:, 0] - pad - body[1], others[:, 1] + pad - body[0]
     ways = [(_first_free(*_blocked(below, above, AXES @ ray)), ray) for ray in RAYS]

@@ -21,6 +21,7 @@ from satcheck.audit.resolve.pair_state import PairState, state_of
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
@@ -32,6 +33,8 @@ ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Seconds of a slow machine that all ways out of a round may take together, and the least for one.
 ROUND_BUDGET = 4.0
 LEAST_BUDGET = 0.006
+# Bodies may end farther out than any body of the scene, and half spaces still have to hold them.
+ROOM = 8.0
 
 
 class Layout:
@@ -52,7 +55,7 @@ class Layout:
         """settings: they ask for the depth. meter: needed where rules limit the volume of
         overlaps."""
         self._meter = meter
-        self._bodies = place(scene, settings)
+        self._bodies = place(with_reach(scene, room=ROOM), settings)
         self._planner = Planner(settings, self._bodies.book, scene.composed)
         self._index = sorted(self._bodies.placed, key=self._bodies.ids.__getitem__)
         self.home = [self._bodies.placed[index] for index in self._index]

@@ -75,8 +75,9 @@ def bad_config(message: str) -> SatcheckError:
 
 def _parsed(path: Path, data: bytes) -> dict[str, Any]:
     from satcheck.scene.format.text import parse_toml
+    from satcheck.scene.words import why_unreadable
 
     try:
         return parse_toml(data.decode())
     except (ValueError, RecursionError) as error:
-        raise bad_config(f"{path}: not readable TOML: {error}") from None
+        raise bad_config(f"{path}: not readable TOML: {why_unreadable(error)}") from None

@@ -15,6 +15,7 @@ from msgspec import Struct
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.words import why_unreadable
 
 if TYPE_CHECKING:
     from satcheck.scene.format.lines import Keys
@@ -95,8 +96,9 @@ def _toml(path: str, text: str) -> Any:
         line = int(line or len(text.splitlines()))
         message = f"not well-formed TOML: {reason}"
         raise SceneFileError("bad-scene", message, file=path, line=line) from None
-    except (RecursionError, ValueError) as error:  # too deep, or an integer of 10^5 digits
-        raise SceneFileError("bad-scene", f"not readable TOML: {error}", file=path) from None
+    except (RecursionError, ValueError) as error:
+        message = f"not readable TOML: {why_unreadable(error)}"
+        raise SceneFileError("bad-scene", message, file=path) from None
 
 
 def _json(path: str, text: str) -> tuple[Any, bool]:
@@ -117,6 +119,7 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
     except json.JSONDecodeError as error:
         message = f"not well-formed JSON: {error.msg}"
         raise SceneFileError("bad-scene", message, file=path, line=error.lineno) from None
-    except (RecursionError, ValueError) as error:  # too deep, or an integer of 10^5 digits
-        raise SceneFileError("bad-scene", f"not readable JSON: {error}", file=path) from None
+    except (RecursionError, ValueError) as error:
+        message = f"not readable JSON: {why_unreadable(error)}"
+        raise SceneFileError("bad-scene", message, file=path) from None
     return document, repeated

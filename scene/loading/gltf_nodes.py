@@ -12,6 +12,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
+from satcheck.scene.words import why_unreadable
 
 
 def parse_document(data: memoryview) -> dict[str, Any]:
@@ -41,6 +42,8 @@ def _json(text: str) -> Any:
         ) from None
     except RecursionError:
         raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
+    except ValueError as error:
+        raise MeshFileError("bad-record", f"JSON: {why_unreadable(error)}") from None
 
 
 class NodeGraph:

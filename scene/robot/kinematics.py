@@ -124,6 +124,19 @@ def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) 
     return placed(quaternion_matrix(*quaternion), xyz)
 
 
+def facing(normal: Vector) -> Transform:
+    """The rotation that takes z to a normal of any length; exact for normals along the axes. Raises
+    ValueError for length 0."""
+    length = math.hypot(*normal)
+    if length == 0.0:
+        raise ValueError("a normal of length 0")
+    x, y, z = (c / length for c in normal)
+    across = math.hypot(x, y)
+    # About z to the side of the normal, after a turn from z to it.
+    c, s = (x / across, y / across) if across else (1.0, 0.0)
+    return placed((c * z, -s, x, s * z, c, y, -across, 0.0, z), (0.0, 0.0, 0.0))
+
+
 def _cos_sin(radians: Any) -> tuple[Any, Any]:
     if isinstance(radians, float | int):
         return math.cos(radians), math.sin(radians)

@@ -23,6 +23,7 @@ JointKind = UrdfJointKind | Literal["ball", "free"]
 # pitch, yaw) for a floating one, a quaternion (w, x, y, z) for a ball joint, (x, y, z, w, x, y, z)
 # for a free one, an angle or a length for others.
 Values = tuple[float, ...]
+DRAWN_PLANE = "a plane that is drawn ends at its size: give a mesh or a box"
 FREEDOMS: dict[JointKind, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 4, "free": 7}
 
 

@@ -84,7 +84,12 @@ class MeshPlaces:
             raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
         if models and not scheme and (named := self._named(rest, models)):
             return named
-        place = self._plain(rest, models, quoted=scheme == "file")
+        try:
+            place = self._plain(rest, models, quoted=scheme == "file")
+        except MeshFileError:
+            if models and not scheme and "/" not in rest:
+                return self._in_package(rest, models)  # a bare name of a model
+            raise
         if _is_from_environment(place):
             return place
         if not self._may_open(place):
@@ -96,11 +101,15 @@ class MeshPlaces:
         return place
 
     def _plain(self, rest: str, models: bool, *, quoted: bool) -> Path:
-        """Beside the file, or else in a folder of the environment."""
+        """Beside the file, or else in a folder of the environment, or else, of file://, in a folder
+        above the file: many write file://models/NAME, from the root of their repository."""
         try:
             return _existing(self._folder, rest, models, quoted=quoted)
         except MeshFileError:
-            for root in folders_of_environment():
+            from_root = quoted and not rest.startswith("/")
+            count = len(self._folder.absolute().parents) if from_root else 0
+            above = (self._upwards(steps) for steps in range(1, count + 1))
+            for root in (*folders_of_environment(), *above):
                 with suppress(MeshFileError):
                     return _existing(root, rest, models, quoted=quoted)
             raise

@@ -21,7 +21,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.robot.model import Joint, Robot, State, Values
-from satcheck.scene.words import meant
+from satcheck.scene.words import meant, why_unreadable
 
 Pose = Mapping[str, Values]
 # A given value of a mimic joint may differ from the computed one by this: states are written with
@@ -62,7 +62,7 @@ def read_poses(given: str) -> list[Pose] | Pose:
     except json.JSONDecodeError as error:
         raise _bad(f"line {error.lineno}: not well-formed JSON: {error.msg}", file) from None
     except (RecursionError, ValueError) as error:
-        raise _bad(str(error), file) from None
+        raise _bad(why_unreadable(error), file) from None
     if isinstance(document, dict):
         return _pose(document, "the pose", file)
     if not isinstance(document, list) or not document:

@@ -14,13 +14,15 @@ from pathlib import Path
 from typing import NoReturn, get_args
 
 from satcheck.core.conventions import Vector
-from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
+from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
-from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
+from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy
 from satcheck.scene.robot.model import (
+    DRAWN_PLANE,
     Collision,
     Geometry,
     Joint,
@@ -123,7 +125,12 @@ class _Reader:
             if _is_point(shape):
                 self._slips.note("no-shape", shape, f"a <{shape.tag}> of size 0: no body")
                 return None
-            return Collision(name, _origin(element), _geometry(shape), element.line)
+            origin, geometry = _origin(element), _geometry(shape)
+            if isinstance(geometry, HalfSpace):
+                if self._geometry == "visual":
+                    shape.refuse(DRAWN_PLANE, "unsupported-feature")
+                origin = compose(origin, _facing(shape))
+            return Collision(name, origin, geometry, element.line)
         except RefusedElement as error:
             return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
 
@@ -260,16 +267,30 @@ def _capsule(shape: Element) -> Capsule:
     return Capsule(shape.number("radius"), shape.number("length"))
 
 
+def _plane(shape: Element) -> HalfSpace:
+    """Not in URDF 1.0; as in PyBullet."""
+    shape.knows(("normal",))
+    return HalfSpace()
+
+
+def _facing(plane: Element) -> Transform:
+    try:
+        return facing(_vector(plane, "normal"))
+    except ValueError as error:
+        plane.refuse(str(error))
+
+
 _SHAPES: dict[str, Callable[[Element], Geometry]] = {
     "mesh": _mesh,
     "box": _box,
     "sphere": _sphere,
     "cylinder": _cylinder,
     "capsule": _capsule,
+    "plane": _plane,
 }
 
 
-def _origin(owner: Element) -> tuple[float, ...]:
+def _origin(owner: Element) -> Transform:
     origin = owner.only("origin")
     if origin is None:
         return IDENTITY

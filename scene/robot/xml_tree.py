@@ -33,6 +33,8 @@ _DEFINES = frozenset(("property", "arg", "macro"))
 _PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "material"))
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NO_LINE_END = re.compile(rb"[^\r\n]")
+# An ampersand that begins no reference.
+_AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
@@ -184,7 +186,7 @@ def _parse(path: str, data: bytes) -> Element:
     try:
         with suppress(MeshFileError):
             return _parsed(path, data)
-        return _parsed(path, _without_comments(data))
+        return _parsed(path, _AMPERSAND.sub(b"&amp;", _without_comments(data)))
     except MeshFileError as error:
         if _ERB in data:
             raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
@@ -198,5 +200,6 @@ def _parsed(path: str, data: bytes) -> Element:
 
 def _without_comments(data: bytes) -> bytes:
     """The document with blanks for comments. Programs for robots accept comments that XML does not
-    allow: with -- in them, or before <?xml ...?>. All lines keep their numbers."""
+    allow: with -- in them, or before <?xml ...?>; and an & that is no &amp;. All lines keep their
+    numbers."""
     return _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)

@@ -248,6 +248,18 @@ def test_certificates_are_made_and_accepted(tmp_path: Path) -> None:
             assert [one.outcome for one in found.findings] == ["accepted"], (kind, aim)
 
 
+@pytest.mark.parametrize("kind", ["sphere", "capsule", "cylinder", "cone", "ellipsoid"])
+def test_a_depth_next_to_the_tolerance_is_decided(tmp_path: Path, kind: str) -> None:
+    """Within the rounding of the corners of a turned block, too."""
+    rng = random.Random(f"next to the tolerance {kind}")
+    for beyond in (0.0, 1e-12, -1e-12, 1e-14, -1e-14, 3e-16, -3e-16, 1e-16, -1e-16):
+        case = Case(tmp_path, rng, kind, "tilted", -0.25 - beyond)
+        (finding,) = check(case.scene(), Settings(tolerance=0.25)).findings
+        deeper = -case.heights()[0] > Fraction(0.25)
+        assert finding.relation == ("penetrating" if deeper else "touching")
+        assert finding.undecided is None
+
+
 def test_a_block_that_is_too_small_proves_nothing(tmp_path: Path) -> None:
     """A body beside a small block would be apart from it, though it lies below the plane."""
     floor = {"id": "floor", "shape": {"type": "half-space"}}
@@ -340,6 +352,71 @@ def test_a_path_of_joints_hits_the_floor(tmp_path: Path) -> None:
     swept = by_pair["world", "lift"].motion
     assert swept is not None
     assert swept.relation == "separated"
+
+
+CART = (
+    '<body name="cart" pos="0 0 0"><joint name="along" type="slide" axis="1 0 0"/>'
+    '<joint name="drop" type="slide" axis="0 0 1"/><joint name="spin" axis="0 0 1"/>'
+    '<geom name="cart" type="box" size=".5 .5 .5"/></body>'
+)
+
+
+@pytest.mark.parametrize(
+    ("height", "relation", "way"),
+    [(0.75, "separated", 1e6), (0.5001, "separated", 1e6), (0.5, "touching", 1000.0)],
+)
+def test_a_way_along_a_floor_takes_few_steps(
+    tmp_path: Path, height: float, relation: str, way: float
+) -> None:
+    """Only the height counts, not the way."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    start = {"along": (0.0,), "drop": (height,), "spin": (0.0,)}
+    path = [start, {"along": (way,), "drop": (height,), "spin": (9.0,)}]
+    scene = with_joint_path(in_mujoco(tmp_path, CART), path)
+    (finding,) = check(scene, Settings(depth=False)).findings
+    assert finding.motion is not None
+    assert finding.motion.relation == relation
+    assert finding.motion.steps is not None
+    assert finding.motion.steps < 64
+
+
+def test_an_impact_after_a_long_way_is_found(tmp_path: Path) -> None:
+    """Its time is as narrow as the rounding of a length of the way."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    scene = with_joint_path(in_mujoco(tmp_path, CART), [{"drop": (1e6,)}, {"drop": (0.0,)}])
+    (finding,) = check(scene, Settings(depth=False)).findings
+    assert finding.motion is not None
+    assert finding.motion.time_of_impact is not None
+    assert finding.motion.tolerance is not None
+    lower, upper = (1e6 * (1 - time) for time in finding.motion.time_of_impact)
+    assert upper <= 0.5 <= lower + finding.motion.tolerance
+    assert lower - upper <= 16 * finding.motion.tolerance
+    assert finding.motion.tolerance <= 1e-5
+
+
+def test_a_turn_about_a_tilted_axis_counts_by_what_rises(tmp_path: Path) -> None:
+    """Against the heights at many moments: no overlap is missed, and none is found too late."""
+    from satcheck.scene.robot.joint_path import with_joint_path
+
+    for seed in range(8):
+        rng = random.Random(seed)
+        axes = [" ".join(repr(rng.gauss(0, 1)) for _ in range(3)) for _ in range(3)]
+        arm = (
+            f'<body name="arm" pos="0 0 1.5"><joint name="a" axis="{axes[0]}"/>'
+            f'<joint name="b" type="slide" axis="{axes[1]}"/><joint name="c" axis="{axes[2]}"/>'
+            '<geom name="arm" type="box" size="1 .25 .25" pos=".75 0 0"/></body>'
+        )
+        scene = in_mujoco(tmp_path, arm)
+        start, end = ({j: (rng.uniform(-2, 2),) for j in "abc"} for _ in range(2))
+        (finding,) = check(with_joint_path(scene, [start, end]), Settings(depth=False)).findings
+        shares = [k / 256 for k in range(257)]
+        poses = [{j: (start[j][0] * (1 - t) + end[j][0] * t,) for j in "abc"} for t in shares]
+        found = check_poses(scene, poses, Settings(depth=False)).samples
+        hits = [t for t, sample in zip(shares, found, strict=True) if sample.verdict == "fail"]
+        hit = finding.motion and finding.motion.time_of_impact
+        assert not hits if hit is None else min(hits, default=1.0) >= hit[0]
 
 
 def test_a_motion_hits_the_floor(tmp_path: Path) -> None:
@@ -456,6 +533,46 @@ def test_resolve_lifts_what_is_sunk_and_a_new_scene_has_no_reach(tmp_path: Path)
     assert move.translation == pytest.approx((0, 0, 0.25), abs=1e-12)
     stated = json.loads(new_scene_file(tmp_path / "new.json", scene, MeshFiles()))
     assert stated["bodies"][0]["shape"] == {"type": "half-space"}
+
+
+def slope(angle: float) -> dict[str, Any]:
+    c, s = math.cos(angle), math.sin(angle)
+    rows = [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
+    return {"id": "floor", "shape": {"type": "half-space"}, "matrix": placed(rows, [0, 0, 0])}
+
+
+def crate(id_: str, *at: float) -> dict[str, Any]:
+    return {"id": id_, "shape": {"type": "box", "size": [1, 1, 1]}, "position": at}
+
+
+@pytest.mark.parametrize(("angle", "rounds"), [(0.0, 0), (0.0, 12), (0.4, 12)])
+def test_the_free_places_of_resolve_lie_on_a_floor_and_beside_no_half_space(
+    tmp_path: Path, angle: float, rounds: int
+) -> None:
+    """Without rounds of pushing by free places alone, which a tilted half space has none of."""
+    scene = written(tmp_path, [slope(angle), crate("a", 0, 0, -2), crate("b", 0.5, 0, -2)])
+    found = resolve(scene, iterations=rounds)
+    assert found.summary.verdict == "resolved"
+    assert len(found.moves) == 2
+    # The way along the normal, and the rest of a crate to get past the other one.
+    out = 2 * math.cos(angle) + (math.cos(angle) + math.sin(angle)) / 2
+    assert all(out - 1e-9 <= move.length <= out + math.sqrt(3) for move in found.moves)
+
+
+def test_there_is_no_way_out_of_a_half_space_but_over_its_plane(tmp_path: Path) -> None:
+    """A crate between a floor and a ceiling that are too close for it."""
+    rows = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]
+    ceiling = {
+        "id": "ceiling",
+        "shape": {"type": "half-space"},
+        "matrix": placed(rows, [0, 0, 0.5]),
+    }
+    found = resolve(written(tmp_path, [slope(0.0), ceiling, crate("a", 1, 2, -3)]))
+    assert found.summary.remaining == 1
+    assert len(found.left) == 1
+    higher = {**ceiling, "matrix": placed(rows, [0, 0, 1.5])}
+    (move,) = resolve(written(tmp_path, [slope(0.0), higher, crate("a", 1, 2, -3)])).moves
+    assert move.translation == pytest.approx((0, 0, 3.5), abs=1e-12)
 
 
 FAR = """<?xml version="1.0"?><sdf version="1.9"><world name="w">

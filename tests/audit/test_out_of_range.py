@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from satcheck.audit import Report, Settings, check
+from satcheck.cli.formats.words import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from satcheck.studies.axes.chosen_pair import chosen_pair
@@ -83,6 +84,26 @@ def test_the_size_of_a_shape(tmp_path: Path, size: float, kind: str, sizes: dict
         size *= 2 if size > 1 else 1  # a whole size: the shape reaches half as far
     shape = json.loads(json.dumps({"type": kind} | sizes).replace("null", repr(size)))
     require_refused(report_of(tmp_path, {"shape": shape}), "a")
+
+
+@pytest.mark.parametrize(
+    ("entry", "said"),
+    [
+        ({"shape": {"type": "sphere", "radius": 1e200}}, "the sphere has a size of 1e+200"),
+        ({"shape": {"type": "sphere", "radius": 1.00002e45}}, "has a size of 1.00002e+45, out"),
+        (
+            {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 0, 2.0001e44]},
+            "the body reaches 2.0001e+44, and world coordinates may be up to 2e+44",
+        ),
+    ],
+)
+def test_the_message_names_the_body_and_what_the_limit_is_told_from(
+    tmp_path: Path, entry: dict[str, Any], said: str
+) -> None:
+    report = report_of(tmp_path, entry)
+    (line,) = [issue_line(issue) for issue in report.issues if issue.severity == "error"]
+    assert line.startswith("error: a: ")
+    assert said in line
 
 
 @pytest.mark.parametrize("scale", [*LARGE, *SMALL])

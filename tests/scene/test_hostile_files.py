@@ -229,6 +229,13 @@ def test_data_uris_that_are_no_data(tmp_path):
         assert refusal(tmp_path, "a.gltf", content)[0] in ("bad-record", "truncated")
 
 
+def test_an_integer_of_thousands_of_digits(tmp_path):
+    content = f'{{"asset": {{"version": "2.0"}}, "scene": {"9" * 5000}}}'.encode()
+    code, message = refusal(tmp_path, "a.gltf", content)
+    assert code == "bad-record"
+    assert message.endswith("JSON: a number of more than 4300 digits")
+
+
 @pytest.mark.parametrize("count", ["2147483648", "9223372036854775808", "-1", "9" * 5000])
 def test_collada_counts_that_lie(tmp_path, count):
     content = files.collada().replace(b'count="24"', f'count="{count}"'.encode())

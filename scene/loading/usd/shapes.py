@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, UsdGeom
+from pxr import Gf
 
 from satcheck.core.rounding import ORTHOGONALITY
 from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
@@ -67,10 +67,14 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
 def axis_turn(prim: Any, time: Any) -> Any:
     """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
     MeshFileError for an axis that is none."""
+    return _TURNS[_axis(prim, time)]
+
+
+def _axis(prim: Any, time: Any) -> str:
     axis = str(prim.GetAttribute("axis").Get(time))
     if axis not in _TURNS:
         raise MeshFileError("bad-record", f"{type_of(prim)}: axis is {axis!r}, not X, Y or Z")
-    return _TURNS[axis]
+    return axis
 
 
 def _of_two_radii(prim: Any, size: Any) -> Primitive:
@@ -97,7 +101,7 @@ def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
                 raise MeshFileError("bad-record", f"Cube: {error}") from None
             vertices, triangles = mesh_of(box).to_bytes()
         case "Plane":
-            vertices, triangles = _quad(UsdGeom.Plane(prim), time)
+            vertices, triangles = _quad(prim, time)
         case _:
             return None
     return RawMesh(vertices, triangles, "float32", units=unit)
@@ -105,8 +109,8 @@ def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
 
 def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
     """The extents along the axes follow the schema of UsdGeomPlane."""
-    half = [_number(plane.GetPrim(), name, time) / 2 for name in ("width", "length")]
-    along = {"X": (2, 1), "Y": (0, 2), "Z": (0, 1)}[str(plane.GetAxisAttr().Get(time))]
+    half = [_number(plane, name, time) / 2 for name in ("width", "length")]
+    along = {"X": (2, 1), "Y": (0, 2), "Z": (0, 1)}[_axis(plane, time)]
     corners = np.zeros((4, 3), "<f8")
     for axis, extent, signs in zip(along, half, ((-1, 1, 1, -1), (-1, -1, 1, 1)), strict=True):
         corners[:, axis] = np.multiply(signs, extent)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import NoReturn
 
-from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
-from satcheck.core.transform import Transform, placed
+from satcheck.core.transform import Transform
+from satcheck.scene.robot import kinematics
 from satcheck.scene.robot.model import Geometry, MeshReference
 from satcheck.scene.robot.sdf.values import number, vector
 from satcheck.scene.robot.xml_tree import Element
@@ -34,16 +33,12 @@ def geometry_of(shape: Element) -> Geometry:
         shape.refuse(str(error))
 
 
-def facing(normal: Vector, shape: Element) -> Transform:
-    """The rotation that takes z to the normal of a plane; exact for normals along the axes."""
-    length = math.hypot(*normal)
-    if length == 0.0:
-        shape.refuse("a normal of length 0")
-    x, y, z = (c / length for c in normal)
-    across = math.hypot(x, y)
-    # About z to the side of the normal, after a turn from z to it.
-    c, s = (x / across, y / across) if across else (1.0, 0.0)
-    return placed((c * z, -s, x, s * z, c, y, -across, 0.0, z), (0.0, 0.0, 0.0))
+def facing(shape: Element) -> Transform:
+    """The rotation of a plane."""
+    try:
+        return kinematics.facing(vector(shape, "normal", (0.0, 0.0, 1.0)))
+    except ValueError as error:
+        shape.refuse(str(error))
 
 
 def _unknown(shape: Element) -> NoReturn:

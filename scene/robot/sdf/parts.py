@@ -8,10 +8,10 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Collision, RefusedShape
+from satcheck.scene.robot.model import DRAWN_PLANE, Collision, RefusedShape
 from satcheck.scene.robot.sdf.frames import Frames, Name, Scope
 from satcheck.scene.robot.sdf.geometry import PLANE, facing, geometry_of, shape_in
-from satcheck.scene.robot.sdf.values import bits, pose_of, vector
+from satcheck.scene.robot.sdf.values import bits, pose_of
 from satcheck.scene.robot.sdf.words import IN_COLLISION
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement
@@ -60,9 +60,8 @@ def parts_in(
             geometry = geometry_of(shape)
             if shape.tag == PLANE:
                 if tag == "visual":
-                    message = "a plane that is drawn ends at its size: give a mesh or a box"
-                    shape.refuse(message, "unsupported-feature")
-                origin = compose(origin, facing(vector(shape, "normal", (0.0, 0.0, 1.0)), shape))
+                    shape.refuse(DRAWN_PLANE, "unsupported-feature")
+                origin = compose(origin, facing(shape))
         except RefusedElement as error:
             refused = RefusedShape(error.code, error.reason)
             part = Collision(name, IDENTITY, refused, error.at, element.file)

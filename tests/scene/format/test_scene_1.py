@@ -414,6 +414,8 @@ def test_lengths_with_a_unit_need_declared_ones(tmp_path):
         ("schema = ", "toml", ":1: not well-formed TOML"),
         ("a = 1\nb = [\n", "toml", ": not well-formed TOML"),
         ("a = " + "[" * 100_000, "toml", ": not readable TOML"),
+        ("a = " + "9" * 5000, "toml", ": not readable TOML: a number of more than 4300 digits"),
+        (f'{{"a": {"9" * 5000}}}', "json", "not readable JSON: a number of more than 4300 digits"),
         ('{"schema": ', "json", ":1: not well-formed JSON"),
         ("[]", "json", ': not a scene file: "schema" is not "satcheck.scene/1"'),
         ('schema = "satcheck-scene-1"', "toml", "but 'satcheck-scene-1'"),

@@ -81,7 +81,7 @@ def test_several_collisions_are_numbered_or_named(tmp_path: Path) -> None:
 def test_a_body_that_cannot_be_read_leaves_the_others(tmp_path: Path) -> None:
     (tmp_path / "cut.obj").write_bytes(obj() + b"f 1 2 99\n")
     meshes = ("gone.stl", "cut.obj", "text.txt")
-    inside = [f'<mesh filename="{name}"/>' for name in meshes] + ["<plane/>"]
+    inside = [f'<mesh filename="{name}"/>' for name in meshes] + ["<torus/>"]
     elements = [
         link(name, f"<collision><geometry>{shape}</geometry></collision>")
         for name, shape in zip("abcd", inside, strict=True)
@@ -180,7 +180,7 @@ def collision(inside: str) -> str:
         ('<mesh filename="meshes/{}.stl"/>', "(meshes/0.stl): there is no folder"),
         ('<mesh filename="{}.stl"/>', "(0.stl): no such file in /"),
         ('<box size="{} -1 1"/>', "in line 2: <box>: size should be positive and finite"),
-        ("<plane/>", "in line 2: <plane>: no geometry that is read"),
+        ("<torus/>", "in line 2: <torus>: no geometry that is read"),
     ],
 )
 def test_one_cause_has_one_message(tmp_path: Path, shape: str, said: str) -> None:

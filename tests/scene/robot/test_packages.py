@@ -61,6 +61,18 @@ def test_without_a_package_xml_the_package_is_the_folder_around_that_of_the_urdf
         assert places(urdf).locate(uri) == mesh
 
 
+def test_file_paths_may_start_in_a_folder_above(tmp_path: Path) -> None:
+    folder = tmp_path / "models" / "box"
+    mesh = file(folder / "meshes" / "a.stl")
+    file(tmp_path / "package.xml")
+    assert places(folder).locate("file://models/box/meshes/a.stl") == mesh
+    assert refusal(places(folder), "models/box/meshes/a.stl")[0] == "missing-resource"
+    file(folder / "model.config")
+    other = file(tmp_path / "models" / "other.stl")
+    assert refusal(places(folder), "file://models/other.stl")[0] == "outside-path"
+    assert places(folder, allow_outside=True).locate("file://models/other.stl") == other
+
+
 def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
     mesh = file(tmp_path / "meshes" / "a.stl")
     urdf = tmp_path / "arm" / "urdf"

@@ -54,6 +54,7 @@ def test_one_pose_is_no_list_and_text_needs_no_file(tmp_path: Path) -> None:
         ('[{"a": 0}, {"b": 1e999}]', "pose 2: joint 'b': is not finite"),
         ('{"a": 1, "a": 2}', "named twice"),
         ("[" * 100_000, "recursion"),
+        (f'{{"a": {"9" * 5000}}}', "a number of more than 4300 digits"),
     ],
 )
 def test_what_is_no_pose(tmp_path: Path, text: str, said: str) -> None:

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
 from satcheck.scene.robot.model import Limits, MeshReference, Mimic, RefusedShape
 from satcheck.scene.robot.urdf import read_urdf
+from satcheck.scene.robot.urdf import robot_of as parsed
+from satcheck.scene.robot.xml_tree import read_tree
 from tests.scene.robot.robots import (
     BOX,
     SAMPLES,
@@ -64,12 +66,31 @@ def test_shapes(tmp_path: Path, shape: str, expected: object) -> None:
     assert read(tmp_path, robot_of(geometry(shape))).links["a"].collisions[0].geometry == expected
 
 
+def test_a_plane_is_a_half_space_along_its_normal(tmp_path: Path) -> None:
+    plane = (
+        '<collision><origin xyz="0 0 2" rpy="0 0 0"/><geometry><plane normal="0 -3 0"/></geometry>'
+        "</collision>"
+    )
+    robot = read(tmp_path, robot_of(link("floor", plane)))
+    (part,) = robot.links["floor"].collisions
+    assert part.geometry == HalfSpace()
+    assert (part.origin[2::4][:3], part.origin[3::4][:3]) == ((0, -1, 0), (0, 0, 2))
+    path = tmp_path / "drawn.urdf"
+    path.write_text(robot_of(link("floor", plane.replace("collision>", "visual>"))))
+    drawn, _ = parsed(read_tree("drawn.urdf", path, "robot"), "visual")
+    assert isinstance(drawn.links["floor"].collisions[0].geometry, RefusedShape)
+    for wrong in ('normal="0 0 0"', ""):
+        text = robot_of(link("floor", plane.replace('normal="0 -3 0"', wrong)))
+        (part,) = read(tmp_path, text).links["floor"].collisions
+        assert isinstance(part.geometry, RefusedShape)
+
+
 def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Path) -> None:
-    robot = read(tmp_path, robot_of(geometry("<plane/>")))
+    robot = read(tmp_path, robot_of(geometry("<torus/>")))
     shape = robot.links["a"].collisions[0].geometry
     assert isinstance(shape, RefusedShape)
     assert shape.code == "unsupported-feature"
-    assert shape.reason.startswith("<plane>: ")
+    assert shape.reason.startswith("<torus>: ")
     assert robot.links["a"].collisions[0].line == 2
 
 

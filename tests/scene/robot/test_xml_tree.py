@@ -39,6 +39,16 @@ def test_what_is_no_robot(tmp_path: Path, text: str, code: str) -> None:
     assert refusal(tmp_path, text)[0] == code
 
 
+def test_an_ampersand_that_begins_no_reference_stands_for_itself(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text('<robot name="nuts & bolts">\n<link name="a&amp;b&#33;"/>&\n<link/></robot>')
+    root = read_tree("r.urdf", path, "robot")
+    assert root.attributes["name"] == "nuts & bolts"
+    first, second = root.children
+    assert (first.attributes["name"], first.line, second.line) == ("a&b!", 2, 3)
+    assert "XML" in refusal(tmp_path, '<robot name="r&gone;"/>')[1]
+
+
 @pytest.mark.parametrize(("name", "code"), [("gone", "file-not-found"), ("", "not-a-file")])
 def test_what_is_no_file(tmp_path: Path, name: str, code: str) -> None:
     with pytest.raises(SceneFileError) as caught:

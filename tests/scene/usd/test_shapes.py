@@ -84,6 +84,7 @@ def test_a_float32_rotation_keeps_a_sphere_a_sphere(tmp_path: Path) -> None:
     [
         ("Cone", "double radius = 0", "should be positive"),
         ("Cylinder_1", "double radiusTop = 1\ndouble radiusBottom = 2", "two radii"),
+        ("Plane", 'double width = 2\nuniform token axis = "Q"', "axis is 'Q', not X, Y or Z"),
     ],
 )
 def test_what_is_no_exact_shape_is_not_read(

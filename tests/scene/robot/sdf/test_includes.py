@@ -67,6 +67,19 @@ def test_where_models_are_looked_for(tmp_path: Path, monkeypatch: pytest.MonkeyP
         assert unreadable(here, world(include(uri))) == []
 
 
+def test_a_bare_name_is_that_of_a_model_beside_or_above(tmp_path: Path) -> None:
+    write_model(tmp_path / "models", "crate", CRATE)
+    (tmp_path / "worlds").mkdir()
+    assert unreadable(tmp_path / "worlds", world(include("crate"))) == []
+    deeper = tmp_path / "models" / "stack"
+    write_model(tmp_path / "models", "stack", sdf(model("stack", include("crate"))))
+    ((_, code, message),) = unreadable(deeper, world(include("crate")))
+    assert code == "outside-path"
+    assert "--package crate=" in message
+    found = load_scene([deeper / "model.sdf"], allow_outside=True)
+    assert found.order == ("stack::crate::l", "stack::crate::tip")
+
+
 def test_a_manifest_names_the_newest_version(tmp_path: Path) -> None:
     write_model(tmp_path, "crate", CRATE)
     names = '<sdf version="1.10">new.sdf</sdf><sdf version="1.9">model.sdf</sdf>'
