@@ -116,6 +116,7 @@ def _check(
         bodies,
         counts,
         (*size_issues, *motion_issues, *support_issues, *region_issues, *pair_issues),
+        settings.accept,
     )
     return Report(
         tool=tool(),
@@ -125,6 +126,7 @@ def _check(
             counts,
             findings,
             settings.fail_on,
+            issues=issues,
             alone=len(bodies.placed) == len(bodies.ids) == 1 or bool(regions),
             answers=(
                 *(() if statics is None else statics.findings),

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import FailOn, Settings
@@ -57,8 +59,12 @@ class SampleResults:
                 tally.first_pose = poses[number]
 
     def samples(self, checks: SingleChecks, number: int) -> Samples:
+        """Nothing passes while an issue of all samples blocks it."""
         report = checks.first
         assert report is not None
+        if any(issue.state == "blocking" for issue in self.issues):
+            self.by_verdict["incomplete"] += self.by_verdict.pop("pass", 0)
+            self.listed = [_incomplete_at_most(sample) for sample in self.listed]
         assert checks.cache.book is not None
         ids = [body.id for body in report.bodies]
         return Samples(
@@ -75,6 +81,10 @@ class SampleResults:
             counts=report.summary.pairs,
             issues=tuple(self.issues),
         )
+
+
+def _incomplete_at_most(sample: Sample) -> Sample:
+    return replace(sample, verdict="incomplete") if sample.verdict == "pass" else sample
 
 
 class SingleChecks:

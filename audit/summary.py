@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, convert, to_builtins
 
 from satcheck._version import __version__
+from satcheck.audit.acceptance import with_states
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.severity import is_failure, is_unmet
@@ -86,6 +87,7 @@ def summarise(
     findings: Sequence[Finding],
     fail_on: FailOn,
     *,
+    issues: Sequence[Issue] = (),
     alone: bool = False,
     answers: Sequence[BodyAnswer] = (),
 ) -> Summary:
@@ -97,7 +99,7 @@ def summarise(
     by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)
     return Summary(
-        verdict=_worse(_verdict(counts, findings, fail_on, alone=alone), answers, fail_on),
+        verdict=_worse(_verdict(counts, findings, fail_on, issues, alone=alone), answers, fail_on),
         pairs=counts,
         by_relation={relation: by_relation[relation] for relation in RELATIONS},
         surfaces_only=undecided["inside"],
@@ -114,19 +116,26 @@ def verdict_of(report: Report) -> Verdict:
         return "pass"
     fail_on = report.settings.fail_on
     alone = bool(report.regions)
-    verdict = _verdict(summary.pairs, report.findings, fail_on, alone=alone)
+    verdict = _verdict(summary.pairs, report.findings, fail_on, report.issues, alone=alone)
     return _worse(verdict, report.answers, fail_on)
 
 
 def _verdict(
-    counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn, *, alone: bool
+    counts: PairCounts,
+    findings: Sequence[Finding],
+    fail_on: FailOn,
+    issues: Sequence[Issue],
+    *,
+    alone: bool,
 ) -> Verdict:
     """A failure stays a failure even if other pairs are undecided. A check without pairs never
     passes. A finding that a baseline contains, unchanged, does not fail."""
     if any(is_failure(finding, fail_on) for finding in findings):
         return "fail"
-    unchecked = unlisted_indeterminate(counts, findings) or any(
-        finding.undecided is not None for finding in findings
+    unchecked = (
+        unlisted_indeterminate(counts, findings)
+        or any(finding.undecided is not None for finding in findings)
+        or any(issue.state == "blocking" for issue in issues)
     )
     return "incomplete" if unchecked or not (counts.asked or alone) else "pass"
 
@@ -241,16 +250,22 @@ def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated |
 
 
 def issues_of(
-    scene: Scene, bodies: PlacedBodies, counts: PairCounts, of_pairs: Iterable[Issue]
+    scene: Scene,
+    bodies: PlacedBodies,
+    counts: PairCounts,
+    of_pairs: Iterable[Issue],
+    accept: Sequence[str],
 ) -> tuple[Issue, ...]:
-    """The issues of the input, then those of the run; each once."""
+    """The issues of the input, then those of the run; each once. accept: those that block nothing,
+    beside those that the scene accepts."""
     issues = [
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
     asked = counts.asked or scene.asks_for_regions
     empty = [] if asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
-    return tuple(dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs)))
+    once = dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs))
+    return tuple(with_states(once, (*scene.accept, *accept)))
 
 
 def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:

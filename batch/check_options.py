@@ -14,7 +14,7 @@ from satcheck.scene.units import Length
 
 # The files of a world, in the order in which they are read; the first one names it.
 World = tuple[str, ...]
-SettingValue = bool | int | float | str | Length | None
+SettingValue = bool | int | float | str | tuple[str, ...] | Length | None
 
 
 class CheckOptions(LoadOptions, frozen=True, kw_only=True):

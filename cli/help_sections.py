@@ -19,7 +19,7 @@ SECTIONS = {
     "joint_path sample seed root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",
     "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
-    "angular_tolerance rules between baseline fail_on exit_zero pins",
+    "angular_tolerance rules between baseline fail_on accept exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "

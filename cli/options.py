@@ -160,6 +160,13 @@ open_option = click.option(
     default=DEFAULTS.allow_open,
     help="Open meshes are meant to be open: sheets without an inside, not solids with holes.",
 )
+accept_option = click.option(
+    "--accept",
+    multiple=True,
+    metavar="CODE[:NAME]",
+    help="Issues that may stay: what blocks a pass, by its code and the name of its file or body "
+    "(`*` for any part). Repeatable.",
+)
 jobs_option = click.option(
     "-j",
     "--jobs",

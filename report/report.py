@@ -255,7 +255,8 @@ class EffectReport(Value, frozen=True):
 
 
 class Issue(Value, frozen=True):
-    """A message about the input or the run, with a stable code. line: of the file, from 1."""
+    """A message about the input or the run, with a stable code. line: of the file, from 1. state:
+    whether it blocks a pass, or would if nobody had accepted it; None: it blocks nothing."""
 
     code: Code
     severity: Literal["error", "warning", "note"]
@@ -263,6 +264,7 @@ class Issue(Value, frozen=True):
     file: str | None
     message: str
     line: Annotated[int, Meta(ge=1)] | None = None
+    state: Literal["blocking", "accepted"] | None = None
 
 
 class Exempt(Value, frozen=True):

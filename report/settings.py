@@ -33,6 +33,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     accuracy: Accuracy
     method: Method
     fail_on: Literal["error", "warning", "note"]
+    accept: tuple[str, ...]
     allow_open: bool
     cross_check: bool
     planar: Plane | None

@@ -148,7 +148,7 @@ class Scene(Struct, frozen=True):
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
     reading: the options with which the files were read. body_rules: questions about the support of
     single bodies. statics: gravity and friction, as stated; None: not stated. joint_path: along
-    which the robots move; they stand in its first pose.
+    which the robots move; they stand in its first pose. accept: issues that block no pass.
     """
 
     name: str
@@ -169,6 +169,7 @@ class Scene(Struct, frozen=True):
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     joint_path: JointPath | None = None
+    accept: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.motions:

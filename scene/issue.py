@@ -1,6 +1,7 @@
 """Issues of the inputs, each with a code, a place and a sentence, and the catalogue of codes.
 
 `error`: the file or the scene cannot be used. `warning`: it is used, but the user should know.
+Warnings that block a pass are about what may make, move or hide a body.
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ Severity = Literal["error", "warning", "note"]
 
 
 class Code(Struct, frozen=True):
-    """One kind of problem with an input."""
+    """One kind of problem with an input. blocks: bodies may be missing, or stand elsewhere, so that
+    a check does not pass until the issue is accepted."""
 
     name: str
     severity: Severity
     meaning: str
+    blocks: bool = False
 
 
 _ALL = (
@@ -44,6 +47,7 @@ _ALL = (
     Code("bad-encoding", "error", "Text is not in an encoding the format allows."),
     Code("unsupported-feature", "error", "The geometry needs a feature that is not read."),
     Code("index-out-of-range", "error", "A face or a reference names a missing item."),
+    Code("misspelt", "error", "A name resembles one that is read, and is none."),
     Code("reference-cycle", "error", "Nodes or components refer to each other in a cycle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
     Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
@@ -58,6 +62,7 @@ _ALL = (
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
     Code("unknown-statement", "warning", "A line without geometry is unknown to the format."),
+    Code("unread", "warning", "What may hold, move or hide a body is not read.", blocks=True),
     Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
     Code("no-surface", "warning", "A mesh has only lines or points: its pairs are not checked."),
     Code("not-a-body", "note", "Hidden geometry, or geometry of another purpose, has no body."),
@@ -87,8 +92,8 @@ _ALL = (
     Code("bad-robot", "error", "The file of a robot is not what its format prescribes."),
     Code("xacro", "error", "The file has macros (xacro, ERB) and has to be expanded first."),
     Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
-    Code("unknown-element", "warning", "An element unknown to the format was ignored."),
-    Code("unknown-attribute", "warning", "An attribute unknown to the format was ignored."),
+    Code("unknown-element", "warning", "An element is unknown to the format.", blocks=True),
+    Code("unknown-attribute", "warning", "An attribute is unknown to the format.", blocks=True),
     Code("no-shape", "warning", "An element of size 0, or without geometry, has no body."),
     Code("no-limits", "warning", "A joint has no usable limits and is treated as unlimited."),
     Code("no-leader", "warning", "A joint mimics a missing joint and moves independently."),
@@ -115,7 +120,7 @@ _ALL = (
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
     Code("bad-rule", "error", "A rule of a scene is malformed or has no effect."),
     Code("bad-motion", "error", "A motion of a scene is malformed, or moves a body twice."),
-    Code("unknown-key", "warning", "An unknown key at the top of the scene file was ignored."),
+    Code("unknown-key", "warning", "A key at the top of the scene is unknown.", blocks=True),
     Code("units-converted", "note", "Files in other units were converted to units of the check."),
     Code("units-unknown", "warning", "Only some bodies have a stated unit of length."),
     Code("unknown-units", "warning", "The declared units are not a known unit of length."),
@@ -124,6 +129,7 @@ _ALL = (
 )
 
 CODES: dict[str, Code] = {code.name: code for code in _ALL}
+BLOCKING = tuple(code.name for code in _ALL if code.blocks)
 
 
 class Issue(Struct, frozen=True):

@@ -54,6 +54,7 @@ def check_summary(
     open_ = left_open or undecided.total() > undecided[None] or nothing
     failed = failed or any(_is_no(answer, least) for answer in answers)
     open_ = open_ or any(answer.answer == "open" for answer in answers)
+    open_ = open_ or any(issue.state == "blocking" for issue in report.issues)
     verdict = "fail" if failed else "incomplete" if open_ else "pass"
     if report.summary.verdict != verdict:
         raise Rejected(f"the verdict that follows from the findings is {verdict!r}")

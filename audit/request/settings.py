@@ -58,7 +58,8 @@ class Settings(Struct, frozen=True):
     accuracy: the highest rung of the ladder that is allowed.
     method: for convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster one. It
     changes no relation, and of a depth only the last digits.
-    fail_on: the least severity that makes a check fail.
+    fail_on: the least severity that makes a check fail. accept: issues that need not be solved
+    before a check passes, each as `CODE` or `CODE:NAME` (`audit/acceptance.py`).
     allow_open: open meshes are intended. An open surface is then a sheet without an inside.
     cross_check: also asks other libraries; cross_check_*: limits for one question.
     planar: check the outlines of the bodies in this plane; None: check in space. certificate: every
@@ -88,6 +89,7 @@ class Settings(Struct, frozen=True):
     accuracy: Accuracy = "exact"
     method: Method = "auto"
     fail_on: FailOn = "error"
+    accept: tuple[str, ...] = ()
     allow_open: bool = False
     cross_check: bool = False
     cross_check_seconds: float = 30.0
@@ -181,6 +183,7 @@ class Settings(Struct, frozen=True):
             accuracy=self.accuracy,
             method=self.method,
             fail_on=self.fail_on,
+            accept=self.accept,
             allow_open=self.allow_open,
             cross_check=self.cross_check,
             planar=self.planar,

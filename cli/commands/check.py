@@ -26,6 +26,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.lengths import length, settings_of
 from satcheck.cli.options import (
     DEFAULTS,
+    accept_option,
     cache_option,
     color_option,
     config_option,
@@ -227,6 +228,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @rules_option
 @between_option
 @merge_option
+@accept_option
 @open_option
 @click.option(
     "--cross-check",

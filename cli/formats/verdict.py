@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from satcheck.audit.acceptance import words_to_accept
 from satcheck.audit.severity import is_failure
 from satcheck.audit.summary import unlisted_indeterminate
 from satcheck.cli.formats.limits import limits
@@ -86,6 +87,8 @@ def _passed(report: Report) -> str:
     if report.regions:
         lying = sum(answer.answer == "yes" for answer in report.regions.findings)
         said += f", {counted(lying, 'body', 'bodies')} inside the region"
+    if accepted := sum(issue.state == "accepted" for issue in report.issues):
+        said += f", {counted(accepted, 'issue')} accepted"
     return said + (f", {counted(warnings, 'warning')}" if warnings else "")
 
 
@@ -199,6 +202,9 @@ def _left_open(report: Report) -> list[str]:
             said.append(_of_pairs(count, may, may))
     if moving := summary.sweeps_undecided:
         said.append(_of_pairs(moving, "may hit while moving", "may hit while moving"))
+    if blocking := [issue for issue in report.issues if issue.state == "blocking"]:
+        blocks = "blocks" if len(blocking) == 1 else "block"
+        said.append(f"{counted(len(blocking), 'issue')} {blocks} a pass")
     if disputed := summary.disputed:
         said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
     if report.answers:
@@ -241,6 +247,9 @@ def _after_failure(report: Report, written: bool) -> str:
 
 def _open(report: Report) -> str:
     """What may decide the questions that are open, but for those of bodies that cannot be used."""
+    blocking = dict.fromkeys(words_to_accept(i) for i in report.issues if i.state == "blocking")
+    if blocking:
+        return f"{' '.join(blocking)}, if that is as meant"
     unusable = {body.id for body in report.bodies if is_unusable(body)}
     asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
     if not asked:

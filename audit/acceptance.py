@@ -1,0 +1,72 @@
+"""Issues that block a pass, and those of them that the user accepts by name.
+
+What a file holds and nobody reads may be a body, or move one. Such an issue leaves the check
+incomplete, until somebody says that it is meant to be so: by its code, and the file or body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+from pathlib import PurePath
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.core.errors import SatcheckError
+from satcheck.report.report import Issue
+from satcheck.scene.issue import BLOCKING
+
+# The code of an issue about an acceptance that accepts nothing.
+UNUSED_ACCEPTANCE = "unused-acceptance"
+
+
+class Acceptance(Struct, frozen=True):
+    """code: of issues; name: a pattern of the file, with or without its folders, or of the body."""
+
+    code: str
+    name: str = "*"
+
+    def accepts(self, issue: Issue) -> bool:
+        names = [issue.body or "", issue.file or "", PurePath(issue.file or "").name]
+        return issue.code == self.code and any(fnmatchcase(name, self.name) for name in names)
+
+
+def acceptance(text: str) -> Acceptance:
+    """Return what `CODE` or `CODE:NAME` accepts. Raises SatcheckError for a code that blocks
+    nothing."""
+    code, _, name = text.partition(":")
+    if code not in BLOCKING:
+        near = get_close_matches(code, BLOCKING, 1)
+        hint = f'did you mean "{near[0]}"?' if near else f"these do: {', '.join(BLOCKING)}"
+        raise SatcheckError(
+            "bad-acceptance", f'no issue of the code "{code}" blocks a pass; {hint}'
+        )
+    return Acceptance(code, name or "*")
+
+
+def with_states(issues: Iterable[Issue], accepted: Sequence[str]) -> list[Issue]:
+    """State of each issue whether it blocks a pass or is accepted, and name each acceptance that
+    accepts nothing."""
+    known = {text: acceptance(text) for text in accepted}
+    used: set[str] = set()
+    judged = []
+    for issue in issues:
+        if issue.code in BLOCKING:
+            by = {text for text, each in known.items() if each.accepts(issue)}
+            used |= by
+            judged.append(replace(issue, state="accepted" if by else "blocking"))
+        else:
+            judged.append(issue)
+    for text in known:
+        if text not in used:
+            message = f'nothing is accepted by "{text}": no such issue'
+            judged.append(Issue(UNUSED_ACCEPTANCE, "warning", None, None, message))
+    return judged
+
+
+def words_to_accept(issue: Issue) -> str:
+    """Return the option that accepts the issue."""
+    name = issue.body or PurePath(issue.file or "").name
+    return f"--accept {issue.code}:{name}" if name else f"--accept {issue.code}"
