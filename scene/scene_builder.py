@@ -337,6 +337,7 @@ class SceneBuilder:
             body_rules=self._body_rules(common.scales),
             statics=scenes.statics(common.scales) if scenes else None,
             check_static=scenes is None or scenes.check_static,
+            accept=tuple(scenes.accepted if scenes else ()),
             motions=scenes.motions(common.scales) if scenes else (),
             entries=self._entries,
             reading=self._reading,

@@ -17,7 +17,16 @@ from satcheck.scene.rules import Severity
 from satcheck.scene.units import LENGTH_PATTERN
 
 SCENE_1 = "satcheck.scene/1"
-RULES_FILE_KEYS = ("schema", "$schema", "name", "description", "units", "rules", "statics")
+RULES_FILE_KEYS = (
+    "schema",
+    "$schema",
+    "name",
+    "description",
+    "units",
+    "rules",
+    "statics",
+    "accept",
+)
 
 
 def _kind(wanted: str, **more: Any) -> Meta:
@@ -261,6 +270,7 @@ class Scene(Table, frozen=True):
     check_static: Whether pairs of two static bodies are checked.
     ignore_within_groups: Two bodies of one of these groups are not checked against each other.
     rules: The last rule about a pair, or about a body, that sets a key decides that key.
+    accept: Issues that may stay, each as CODE or CODE:NAME, as with --accept.
     """
 
     schema: Literal["satcheck.scene/1"]
@@ -273,5 +283,6 @@ class Scene(Table, frozen=True):
     statics: Statics | UnsetType = UNSET
     check_static: bool = False
     ignore_within_groups: Texts = ()
+    accept: Texts = ()
     motion: tuple[Motion, ...] = ()
     reading: Reading | UnsetType = UNSET

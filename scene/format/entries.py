@@ -57,7 +57,8 @@ class BodyEntry(Struct, frozen=True):
 
 class SceneFile(Struct, frozen=True):
     """ids: as written. Rules and motions refer to bodies of this file only. reading: the options
-    with which its mesh files are read, by their names in `ReadOptions`."""
+    with which its mesh files are read, by their names in `ReadOptions`. accept: issues that may
+    stay."""
 
     path: str
     name: str
@@ -71,6 +72,7 @@ class SceneFile(Struct, frozen=True):
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     reading: Mapping[str, Any] = {}
+    accept: tuple[str, ...] = ()
 
 
 class MeshPlaces:

@@ -29,13 +29,14 @@ class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
     group_names: makes names of groups unique in the check. check_static: whether any file requires
-    it. ignored: groups whose pairs are not checked.
+    it. ignored: groups whose pairs are not checked. accepted: issues that may stay.
     """
 
     def __init__(self, group_names: UniqueNames) -> None:
         self._group_names = group_names
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
+        self.accepted: list[str] = []
         self.check_static = False
         self._motions: list[tuple[str, Motion]] = []  # with the path of their file
 
@@ -51,6 +52,7 @@ class JoinedScenes:
         self._scenes.append((scene, ids))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
         self.check_static |= scene.check_static
+        self.accepted += scene.accept
         self._motions += [
             (scene.path, replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies)))
             for motion in scene.motions

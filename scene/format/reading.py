@@ -89,7 +89,7 @@ def _read_rules(parsed: Parsed) -> SceneFile:
         problems.add(Wrong("a file of rules has no bodies", "bodies"))
     if "rules" not in values:
         problems.add(Wrong('"rules" is missing'))
-    stated = {key: values[key] for key in ("units", "rules", "statics") if key in values}
+    stated = {key: values[key] for key in ("units", "rules", "statics", "accept") if key in values}
     return _read(parsed, stated | {"schema": SCENE_1, "bodies": []}, problems, False)
 
 
@@ -151,6 +151,7 @@ def _read(
         statics=terms,
         motions=tuple(motions),
         reading=reading.stated(),
+        accept=top.accept,
         issues=(*unknown_units(units, path), *unknown_groups(ignored, bodies, path)),
     )
 

@@ -1,0 +1,66 @@
+"""What nobody reads blocks a pass, until it is accepted by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import satcheck
+
+ROBOT = """<robot name="r">
+<link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision><fence/></link>
+<link name="b"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="3 0 0"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Path:
+    (tmp_path / "r.urdf").write_text(ROBOT, encoding="utf-8")
+    return tmp_path
+
+
+def code_of(folder: Path) -> str:
+    (issue,) = (
+        issue
+        for issue in satcheck("r.urdf", "--format", "json", cwd=folder).document["issues"]
+        if issue["state"] == "blocking"
+    )
+    return str(issue["code"])
+
+
+def test_what_is_not_read_blocks_a_pass_and_the_words_to_accept_it_are_told(robot: Path) -> None:
+    ran = satcheck("r.urdf", cwd=robot)
+    assert ran.code == 3
+    assert f"Next: --accept {code_of(robot)}:r.urdf" in ran.out
+
+
+@pytest.mark.parametrize("name", ["", ":r.urdf", ":*.urdf"])
+def test_it_is_accepted_by_its_code_and_name(robot: Path, name: str) -> None:
+    ran = satcheck("r.urdf", "--accept", code_of(robot) + name, cwd=robot)
+    assert ran.code == 0
+    assert "1 issue accepted" in ran.out
+
+
+def test_another_name_accepts_nothing_and_is_named(robot: Path) -> None:
+    text = f"{code_of(robot)}:other.urdf"
+    ran = satcheck("r.urdf", "--accept", text, cwd=robot)
+    assert ran.code == 3
+    assert f'nothing is accepted by "{text}"' in ran.out
+
+
+def test_rules_and_the_config_accept_too(robot: Path) -> None:
+    code = code_of(robot)
+    rules = f'accept = ["{code}"]\n[[rules]]\na = "a"\nb = "b"\nclearance = 0.1\n'
+    (robot / "rules.toml").write_text(rules, encoding="utf-8")
+    assert satcheck("r.urdf", "--rules", "rules.toml", cwd=robot).code == 0
+    (robot / "satcheck.toml").write_text(f'accept = ["{code}"]\n', encoding="utf-8")
+    assert satcheck("r.urdf", cwd=robot).code == 0
+    assert satcheck("each", "r.urdf", cwd=robot).code == 0
+
+
+def test_a_code_that_blocks_nothing_is_refused(robot: Path) -> None:
+    ran = satcheck("r.urdf", "--accept", "unraed", cwd=robot)
+    assert ran.code == 2
+    assert 'did you mean "unread"' in ran.err
