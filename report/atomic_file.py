@@ -23,11 +23,16 @@ _NO_SYNC = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
 def replace_file(path: Path, pieces: Iterable[bytes]) -> None:
     """Raises OSError; what was at the path is then still there.
 
-    A symbolic link stays, and the file that it leads to is replaced. That keeps its permissions,
-    and its owner where the system allows that. What is no regular file is written to as it is, and
-    so is a file in a folder that takes no new one.
+    A symbolic link stays, and the file that it leads to is replaced; one that leads out of the
+    folder is refused. The file keeps its permissions, and its owner where the system allows that.
+    What is no regular file is written to as it is, and so is a file in a folder that takes no new
+    one.
     """
     target = last_link(path)
+    folder = path.absolute().parent.resolve()
+    is_link = target != path.absolute() and not str(target).startswith(_OPEN_ALREADY)
+    if is_link and not target.resolve().is_relative_to(folder):
+        raise PermissionError(errno.EACCES, f"the link leads out of its folder, to {target}")
     known = _known(target)
     if known is not None and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))

@@ -11,6 +11,7 @@ import click
 from click.core import ParameterSource
 
 from satcheck.cli.config.search import nearest_config
+from satcheck.cli.output import talk
 
 if TYPE_CHECKING:
     from satcheck.cli.config.file import ConfigFile
@@ -19,6 +20,17 @@ if TYPE_CHECKING:
 # The commands that take options from a config file.
 COMMANDS = ("check", "each", "batch")
 _META = "satcheck.config"
+# What a file that was merely found must not do: whoever wrote it may not be the one who calls.
+_BY_HAND = frozenset(("output", "png", "glb", "exit-zero", "allow-outside"))
+_LIMITS = frozenset(
+    ("seconds-per-file", "megabytes-per-file", "scene-seconds", "scene-megabytes", "depth-budget")
+)
+# Options that decide what passes.
+_DECIDING = (
+    *("tolerance", "surface-tolerance", "chord-tolerance", "angular-tolerance", "clearance"),
+    *("accuracy", "fail-on", "allow-open", "accept", "rules", "between", "baseline", "never"),
+    *("units", "geometry", "planar", "pose", "state"),
+)
 
 
 def take_config(ctx: click.Context, given: str | None) -> None:
@@ -35,6 +47,8 @@ def take_config(ctx: click.Context, given: str | None) -> None:
     _refuse_strangers(file, set(options))
     defaults = {}
     for key in file.values.keys() & options.keys():
+        if given is None:
+            _refuse_found(file, key, options[key])
         try:
             value = value_of(options[key], file.values[key], file.folder)
         except ValueError as error:
@@ -43,6 +57,20 @@ def take_config(ctx: click.Context, given: str | None) -> None:
             defaults[options[key].name] = value
     ctx.default_map = defaults
     ctx.meta[_META] = file
+    deciding = [key for key in _DECIDING if key in options and options[key].name in defaults]
+    if deciding and given is None:
+        talk(f"satcheck: {file.path} sets {', '.join(deciding)}")
+
+
+def _refuse_found(file: ConfigFile, key: str, option: click.Option) -> None:
+    """Raise `bad-config` for what a file has to be named for."""
+    raw = file.values[key]
+    if key in _BY_HAND and raw is not False:
+        raise file.refused(key, f"give --{key} yourself, or name the file: --config {file.path}")
+    is_number = isinstance(raw, int | float) and not isinstance(raw, bool)
+    if key in _LIMITS and is_number and raw > option.default:
+        message = f"above the default {option.default}: name the file, --config {file.path}"
+        raise file.refused(key, message)
 
 
 def config_of(ctx: click.Context) -> ConfigFile | None:

@@ -187,3 +187,15 @@ def test_a_device_that_is_full() -> None:
     ran = satcheck("--format", "json", "-o", "/dev/full", *PUSHED)
     assert ran.code == 2
     assert "/dev/full: cannot write: No space left on device" in ran.err
+
+
+@on_posix
+def test_a_link_out_of_its_folder_is_not_followed(tmp_path: Path) -> None:
+    outside = tmp_path / "outside.json"
+    outside.write_bytes(OLD)
+    inside = tmp_path / "work"
+    inside.mkdir()
+    (inside / "report.json").symlink_to(outside)
+    with pytest.raises(PermissionError, match="out of its folder"):
+        replace_file(inside / "report.json", [b"{}"])
+    assert outside.read_bytes() == OLD

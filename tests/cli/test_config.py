@@ -74,7 +74,8 @@ def test_paths_are_relative_to_the_config_file(folder: Path, command: tuple[str,
     rule = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "glued"\n'
     config(folder, rule, "allowed.toml")
     config(folder, 'rules = ["allowed.toml"]\noutput = "report.json"\n')
-    ran = satcheck(*command, *(f"../{name}" for name in PUSHED), cwd=folder / "sub")
+    named = ("--config", "../satcheck.toml")
+    ran = satcheck(*command, *named, *(f"../{name}" for name in PUSHED), cwd=folder / "sub")
     assert ran.code in (0, 3), ran.err
     document = json.loads((folder / "report.json").read_text())
     report = document["assets"][0]["report"] if command else document
@@ -200,8 +201,8 @@ def test_the_schema_knows_every_option() -> None:
 
 
 def test_ci_formats_name_the_config_file(folder: Path) -> None:
-    config(folder, "exit-zero = true\n")
-    line = "Options of satcheck.toml: exit-zero = true"
+    config(folder, "no-cache = true\n")
+    line = "Options of satcheck.toml: no-cache = true"
     sarif = json.loads(satcheck(*PUSHED, "--format", "sarif", cwd=folder).out)
     (note,) = sarif["runs"][0]["invocations"][0]["toolConfigurationNotifications"]
     assert note["message"]["text"] == line
@@ -258,3 +259,36 @@ def test_a_length_with_a_unit_matters_only_where_there_is_a_pair(folder: Path) -
     assert "--clearance 3mm: no units are declared" in given.err
     config(folder, 'clearance = "2mm"\nunits = "mm"\n')
     assert satcheck(*PUSHED, cwd=folder).code == 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'output = "report.json"',
+        "exit-zero = true",
+        "allow-outside = true",
+        "seconds-per-file = 3600",
+        "megabytes-per-file = 65536",
+    ],
+)
+def test_a_file_that_was_merely_found_does_not_do_so(folder: Path, text: str) -> None:
+    """Who wrote it may not be the one who calls; who names it knows what it does."""
+    config(folder, f"{text}\n")
+    ran = satcheck(*PUSHED, cwd=folder)
+    assert (ran.code, ran.out) == (2, "")
+    assert "satcheck.toml:1: " in ran.err
+    assert "--config satcheck.toml" in ran.err
+    assert satcheck(*PUSHED, "--config", "satcheck.toml", cwd=folder).code < 2
+
+
+def test_smaller_limits_of_a_file_that_was_found_count(folder: Path) -> None:
+    config(folder, "seconds-per-file = 30\nexit-zero = false\n")
+    assert satcheck(*PUSHED, cwd=folder).code == 1
+
+
+def test_what_a_found_file_decides_with_is_told_on_stderr(folder: Path) -> None:
+    config(folder, "tolerance = 5\njobs = 1\n")
+    ran = satcheck("-q", *PUSHED, cwd=folder)
+    assert (ran.code, ran.err) == (0, "satcheck: satcheck.toml sets tolerance\n")
+    ran = satcheck("-q", "--config", "satcheck.toml", *PUSHED, cwd=folder)
+    assert (ran.code, ran.err) == (0, "")
