@@ -65,7 +65,7 @@ def check(
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. cache: data from earlier checks of the same bodies at other
     placements, with the same settings; this check adds to it. least: the least number of bodies,
-    unless rules ask about single ones; a single usable body passes.
+    unless rules ask about single ones; a single usable body, or none, passes.
 
     Findings come in the order of the bodies. There is one for every pair that was neither pruned
     nor allowed, and, in a scene of few pairs, for pruned pairs too (Settings.list_pruned). Of the
@@ -127,7 +127,7 @@ def _check(
             findings,
             settings.fail_on,
             issues=issues,
-            alone=len(bodies.placed) == len(bodies.ids) == 1 or bool(regions),
+            alone=len(bodies.placed) == len(bodies.ids) <= 1 or bool(regions),
             answers=(
                 *(() if statics is None else statics.findings),
                 *(regions.findings if regions else ()),

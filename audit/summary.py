@@ -18,6 +18,7 @@ from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
+    NOTHING_TO_COMPARE,
     RELATIONS,
     BodyAnswer,
     BodyReport,
@@ -262,14 +263,18 @@ def issues_of(
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    asked = counts.asked or scene.asks_for_regions
-    empty = [] if asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
+    asks = counts.asked or scene.asks_for_regions or scene.asks_for_support
+    lone = len(bodies.ids) == 1
+    empty = [] if asks or lone else [_nothing_to_check(scene, bodies, counts)]
     once = dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs))
     return tuple(with_states(once, (*scene.accept, *accept)))
 
 
-def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:
-    """Why no pair was checked."""
+def _nothing_to_check(scene: Scene, bodies: PlacedBodies, counts: PairCounts) -> Issue:
+    """Return why no pair was checked."""
+    if not bodies.ids:
+        message = "nothing to compare: no body can collide"
+        return Issue(NOTHING_TO_COMPARE, "note", None, None, message)
     in_link = sum(robot.pairs_within_links for robot in scene.robots)
     static_bodies = 0 if scene.check_static else sum(body.static for body in scene.in_order())
     static, in_group = exempt_by(counts, static_bodies)

@@ -48,10 +48,15 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
     return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
 
 
+# Why a file that is as it should be has no body that can collide.
+_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out")
+
+
 def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:
     _refuse_folder(world[0])
     scene = options.load(world, hashed=hashed, known=known)
-    if not scene.bodies and not scene.unreadable:
+    is_explained = any(issue.code in _WITHOUT_BODIES for issue in scene.issues)
+    if not scene.bodies and not scene.unreadable and not is_explained:
         reason = "there is no body: give a file of rules as --rules FILE"
         raise SatcheckError("too-few-bodies", reason, file=world[0])
     return scene

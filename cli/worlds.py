@@ -31,7 +31,7 @@ from satcheck.cli.rendering import Delivery
 from satcheck.report.assets import Asset, AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import read_line, render_assets
-from satcheck.report.report import Issue
+from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.loader import read_rules
 
@@ -51,10 +51,12 @@ def check_worlds(
     limits: Limits = _LIMITS,
     *,
     complete: bool = True,
+    compares: bool = False,
 ) -> int:
     """The exit code, that of the worst world. inputs: how files are read. options: those of
     `audit.Settings`. config: the options that come from a config file. limits: for each world.
-    complete: these are all worlds; a rule that none of them needs is unused. After Ctrl-C the
+    complete: these are all worlds; a rule that none of them needs is unused. compares: without a
+    pair nothing passes. After Ctrl-C the
     report has the worlds that are done, and says how many are not. Raises KeyboardInterrupt if none
     is.
     """
@@ -66,8 +68,9 @@ def check_worlds(
     shared = frozenset(map(str, inputs.rules))
     unused = unused_rules(assets, shared) if complete and not interrupted else ()
     assets = [without_unused_rules(each, shared) for each in assets]
-    least: AssetVerdict = "incomplete" if interrupted else "pass"
-    seen = overview(assets, interrupted or unused, least=least, top=delivery.top)
+    empty = _nothing_compared(assets) if compares else ()
+    least: AssetVerdict = "incomplete" if interrupted or empty else "pass"
+    seen = overview(assets, interrupted or (*empty, *unused), least=least, top=delivery.top)
     _deliver(document, seen, assets, delivery, timings=options["timings"])
     _tell(seen, assets, None if delivery.quiet else delivery.output)
     if interrupted:
@@ -125,6 +128,14 @@ def _check(
 def _asset(answer: Answer) -> Asset:
     report = read_line(answer.line, Result).report
     return Asset(answer.world[0], answer.verdict, report)
+
+
+def _nothing_compared(assets: Sequence[Asset]) -> tuple[Issue, ...]:
+    reports = [asset.report for asset in assets]
+    if any(report.summary.pairs.asked or report.answers for report in reports):
+        return ()
+    message = "no pair was checked: each file is a world of its own; --merge puts them into one"
+    return (Issue(NOTHING_TO_CHECK, "warning", None, None, message),)
 
 
 def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:

@@ -70,6 +70,8 @@ ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-c
 INTERNAL_ERROR = "internal-error"
 # No pair is checked: all are within one link, allowed, or exempt.
 NOTHING_TO_CHECK = "nothing-to-check"
+# The scene has no body that can collide.
+NOTHING_TO_COMPARE = "nothing-to-compare"
 # The codes of issues about bodies that nothing holds, and of which that is open.
 UNSUPPORTED = "unsupported"
 GRAVITY_ASSUMED = "gravity-assumed"

@@ -48,7 +48,7 @@ def check_summary(
     _check_baseline(report, findings, least)
     new = (finding for finding in findings if finding.baseline_state != "unchanged")
     failed = any(_fails(finding, least) for finding in new)
-    alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
+    alone = len(report.bodies) < 2 and all(body.triangles is not None for body in report.bodies)
     answers = report.answers
     nothing = total == allowed and not (alone or report.regions)
     open_ = left_open or undecided.total() > undecided[None] or nothing

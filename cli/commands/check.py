@@ -310,7 +310,7 @@ def command(
         from satcheck.cli.worlds import check_worlds
 
         refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
-        return check_worlds(worlds, inputs, options, baseline, delivery, config)
+        return check_worlds(worlds, inputs, options, baseline, delivery, config, compares=True)
     known = None if baseline is None else _Known(baseline, read_baseline(baseline))
     document = Document()
     scene = load(inputs, hashed=form == "json")

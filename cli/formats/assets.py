@@ -72,8 +72,9 @@ def summary_line(seen: Overview) -> str:
 
 def _by_rules(seen: Overview) -> list[str]:
     """`No pair of 1 passing asset was checked: rules allow them all.`"""
-    named = counted(seen.unchecked, "passing asset")
-    return [f"No pair of {named} was checked: rules allow them all."] if seen.unchecked else []
+    named, lone = counted(seen.unchecked, "passing asset"), counted(seen.lone, "passing asset")
+    said = [f"No pair of {named} was checked: rules allow them all."] if seen.unchecked else []
+    return said + ([f"Nothing to compare in {lone}: one body or none."] if seen.lone else [])
 
 
 def _next_step(seen: Overview) -> list[str]:

@@ -22,7 +22,8 @@ NAMED = 3
 
 class Overview(Struct):
     """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
-    unchecked: the number of passing assets whose pairs are all allowed. config: lines about config
+    unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
+    body or none. config: lines about config
     files. shown: assets for a table, the worst first. issues: about what all assets share; least:
     the verdict that these allow at best.
     """
@@ -30,6 +31,7 @@ class Overview(Struct):
     counts: Counter[AssetVerdict] = field(default_factory=Counter)
     named: dict[AssetVerdict, list[str]] = field(default_factory=dict)
     unchecked: int = 0
+    lone: int = 0
     config: dict[str, None] = field(default_factory=dict)
     beside: BesideBaseline = field(default_factory=BesideBaseline)
     shown: list[Asset] = field(default_factory=list)
@@ -73,7 +75,9 @@ class Overview(Struct):
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
             named.append(asset.file)
-        self.unchecked += asset.verdict == "pass" and any(map(_is_unchecked, asset.report.issues))
+        codes = {issue.code for issue in asset.report.issues} if asset.verdict == "pass" else set()
+        self.unchecked += NOTHING_TO_CHECK in codes
+        self.lone += asset.verdict == "pass" and len(asset.report.bodies) < 2
         self.config |= dict.fromkeys(config_lines([asset.report]))
         self.beside.note(asset.report)
 
@@ -91,7 +95,3 @@ def overview(
     is_short = made.total <= LISTED
     made.shown = [each for each in worst if is_short or each.verdict != "pass"]
     return made
-
-
-def _is_unchecked(issue: Issue) -> bool:
-    return issue.code == NOTHING_TO_CHECK
