@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -200,6 +201,7 @@ def test_a_second_one_ends_what_is_still_being_written(
     fill(writing)
     run = start("each", "a.obj", "hang.obj", "-j", "1", stdout=writing)
     assert until(run.begun.exists)
+    time.sleep(BUSY_SECONDS)  # the answer for a.obj is on its way
     run.interrupt()
     assert run.process.stderr is not None
     assert "Ctrl-C again ends at once" in run.process.stderr.readline()

@@ -178,8 +178,8 @@ def test_passing_through(name: str) -> None:
     found = overlap_components(a, b, PLENTY)
     assert found.resolved
     assert [c.a_through_b for c in found.components] == passing
-    expected = True if True in passing else None if None in passing else False
-    assert passes_through(a, b, PLENTY) is passes_through(b, a, PLENTY) is expected
+    passes = True in passing  # where it depends on the owner of shared faces, nothing passes
+    assert passes_through(a, b, PLENTY) is passes_through(b, a, PLENTY) is passes
     assert mirrored(overlap_components(b, a, PLENTY)) == plain(found)
 
 
