@@ -14,6 +14,7 @@ from satcheck.scene.robot.sdf.values import number, vector
 from satcheck.scene.robot.xml_tree import Element
 
 PLANE = "plane"
+HULL = "convex_hull"  # the optimization of a mesh
 _EMPTY = "empty"
 
 
@@ -62,7 +63,8 @@ def _mesh(shape: Element) -> MeshReference:
         shape.refuse("<uri> is missing")
     if len(uris) > 1:
         uris[1].refuse("a second <uri> in one <mesh>")
-    return MeshReference(uris[0].text or uris[0].refuse("is empty"), scale)
+    hull = shape.attributes.get("optimization") == HULL
+    return MeshReference(uris[0].text or uris[0].refuse("is empty"), scale, hull=hull)
 
 
 _SHAPES: dict[str, Callable[[Element], Geometry]] = {
