@@ -32,6 +32,7 @@ _ELEMENTS_ANYWHERE = {"xacro:*": "a definition; what is called is refused before
 _ATTRIBUTES_ANYWHERE = dict.fromkeys(
     ("xmlns", "xmlns:*", "xml:*", "xsi:*"), "says how names are written"
 )
+_BODIES = ("collision", "include")
 
 
 def elements(read: str, *harmless: Mapping[str, str]) -> Names:
@@ -76,6 +77,16 @@ class Slips:
                 self._ask(place.elements, child.tag, f"<{element.tag}>", child, moves=place.moves)
             if child.tag in place.inside:
                 self.look(child, place.inside[child.tag])
+            elif place.elements is not None and child.tag in place.elements.harmless:
+                self._look_for_bodies(child)
+
+    def _look_for_bodies(self, harmless: Element) -> None:
+        """Note the bodies in an element that has none as a rule. Names alone are references."""
+        for child in harmless.children:
+            if child.tag in _BODIES and child.children:
+                self.note("unread", child, f"<{harmless.tag}>: the {child.tag} in it is not read")
+            else:
+                self._look_for_bodies(child)
 
     def _ask(
         self, names: Names, name: str, where: str, element: Element, *, moves: bool = False

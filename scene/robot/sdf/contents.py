@@ -240,6 +240,8 @@ class Contents:
         return f"{path}_{element.tag}" if taken else path
 
     def _actor(self, element: Element, around: Around) -> None:
+        for link in element.all("link"):
+            self._slips.look(link, places.LINK)
         solid = any(link.all("collision") for link in element.all("link"))
         if solid or self._geometry == "visual":
             name, why = element.attribute("name"), "a script moves it"

@@ -21,7 +21,7 @@ _EMPTY = "empty"
 def shape_in(part: Element) -> Element | None:
     """The element of its shape; None: it has none."""
     geometry = part.need("geometry")
-    shapes = [child for child in geometry.children if ":" not in child.tag]
+    shapes = geometry.children
     if len(shapes) > 1:
         geometry.refuse(f"should hold one shape, not {len(shapes)}")
     return shapes[0] if shapes and shapes[0].tag != _EMPTY else None

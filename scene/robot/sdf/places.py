@@ -24,7 +24,7 @@ WORLD = Place(
         "include model actor population road state frame joint",
         _ANYWHERE,
         because(_DRAWN, "audio gui scene light"),
-        because(_FORCES, "wind gravity magnetic_field atmosphere physics"),
+        because(_FORCES, "wind gravity magnetic_field atmosphere physics gz:policies"),
         because("where on Earth the world lies", "spherical_coordinates"),
     ),
     attributes("name"),

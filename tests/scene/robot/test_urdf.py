@@ -293,6 +293,8 @@ UNREAD = [
     (joint("j", 'a" at="1', "b"), "attribute of <parent>: at is not read"),
     ('<gazebo reference="a"><pose>1 0 0 0 0 0</pose></gazebo>', "<gazebo>: pose is not read"),
     (f'<gazebo reference="a">{BOX}</gazebo>', "<collision>: geometry is not read"),
+    (f"<transmission><link>{BOX}</link></transmission>", "<link>: the collision in it is not"),
+    (f"<gazebo><plugin>{BOX}</plugin></gazebo>", "<plugin>: the collision in it is not read"),
     ('<gazebo reference="a"><link name="x"/></gazebo>', "<gazebo>: link is not read"),
     ('<mujoco><worldbody><geom size="1"/></worldbody></mujoco>', "<mujoco>: worldbody is not read"),
 ]

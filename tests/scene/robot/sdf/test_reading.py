@@ -299,6 +299,10 @@ UNREAD = [
     (link("b", inside=BOX.replace(SIZE, SIZE + "<scale>2</scale>")), "<box>: scale is not read"),
     (link("b", inside=BOX.replace("<geom", "<offset>1</offset><geom")), "offset is not read"),
     ("<link name='b'/><pose mirror='x'/>", "attribute of <pose>: mirror is not read"),
+    (
+        f"<plugin name='p'><model><link>{BOX}</link></model></plugin>",
+        "<link>: the collision in it is not read",
+    ),
     ("<frame name='f'><offset/></frame>", "<frame>: offset is not read"),
     (
         link("b") + joint("j", "a", "b", "revolute", axis(inside=START)),
