@@ -45,8 +45,19 @@ class Names(Struct, frozen=True):
         for name in dict.fromkeys(names):
             if self.knows(name):
                 continue
-            if near := get_close_matches(name, sorted(self.read), 1, ALIKE):
-                message = f"{place}: unknown {name} (did you mean {near[0]}?)"
+            if near := self._like(name):
+                message = f"{place}: unknown {name} (did you mean {near}?)"
                 raise SatcheckError("misspelt", message, file=file, body=body)
             message = f"{place}: {name} is not read; it may hold or move a body"
             yield issue("unread", message, body=body, file=file)
+
+    def _like(self, name: str) -> str | None:
+        """Return the name that is read and resembles it most. Capitals do not count, and short
+        names are misspelt by swapped letters: `nmae`, `xzy`."""
+        read = {known.casefold(): known for known in sorted(self.read)}
+        swapped = [known for low, known in read.items() if sorted(low) == sorted(name.casefold())]
+        if swapped:
+            return swapped[0]
+        return next(
+            (read[near] for near in get_close_matches(name.casefold(), read, 1, ALIKE)), None
+        )

@@ -4,15 +4,16 @@ or its format names."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations, product
 
 from msgspec.structs import replace
 
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.assembly import SceneRobot
+from satcheck.scene.robot.srdf import Srdf
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.words import listed
+from satcheck.scene.words import listed, meant
 
 SAME_LINK = "one rigid link"
 
@@ -31,7 +32,8 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
             if reason is not None:
                 for pair in product(bodies[a], bodies[b]):
                     allowed.append(_allowed(pair, reason, robot.srdf.file))
-    return allowed, [*_other_name(robot), *_unknown_links(robot), *_checked_neighbours(robot)]
+    issues = [] if robot.srdf is None else [*robot.srdf.issues, *_unknown_links(robot, robot.srdf)]
+    return allowed, [*_other_name(robot), *issues, *_checked_neighbours(robot)]
 
 
 def _exempted(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> list[Rule]:
@@ -75,17 +77,21 @@ def _other_name(robot: SceneRobot) -> list[Issue]:
     return [issue("other-robot", message, file=srdf.file)]
 
 
-def _unknown_links(robot: SceneRobot) -> list[Issue]:
-    if robot.srdf is None:
-        return []
-    return [
-        issue(
-            "unknown-body",
-            f"{robot.srdf.file}: link {link!r} is not in the URDF: its entries are ignored",
-            file=robot.srdf.file,
-        )
-        for link in sorted(robot.srdf.links() - robot.robot.links.keys())
-    ]
+def _unknown_links(robot: SceneRobot, srdf: Srdf) -> Iterator[Issue]:
+    """Yield issues about links that the robot lacks. A pair that should be checked all the same
+    blocks a pass."""
+    links = robot.robot.links
+    for link in sorted(srdf.links() - links.keys()):
+        message = f"{srdf.file}: link {link!r} is not in the URDF: its entries are ignored"
+        yield issue("unknown-body", message, file=srdf.file)
+    for pair in sorted(map(sorted, srdf.enabled)):
+        for link in pair:
+            if link not in links:
+                message = (
+                    f"enable_collisions names link {link!r}, which the robot lacks"
+                    f"{meant(link, links)}: the pair of {' and '.join(pair)} is not enabled"
+                )
+                yield issue("unread", message, file=srdf.file)
 
 
 def _checked_neighbours(robot: SceneRobot) -> list[Issue]:

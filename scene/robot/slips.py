@@ -1,16 +1,61 @@
-"""Harmless mistakes of a robot file."""
+"""Mistakes of a robot file that refuse nothing, and names that nobody reads."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Iterable, Mapping
 
+from msgspec import Struct
+
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.robot.xml_tree import Element
-from satcheck.scene.words import meant
+from satcheck.scene.robot.xml_tree import Element, RefusedElement
+from satcheck.scene.vocabulary import Names
+
+
+class Place(Struct, frozen=True):
+    """The names that may stand in an element.
+
+    elements: None: the reader refuses the body of a child that it does not know. idle: names that
+    place nothing if each of their numbers, or words, is this one. inside: the places of children
+    that are looked into as well. moves: no body is lost with a misspelt child, so it only blocks a
+    pass.
+    """
+
+    elements: Names | None = Names(frozenset())
+    attributes: Names = Names(frozenset())
+    idle: Mapping[str, float | str] = {}
+    inside: Mapping[str, Place] = {}
+    moves: bool = False
+
+
+_ELEMENTS_ANYWHERE = {"xacro:*": "a definition; what is called is refused before"}
+_ATTRIBUTES_ANYWHERE = dict.fromkeys(
+    ("xmlns", "xmlns:*", "xml:*", "xsi:*"), "says how names are written"
+)
+_BODIES = ("collision", "include")
+
+
+def elements(read: str, *harmless: Mapping[str, str]) -> Names:
+    """Return the names of children. read: separated by blanks."""
+    return _names(read, _ELEMENTS_ANYWHERE, *harmless)
+
+
+def attributes(read: str, *harmless: Mapping[str, str]) -> Names:
+    return _names(read, _ATTRIBUTES_ANYWHERE, *harmless)
+
+
+def _names(read: str, *harmless: Mapping[str, str]) -> Names:
+    known = {name: reason for names in harmless for name, reason in names.items()}
+    return Names(frozenset(read.split()), known)
+
+
+def because(reason: str, names: str) -> dict[str, str]:
+    """Return the names, separated by blanks, with the reason why they are harmless."""
+    return dict.fromkeys(names.split(), reason)
 
 
 class Slips:
-    """Collects harmless mistakes in file order, with one warning for each cause."""
+    """Collects mistakes in file order, with one warning for each cause."""
 
     def __init__(self) -> None:
         self._lines: dict[tuple[str, str, str], list[int]] = {}
@@ -18,24 +63,63 @@ class Slips:
     def note(self, code: str, element: Element, cause: str) -> None:
         self._lines.setdefault((code, cause, element.file), []).append(element.line)
 
-    def note_unknown(
-        self, element: Element, known: Collection[str], others: Collection[str] = ()
-    ) -> None:
-        """Notes children with unknown names. others: more known names, which no hint suggests.
-
-        Names with a prefix belong to other programs.
-        """
+    def look(self, element: Element, place: Place) -> None:
+        """Note each name in the element that nobody reads. Raises RefusedElement for a misspelt
+        name."""
+        for name, value in element.attributes.items():
+            if not _is_idle(name, [value], place):
+                where = f"attribute of <{element.tag}>"
+                self._ask(place.attributes, name, where, element)
         for child in element.children:
-            if child.tag not in known and child.tag not in others and ":" not in child.tag:
-                hint = meant(child.tag, known)
-                cause = f"unknown <{child.tag}> in <{element.tag}>{hint}: ignored"
-                self.note("unknown-element", child, cause)
+            values = (child.text, *child.attributes.values())
+            idle = not child.children and _is_idle(child.tag, values, place)
+            if place.elements is not None and not idle:
+                self._ask(place.elements, child.tag, f"<{element.tag}>", child, moves=place.moves)
+            if child.tag in place.inside:
+                self.look(child, place.inside[child.tag])
+            elif place.elements is not None and child.tag in place.elements.harmless:
+                self._look_for_bodies(child)
+
+    def _look_for_bodies(self, harmless: Element) -> None:
+        """Note the bodies in an element that has none as a rule. Names alone are references."""
+        for child in harmless.children:
+            if child.tag in _BODIES and child.children:
+                self.note("unread", child, f"<{harmless.tag}>: the {child.tag} in it is not read")
+            else:
+                self._look_for_bodies(child)
+
+    def _ask(
+        self, names: Names, name: str, where: str, element: Element, *, moves: bool = False
+    ) -> None:
+        try:
+            for unread in names.unread([name], where):
+                self.note(unread.code, element, unread.message)
+        except SatcheckError as error:
+            if not moves:
+                raise RefusedElement(
+                    error.code, element.line, error.message, element.file
+                ) from None
+            self.note("unread", element, error.message)
 
     def issues(self) -> tuple[Issue, ...]:
         return tuple(
             issue(code, f"line {lines[0]}: {cause}{_more(lines)}", file=file)
             for (code, cause, file), lines in self._lines.items()
         )
+
+
+def _is_idle(name: str, values: Iterable[str], place: Place) -> bool:
+    if name not in place.idle:
+        return False
+    words = [word for value in values for word in value.split()]
+    return all(_value(word) == place.idle[name] for word in words)
+
+
+def _value(word: str) -> float | str:
+    try:
+        return float(word)
+    except ValueError:
+        return word.lower()
 
 
 def _more(lines: list[int]) -> str:

@@ -1,7 +1,6 @@
 """Reads SRDF: pairs of links that need no check, and named values of joints.
 
-The format: http://wiki.ros.org/srdf. Virtual joints, groups and end effectors do not affect
-collisions and are ignored.
+The format: http://wiki.ros.org/srdf.
 """
 
 from __future__ import annotations
@@ -10,12 +9,41 @@ from pathlib import Path
 
 from msgspec import Struct
 
+from satcheck.scene.issue import Issue
 from satcheck.scene.robot.model import State, Values
+from satcheck.scene.robot.slips import Place, Slips, attributes, because, elements
 from satcheck.scene.robot.xml_tree import Element, read_tree
+
+_PLANNING = "it says what is planned, and exempts and moves no body"
+_PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))
+_ROBOT = Place(
+    elements(
+        "disable_collisions disable_default_collisions enable_collisions group_state",
+        because(
+            _PLANNING,
+            "group end_effector virtual_joint passive_joint joint_property chain link_property "
+            "group_property",
+        ),
+    ),
+    attributes("name", because("words about the file", "version")),
+    inside={
+        "disable_collisions": _PAIR,
+        "enable_collisions": _PAIR,
+        "disable_default_collisions": Place(
+            attributes=attributes("link", because("words", "reason"))
+        ),
+        "group_state": Place(
+            elements("joint"),
+            attributes("name group"),
+            inside={"joint": Place(attributes=attributes("name value"))},
+        ),
+    },
+)
 
 
 class Srdf(Struct, frozen=True):
-    """file: path as given. robot: the name of the robot that it is about.
+    """file: path as given. robot: the name of the robot that it is about. issues: names that are
+    not read.
 
     disabled: two links -> the stated reason. silent: links that by default are checked against no
     other link; enabled: pairs that are checked anyway.
@@ -27,14 +55,14 @@ class Srdf(Struct, frozen=True):
     silent: frozenset[str]
     enabled: frozenset[frozenset[str]]
     states: tuple[State, ...]
+    issues: tuple[Issue, ...] = ()
 
     def links(self) -> set[str]:
         """All links that the file names."""
         return {*self.silent}.union(*self.disabled, *self.enabled)
 
     def permission(self, a: str, b: str) -> str | None:
-        """The reason why two links need no check; None: they need one. As in MoveIt, `disabled`
-        overrides `enabled`."""
+        """The reason why two links need no check; None: they need one."""
         pair = frozenset((a, b))
         if pair in self.disabled:
             return f"SRDF: {self.disabled[pair]}".rstrip(": ")
@@ -46,13 +74,20 @@ class Srdf(Struct, frozen=True):
 def read_srdf(path: str, location: Path) -> Srdf:
     """Raises SceneFileError with the file, the line and the element."""
     root = read_tree(path, location, "robot")
+    slips = Slips()
+    slips.look(root, _ROBOT)
+    disabled = {_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")}
+    for element in root.all("enable_collisions"):
+        if _pair(element) in disabled:
+            element.refuse("the pair is disabled as well: state one of the two")
     return Srdf(
         file=path,
         robot=root.attribute("name"),
-        disabled={_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")},
+        disabled=disabled,
         silent=frozenset(e.attribute("link") for e in root.all("disable_default_collisions")),
         enabled=frozenset(_pair(e) for e in root.all("enable_collisions")),
         states=tuple(_state(element) for element in root.all("group_state")),
+        issues=slips.issues(),
     )
 
 

@@ -2,15 +2,14 @@
 
 The format: http://wiki.ros.org/urdf/XML. Only elements that place geometry are read. An error in a
 joint or a link refuses the robot, and states the line. An error inside a <collision> refuses only
-that body. Elements that cannot move a body (inertial, transmission, gazebo, ...) are ignored. An
-unknown element inside a link or a joint is a warning, because it may be misspelt.
+that body. `urdf_places` says which names are harmless; others block a pass.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path, PurePosixPath
 from typing import NoReturn, get_args
 
 from satcheck.core.conventions import Vector
@@ -36,26 +35,19 @@ from satcheck.scene.robot.model import (
     UrdfJointKind,
 )
 from satcheck.scene.robot.slips import Slips
+from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
 from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
 
 _KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"
-_LINK_PARTS = frozenset(("collision", "visual", "inertial"))
-_JOINT_PARTS = frozenset(
-    ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration")
-) | {"safety_controller"}
 _SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
     "box": {"size": 3},
     "sphere": {"radius": 1},
     "cylinder": {"radius": 1, "length": 1},
     "capsule": {"radius": 1, "length": 1},
 }
-_COLLISION_PARTS = frozenset(("origin", "geometry"))
-_NO_GEOMETRY = _COLLISION_PARTS | {"material"}  # of a <visual>
-# Elements that simulators add to links, joints and collisions, and that place nothing.
-_EXTENSIONS = frozenset(("contact", "material", "sensor", "verbose", "hardwareInterface", "limits"))
 
 
 def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
@@ -81,6 +73,8 @@ class _Reader:
         self._slips = Slips()
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
+        self._slips.look(root, ROBOT)
+        self._look_for_folders(root)
         links: dict[str, Link] = {}
         for element in root.all("link"):
             link = self._link(element)
@@ -101,9 +95,19 @@ class _Reader:
         robot = Robot(name, self._path, {base: IDENTITY}, links, ordered, geometry=self._geometry)
         return robot, self._slips.issues()
 
+    def _look_for_folders(self, root: Element) -> None:
+        """Note that MuJoCo takes meshes without a package from another folder."""
+        plain = any("://" not in uri for uri in _mesh_uris(root, self._geometry))
+        for compiler in (inner for each in root.all("mujoco") for inner in each.all("compiler")):
+            folder = PurePosixPath(compiler.attributes.get("meshdir", ""))
+            stripped = compiler.attributes.get("strippath", "false") != "false"
+            if plain and (stripped or folder != PurePosixPath()):
+                cause = "<compiler>: the folder of meshes that it states is not read"
+                self._slips.note("unread", compiler, cause)
+
     def _link(self, element: Element) -> Link:
+        self._slips.look(element, LINK)
         name = element.attribute("name")
-        self._note_unknown(element, _LINK_PARTS)
         collisions = (self._collision(inner) for inner in element.all(self._geometry))
         return Link(
             name=name,
@@ -113,9 +117,9 @@ class _Reader:
 
     def _collision(self, element: Element) -> Collision | None:
         """None: it has no geometry or size 0, and a warning says so."""
-        self._note_unknown(element, _COLLISION_PARTS)
         name = element.attributes.get("name") or None
         try:
+            self._slips.look(element, SHAPE)
             shape = _only_shape(element)
             if shape is None:
                 self._slips.note(
@@ -135,8 +139,8 @@ class _Reader:
             return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
 
     def _joint(self, element: Element, names: Sequence[str]) -> Joint:
+        self._slips.look(element, JOINT)
         name = element.attribute("name")
-        self._note_unknown(element, _JOINT_PARTS)
         given = element.attribute("type")
         kind = next((kind for kind in _KINDS if kind == given), None)
         if kind is None:
@@ -157,9 +161,6 @@ class _Reader:
         element = joint.only("axis")
         if element is None:
             return _X
-        element.knows(("xyz",), others=True)
-        for name in sorted(element.attributes.keys() - {"xyz"}):
-            self._slips.note("unknown-attribute", element, f"{name!r} of an <axis> is ignored")
         axis = _vector(element, "xyz", _X)
         length = math.hypot(*axis)
         if not (length > 0.0 and math.isfinite(length)):
@@ -174,7 +175,6 @@ class _Reader:
         if limit is None:
             self._slips.note("no-limits", element, f"a {kind} joint without <limit>: {_UNLIMITED}")
             return None
-        limit.knows(("lower", "upper"), others=True)
         limits = Limits(limit.number("lower", 0.0), limit.number("upper", 0.0))
         if limits.lower > limits.upper:
             self._slips.note("no-limits", limit, f"lower is above upper: {_UNLIMITED}")
@@ -187,7 +187,6 @@ class _Reader:
             return None
         if kind in ("planar", "floating"):
             element.refuse(f"a {kind} joint cannot mimic another")
-        element.knows(("joint", "multiplier", "offset"))
         mimic = Mimic(
             joint=element.attribute("joint"),
             multiplier=element.number("multiplier", 1.0),
@@ -201,20 +200,25 @@ class _Reader:
         self._slips.note("no-leader", element, "mimics a missing joint: moves independently")
         return None
 
-    def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
-        self._slips.note_unknown(element, known, _EXTENSIONS)
-
 
 def _only_shape(collision: Element) -> Element | None:
     """The geometry of a collision; None if it has no shape, not even a misspelt one."""
     geometry = collision.only("geometry")
     if geometry is None:
-        if all(child.tag in _NO_GEOMETRY for child in collision.children):
+        known = SHAPE.elements
+        if known is None or all(known.knows(child.tag) for child in collision.children):
             return None
         collision.refuse("<geometry> is missing")
     if len(geometry.children) > 1:
         geometry.refuse(f"should hold one shape, not {len(geometry.children)}")
     return geometry.children[0] if geometry.children else None
+
+
+def _mesh_uris(root: Element, geometry: GeometryKind) -> Iterator[str]:
+    for link in root.all("link"):
+        for part in link.all(geometry):
+            for shape in part.all("geometry"):
+                yield from (mesh.attributes.get("filename", "") for mesh in shape.all("mesh"))
 
 
 def _is_point(shape: Element) -> bool:
@@ -239,7 +243,6 @@ def _unknown(shape: Element) -> NoReturn:
 
 
 def _mesh(shape: Element) -> MeshReference:
-    shape.knows(("filename", "scale"))
     scale = _vector(shape, "scale", (1.0, 1.0, 1.0))
     if 0.0 in scale:
         shape.refuse("scale 0 flattens the mesh", "singular-transform")
@@ -247,29 +250,24 @@ def _mesh(shape: Element) -> MeshReference:
 
 
 def _box(shape: Element) -> Box:
-    shape.knows(("size",))
     return Box(_vector(shape, "size"))
 
 
 def _sphere(shape: Element) -> Sphere:
-    shape.knows(("radius",))
     return Sphere(shape.number("radius"))
 
 
 def _cylinder(shape: Element) -> Cylinder:
-    shape.knows(("radius", "length"))
     return Cylinder(shape.number("radius"), shape.number("length"))
 
 
 def _capsule(shape: Element) -> Capsule:
     """Not in URDF 1.0; MuJoCo, Drake and URDF 1.2 agree that the caps lie beyond `length`."""
-    shape.knows(("radius", "length"))
     return Capsule(shape.number("radius"), shape.number("length"))
 
 
-def _plane(shape: Element) -> HalfSpace:
+def _plane(_: Element) -> HalfSpace:
     """Not in URDF 1.0; as in PyBullet."""
-    shape.knows(("normal",))
     return HalfSpace()
 
 
@@ -294,7 +292,6 @@ def _origin(owner: Element) -> Transform:
     origin = owner.only("origin")
     if origin is None:
         return IDENTITY
-    origin.knows(("xyz", "rpy", "quat_xyzw"))
     xyz = _vector(origin, "xyz", (0.0, 0.0, 0.0))
     if "quat_xyzw" not in origin.attributes:
         return from_rpy(xyz, _vector(origin, "rpy", (0.0, 0.0, 0.0)))

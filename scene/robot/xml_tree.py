@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -16,7 +16,6 @@ from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading import xml_tree
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
-from satcheck.scene.words import meant
 
 SDF_ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
 MJCF_ROOT = "mujoco"
@@ -94,17 +93,6 @@ class Element(xml_tree.Element):
     def text_numbers(self, count: int) -> tuple[float, ...]:
         """`count` finite numbers, which are the text of the element."""
         return self._numbers("", self.text, count)
-
-    def knows(self, attributes: Collection[str], *, others: bool = False) -> None:
-        """Refuses unknown attributes; with `others` only those that resemble a known one.
-
-        Attributes of other namespaces ("drake:...") are accepted.
-        """
-        for name in self.attributes:
-            if name not in attributes and ":" not in name:
-                hint = meant(name, attributes)
-                if hint or not others:
-                    self.refuse(f"unknown attribute {name!r}{hint}")
 
     def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
         raise RefusedElement(code, self.line, f"<{self.tag}>: {message}", self.file)

@@ -7,7 +7,7 @@ import pytest
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.vocabulary import Names
 
-LINK = Names(frozenset({"collision", "visual", "inertial"}), {"gazebo": "", "vendor_*": ""})
+LINK = Names(frozenset({"collision", "visual", "inertial", "name"}), {"gazebo": "", "vendor_*": ""})
 
 
 def test_what_is_read_or_harmless_is_no_issue() -> None:
@@ -20,7 +20,9 @@ def test_what_nobody_knows_blocks_a_pass_once() -> None:
     assert "line 4: <link>: fence" in found.message
 
 
-@pytest.mark.parametrize("name", ["colision", "collison", "visaul", "inertail"])
+@pytest.mark.parametrize(
+    "name", ["colision", "collison", "visaul", "inertail", "Visual", "COLLISION", "nmae"]
+)
 def test_a_misspelt_name_is_refused(name: str) -> None:
     with pytest.raises(SatcheckError, match=f"unknown {name} .did you mean") as error:
         list(LINK.unread([name], "line 4: <link>"))

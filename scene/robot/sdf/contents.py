@@ -10,13 +10,13 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision, RefusedShape
+from satcheck.scene.robot.sdf import places
 from satcheck.scene.robot.sdf.exemptions import Contacts
 from satcheck.scene.robot.sdf.frames import WORLD, Frame, Frames, Name, Scope
 from satcheck.scene.robot.sdf.includes import Includes, name_in, version_of
 from satcheck.scene.robot.sdf.joints import JointEntry
 from satcheck.scene.robot.sdf.parts import frame_named
 from satcheck.scene.robot.sdf.values import boolean, flag, pose_of, text_of
-from satcheck.scene.robot.sdf.words import IN_INCLUDE, IN_LINK, IN_MODEL, IN_ROOT, IN_WORLD
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
 
@@ -91,9 +91,9 @@ class Contents:
         worlds = root.all("world")
         if len(worlds) > 1:
             worlds[1].refuse("a second <world>: check each in a file of its own")
-        self._slips.note_unknown(root, IN_ROOT)
+        self._slips.look(root, places.ROOT)
         for world in worlds:
-            self._slips.note_unknown(world, IN_WORLD)
+            self._slips.look(world, places.WORLD)
         for container in (root, *worlds):
             for tag in _ONLY_IN_MODELS:
                 for element in container.all(tag):
@@ -112,7 +112,7 @@ class Contents:
     def _model(self, element: Element, around: Around, given: Given = _OWN) -> None:
         if around.depth >= MOST_NESTED:
             element.refuse(f"more than {MOST_NESTED} models in each other", "too-large")
-        self._slips.note_unknown(element, IN_MODEL)
+        self._slips.look(element, places.MODEL)
         name = given.name or element.attribute("name")
         path = around.scope.path(_MERGED.format(name) if given.merge else name)
         scope = Scope(around.scope.prefix if given.merge else path, path)
@@ -151,7 +151,7 @@ class Contents:
         self.frames.declare(path, frame)
 
     def _include(self, element: Element, around: Around) -> None:
-        self._slips.note_unknown(element, IN_INCLUDE)
+        self._slips.look(element, places.INCLUDE)
         uri = text_of(element, "uri")
         named = element.only("name")
         name = (named.text if named else "") or None
@@ -203,7 +203,7 @@ class Contents:
     def _link(self, element: Element, around: Around) -> None:
         if around.scope.model == WORLD:
             return
-        self._slips.note_unknown(element, IN_LINK)
+        self._slips.look(element, places.LINK)
         path = around.scope.path(element.attribute("name"))
         self._declare(path, element, element.only("pose"), around.scope)
         alone = boolean(element, "self_collide", around.self_collide)
@@ -212,6 +212,7 @@ class Contents:
         self._first.setdefault(around.scope.model, path)
 
     def _frame(self, element: Element, around: Around) -> None:
+        self._slips.look(element, places.FRAME)
         path = self._free_path(element, around.scope)
         text = element.attributes.get("attached_to")
         attached = Name(around.scope, text, element) if text else None
@@ -219,6 +220,7 @@ class Contents:
         self._declare(path, element, pose, around.scope, default=attached, attached=attached)
 
     def _joint(self, element: Element, around: Around) -> None:
+        self._slips.look(element, places.JOINT)
         path = self._free_path(element, around.scope)
         parent, child = (
             Name(around.scope, text_of(element, role), element.need(role), of_joint=True)
@@ -238,6 +240,8 @@ class Contents:
         return f"{path}_{element.tag}" if taken else path
 
     def _actor(self, element: Element, around: Around) -> None:
+        for link in element.all("link"):
+            self._slips.look(link, places.LINK)
         solid = any(link.all("collision") for link in element.all("link"))
         if solid or self._geometry == "visual":
             name, why = element.attribute("name"), "a script moves it"
@@ -257,6 +261,7 @@ class Contents:
             self._lose(element, around, name, "unsupported-feature", name, "a road has no mesh")
 
     def _state(self, element: Element, _: Around) -> None:
+        self._slips.look(element, places.STATE)
         if element.all("model"):
             cause = "a stored <state> is not applied: models stand where <model> places them"
             self._slips.note("stored-state", element, cause)

@@ -13,13 +13,14 @@ from satcheck.scene.robot.sdf.values import number, vector
 from satcheck.scene.robot.xml_tree import Element
 
 PLANE = "plane"
+HULL = "convex_hull"  # the optimization of a mesh
 _EMPTY = "empty"
 
 
 def shape_in(part: Element) -> Element | None:
     """The element of its shape; None: it has none."""
     geometry = part.need("geometry")
-    shapes = [child for child in geometry.children if ":" not in child.tag]
+    shapes = geometry.children
     if len(shapes) > 1:
         geometry.refuse(f"should hold one shape, not {len(shapes)}")
     return shapes[0] if shapes and shapes[0].tag != _EMPTY else None
@@ -57,7 +58,8 @@ def _mesh(shape: Element) -> MeshReference:
         shape.refuse("<uri> is missing")
     if len(uris) > 1:
         uris[1].refuse("a second <uri> in one <mesh>")
-    return MeshReference(uris[0].text or uris[0].refuse("is empty"), scale)
+    hull = shape.attributes.get("optimization") == HULL
+    return MeshReference(uris[0].text or uris[0].refuse("is empty"), scale, hull=hull)
 
 
 _SHAPES: dict[str, Callable[[Element], Geometry]] = {

@@ -11,7 +11,6 @@ from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import JointKind, Limits, Mimic
 from satcheck.scene.robot.sdf.frames import WORLD, Frames, Name, Scope
 from satcheck.scene.robot.sdf.values import boolean, vector
-from satcheck.scene.robot.sdf.words import IN_JOINT
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
 
@@ -43,7 +42,6 @@ class JointEntry(NamedTuple):
 
 def moves_of(joint: JointEntry, frames: Frames, slips: Slips) -> Moves:
     element = joint.element
-    slips.note_unknown(element, IN_JOINT)
     given = element.attribute("type")
     if given not in _KINDS and given not in _STILL:
         element.refuse(f"type {given!r} is none of {', '.join((*_KINDS, *sorted(_STILL)))}")

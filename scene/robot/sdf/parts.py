@@ -10,9 +10,9 @@ from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import DRAWN_PLANE, Collision, RefusedShape
 from satcheck.scene.robot.sdf.frames import Frames, Name, Scope
-from satcheck.scene.robot.sdf.geometry import PLANE, facing, geometry_of, shape_in
+from satcheck.scene.robot.sdf.geometry import HULL, PLANE, facing, geometry_of, shape_in
+from satcheck.scene.robot.sdf.places import SHAPE
 from satcheck.scene.robot.sdf.values import bits, pose_of
-from satcheck.scene.robot.sdf.words import IN_COLLISION
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement
 
@@ -48,10 +48,10 @@ def parts_in(
     """path: the frame of the link. scope: in which its poses name frames."""
     parts = []
     for element in link.all(tag):
-        slips.note_unknown(element, IN_COLLISION)
         name = element.attributes.get("name") or None
         mask = ANY
         try:
+            slips.look(element, SHAPE)
             mask = _mask(element)
             shape = _shape(element, slips)
             if shape is None:
@@ -78,10 +78,9 @@ def _shape(element: Element, slips: Slips) -> Element | None:
     if shape is None:
         if not element.need("geometry").all("empty"):
             slips.note("no-shape", element, f"a <{element.tag}> without geometry: no body")
-    elif shape.attributes.get("optimization"):
-        how = shape.attributes["optimization"]
+    elif (how := shape.attributes.get("optimization")) and how != HULL:
         cause = f"a simulator replaces this mesh ({how}): the mesh itself is checked"
-        slips.note("simplified-mesh", shape, cause)
+        slips.note("unread", shape, cause)
     return shape
 
 

@@ -66,7 +66,6 @@ def pose_of(element: Element | None) -> Transform:
     """The pose that a <pose> states, in the frame that it is relative to."""
     if element is None or not element.text:
         return IDENTITY
-    element.knows(("relative_to", "frame", "degrees", "rotation_format"))
     form = element.attributes.get("rotation_format") or _EULER
     degrees = flag(element, "degrees")
     if form == _QUATERNION:

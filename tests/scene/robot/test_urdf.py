@@ -106,7 +106,7 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
         ('<box size="1 2 0"/>', "should be positive"),
         ('<cylinder radius="0" length="1"/>', "should be positive"),
         ('<sphere radius="x"/>', "is not a finite number"),
-        ('<box sise="1 2 3"/>', "unknown attribute 'sise' (did you mean 'size'?)"),
+        ('<box sise="1 2 3"/>', 'attribute "size" is missing'),
         ("<box/>", 'attribute "size" is missing'),
         ('<sphere radius="-1"/>', "should be positive"),
         ('<cylinder radius="1"/>', 'attribute "length" is missing'),
@@ -148,14 +148,20 @@ def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
     text = robot_of(link("a", '<collision><geometri><box size="1 1 1"/></geometri></collision>'))
     found = read(tmp_path, text).links["a"].collisions[0].geometry
     assert isinstance(found, RefusedShape)
+    assert "unknown geometri (did you mean geometry?)" in found.reason
+    text = robot_of(link("a", '<collision><shape><box size="1 1 1"/></shape></collision>'))
+    robot, issues = read_with_issues(tmp_path, text)
+    found = robot.links["a"].collisions[0].geometry
+    assert isinstance(found, RefusedShape)
     assert "<geometry> is missing" in found.reason
+    assert [issue.code for issue in issues] == ["unread"]
 
 
 @pytest.mark.parametrize(
     ("origin", "said"),
     [
         ('<origin xyz="1 2 3 4"/>', "should be 3 numbers"),
-        ('<origin xyx="1 2 3"/>', "unknown attribute 'xyx' (did you mean 'xyz'?)"),
+        ('<origin xzy="1 2 3"/>', "unknown xzy (did you mean xyz?)"),
         ('<origin rpy="0 0 inf"/>', 'rpy="inf" is not a finite number'),
         ('<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>', "both rpy and quat_xyzw"),
         ('<origin quat_xyzw="0 0 0 0"/>', "length 0"),
@@ -175,14 +181,12 @@ def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
     ("kind", "inside", "said"),
     [
         ("hinge", "", "type 'hinge' is none of revolute, continuous, prismatic"),
-        ("revolute", '<limit lover="0" upper="1"/>', "did you mean 'lower'?"),
         ("revolute", LIMIT + '<axis xyz="0 0 0"/>', "an axis of length 0"),
         ("revolute", LIMIT + '<axis xyz="0 1"/>', "should be 3 numbers"),
         ("planar", '<mimic joint="k"/>', "a planar joint cannot mimic"),
         ("floating", '<mimic joint="k"/>', "a floating joint cannot mimic"),
         ("revolute", LIMIT + "<mimic/>", 'attribute "joint" is missing'),
         ("revolute", LIMIT + '<limit lower="0" upper="2"/>', "a second <limit> in one <joint>"),
-        ("revolute", LIMIT + '<axis xzy="0 0 1"/>', "did you mean 'xyz'?"),
     ],
 )
 def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None:
@@ -199,7 +203,7 @@ def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None
         ("revolute", "", "no-limits", "a revolute joint without <limit>: treated as unlimited"),
         ("prismatic", "", "no-limits", "a prismatic joint without <limit>"),
         ("revolute", '<limit lower="2" upper="1"/>', "no-limits", "lower is above upper"),
-        ("revolute", LIMIT + '<axis xyz="0 0 1" rpy="0 0 0"/>', "unknown-attribute", "'rpy'"),
+        ("revolute", LIMIT + '<axis xyz="0 0 1" rpy="0 0 1"/>', "unread", "<axis>: rpy is not"),
         ("revolute", LIMIT + '<mimic joint="gone"/>', "no-leader", "mimics a missing joint"),
     ],
 )
@@ -262,17 +266,98 @@ def test_names(tmp_path: Path) -> None:
     assert '"name" is missing' in refusal(tmp_path, robot_of("<link/>"))[1]
 
 
-def test_what_is_misspelt_is_told_and_what_simulators_add_is_not(tmp_path: Path) -> None:
-    inside = "<inertial/><gazebo:x/><contact/><colision/>"
-    path = tmp_path / "r.urdf"
-    bodies = [link("a", inside), link("b", "<colision/><x/>"), joint("j", "a", "b")]
-    path.write_text(robot_of(*bodies, "<gazebo/>", "<transmission/>"))
-    _, issues = read_urdf("r.urdf", path)
-    assert {issue.code for issue in issues} == {"unknown-element"}
-    assert [issue.message for issue in issues] == [
-        "line 2: unknown <colision> in <link> (did you mean 'collision'?): ignored (2 times)",
-        "line 3: unknown <x> in <link>: ignored",
-    ]
+MISSPELT = [
+    ('<lnk name="b"/>', "line 3: <robot>: unknown lnk (did you mean link?)"),
+    ('<link name="b"><colision/></link>', "line 3: <link>: unknown colision"),
+    ('<link name="b"><Collision/></link>', "line 3: <link>: unknown Collision"),
+    ('<link nmae="b"/>', "line 3: attribute of <link>: unknown nmae"),
+    (joint("j", "a", "b", inside='<limit lover="0"/>'), "<limit>: unknown lover (did you mean low"),
+    (joint("j", "a", "b", inside='<axis xzy="0 0 1"/>'), "<axis>: unknown xzy (did you mean xyz?)"),
+    ("<gazebo><colision/></gazebo>", "line 3: <gazebo>: unknown colision"),
+]
+
+
+@pytest.mark.parametrize(("element", "said"), MISSPELT)
+def test_a_misspelt_name_is_refused(tmp_path: Path, element: str, said: str) -> None:
+    code, message = refusal(tmp_path, robot_of(link("a"), element))
+    assert code == "misspelt"
+    assert said in message
+
+
+def test_a_misspelt_part_of_a_joint_loses_no_body(tmp_path: Path) -> None:
+    bent = joint("j", "a", "b", inside='<orgin xyz="1 0 0"/>')
+    _, (found,) = read_with_issues(tmp_path, robot_of(link("a"), link("b"), bent))
+    assert found.code == "unread"
+    assert found.message == "line 4: <joint>: unknown orgin (did you mean origin?)"
+
+
+def with_two_links(element: str) -> str:
+    """A robot with the element, links a and b, and a joint between; the element may be one."""
+    links = [link(name) for name in "ab" if f'<link name="{name}"' not in element]
+    joints = [] if element.startswith("<joint") else [joint("i", "a", "b")]
+    return robot_of(*links, element, *joints)
+
+
+UNREAD = [
+    ('<instance link="a" xyz="5 0 0"/>', "<robot>: instance is not read"),
+    ('<include filename="b.urdf"/>', "<robot>: include is not read"),
+    ('<drake:joint name="k"/>', "<robot>: drake:joint is not read"),
+    ('<link name="b"><origin xyz="1 0 0"/></link>', "<link>: origin is not read"),
+    ('<link name="b"><drake:collision/></link>', "<link>: drake:collision is not read"),
+    ('<link name="b"><collision_checking/></link>', "collision_checking is not read"),
+    ('<link name="b" xyz="1 0 0"/>', "attribute of <link>: xyz is not read"),
+    (link("b", BOX.replace("<collision", '<collision pose="1 0 0"')), "<collision>: pose is not"),
+    (link("b", BOX.replace("size", 'unit="mm" size')), "attribute of <box>: unit is not read"),
+    (joint("j", "a", "b").replace("type", 'xyz="1 0 0" type'), "attribute of <joint>: xyz is not"),
+    (joint("j", "a", "b", inside='<origin deg="90"/>'), "attribute of <origin>: deg is not read"),
+    (joint("j", "a", "b", inside='<limit min="1"/>'), "attribute of <limit>: min is not read"),
+    (joint("j", 'a" at="1', "b"), "attribute of <parent>: at is not read"),
+    ('<gazebo reference="a"><pose>1 0 0 0 0 0</pose></gazebo>', "<gazebo>: pose is not read"),
+    (f'<gazebo reference="a">{BOX}</gazebo>', "<collision>: geometry is not read"),
+    (f"<transmission><link>{BOX}</link></transmission>", "<link>: the collision in it is not"),
+    (f"<gazebo><plugin>{BOX}</plugin></gazebo>", "<plugin>: the collision in it is not read"),
+    ('<gazebo reference="a"><link name="x"/></gazebo>', "<gazebo>: link is not read"),
+    ('<mujoco><worldbody><geom size="1"/></worldbody></mujoco>', "<mujoco>: worldbody is not read"),
+]
+
+
+@pytest.mark.parametrize(("element", "said"), UNREAD)
+def test_what_may_hold_or_move_a_body_blocks_a_pass(
+    tmp_path: Path, element: str, said: str
+) -> None:
+    _, issues = read_with_issues(tmp_path, with_two_links(element))
+    assert [issue.code for issue in issues] == ["unread"]
+    assert said in issues[0].message
+
+
+HARMLESS = [
+    "<transmission><origin/></transmission>",
+    '<material name="red"><colour/></material>',
+    '<ros2_control name="r"><joint name="x"/></ros2_control>',
+    '<link name="b"><inertial/><contact/><sensor><origin/></sensor></link>',
+    '<link name="b"><origin xyz="0 0 0"/></link>',
+    link("b", BOX.replace("<collision", '<collision group="x" concave="yes"')),
+    joint("j", "a", "b", inside='<dynamics/><safety_controller/><axis xyz="1 0 0" rpy="0 0 0"/>'),
+    '<gazebo reference="a"><mu1>1</mu1><selfCollide>true</selfCollide><sensor/></gazebo>',
+    "<gazebo><plugin><pose>1 0 0</pose></plugin><pose>0 0 0 0 0 0</pose></gazebo>",
+    '<gazebo reference="a"><collision><surface/><max_contacts/></collision></gazebo>',
+    '<mujoco><compiler fusestatic="true" meshdir="meshes"/></mujoco>',
+    '<drake:collision_filter_group name="g"/>',
+]
+
+
+@pytest.mark.parametrize("element", HARMLESS)
+def test_what_places_nothing_is_no_issue(tmp_path: Path, element: str) -> None:
+    _, issues = read_with_issues(tmp_path, with_two_links(element))
+    assert issues == ()
+
+
+@pytest.mark.parametrize(("uri", "codes"), [("m.stl", ["unread"]), ("package://p/m.stl", [])])
+def test_a_folder_of_meshes_of_mujoco(tmp_path: Path, uri: str, codes: list[str]) -> None:
+    mesh = f'<collision><geometry><mesh filename="{uri}"/></geometry></collision>'
+    mujoco = '<mujoco><compiler meshdir="meshes"/></mujoco>'
+    _, issues = read_with_issues(tmp_path, robot_of(link("a", mesh), mujoco))
+    assert [issue.code for issue in issues] == codes
 
 
 def test_what_does_not_matter_is_no_reason_to_refuse(tmp_path: Path) -> None:

@@ -89,7 +89,7 @@ def test_the_forms_of_a_rotation(
         ("<pose>0 0 0 0 0 x</pose>", "bad-robot", "not a finite number"),
         ("<pose>${x} 0 0 0 0 0</pose>", "xacro", "expand"),
         ('<pose relative_to="aa">0 0 0 0 0 0</pose>', "index-out-of-range", "did you mean 'a'"),
-        ('<pose relativ_to="a">0 0 0 0 0 0</pose>', "bad-robot", "did you mean 'relative_to'"),
+        ('<pose relativ_to="a">0 0 0 0 0 0</pose>', "misspelt", "did you mean relative_to?"),
         ('<pose relative_to="b">0 0 0 0 0 0</pose>', "reference-cycle", "'m::b' -> 'm::b'"),
         ('<pose rotation_format="quat_xyzw">0 0 0 0 0 0 0</pose>', "bad-robot", "length 0"),
         ('<pose rotation_format="matrix">0 0 0 0 0 0</pose>', "bad-robot", "rotation_format"),

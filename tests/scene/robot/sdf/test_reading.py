@@ -260,12 +260,86 @@ def test_a_file_that_is_refused(tmp_path: Path, text: str, code: str, words: str
     assert words in str(caught.value)
 
 
-def test_unknown_elements_are_named(tmp_path: Path) -> None:
-    text = sdf(model("m", '<link name="a"><colision/><mine:x/></link>'))
-    _, issues = read(tmp_path, text)
-    assert [issue.message for issue in issues] == [
-        "line 3: unknown <colision> in <link> (did you mean 'collision'?): ignored"
-    ]
+MISSPELT = [
+    ("<link name='a'><colision/></link>", "<link>: unknown colision (did you mean collision?)"),
+    ("<lnk name='a'/>", "<model>: unknown lnk (did you mean link?)"),
+    ("<self_colide>true</self_colide>", "<model>: unknown self_colide"),
+    ("<selfCollide>true</selfCollide>", "<model>: unknown selfCollide"),
+    ("<link name='a'/><pose relativ_to='a'/>", "attribute of <pose>: unknown relativ_to"),
+    ("<incude><uri>m</uri></incude>", "<model>: unknown incude (did you mean include?)"),
+]
+
+
+@pytest.mark.parametrize(("inside", "said"), MISSPELT)
+def test_a_misspelt_name_is_refused(tmp_path: Path, inside: str, said: str) -> None:
+    code, message = refusal(tmp_path, sdf(model("m", inside)))
+    assert code == "misspelt"
+    assert said in message
+
+
+def test_a_misspelt_name_in_a_collision_refuses_its_body(tmp_path: Path) -> None:
+    for inside in ("<pse>1 0 0 0 0 0</pse>", "<surface><contat/></surface>"):
+        part = BOX.replace("<geometry>", f"{inside}<geometry>")
+        robot, _ = read(tmp_path, sdf(model("m", link("a", inside=part))))
+        (collision,) = robot.links["m::a"].collisions
+        assert isinstance(collision.geometry, RefusedShape)
+        assert collision.geometry.code == "misspelt"
+
+
+SIZE = "<size>1 1 1</size>"
+START = "<initial_position>1</initial_position>"
+UNREAD = [
+    ("<mine:x/>", "<model>: mine:x is not read"),
+    ("<scale>2 2 2</scale>", "<model>: scale is not read"),
+    ("<drake:joint name='j'/>", "<model>: drake:joint is not read"),
+    ("<link name='b'><fence/></link>", "<link>: fence is not read"),
+    ("<link name='b'><origin>1 0 0</origin></link>", "<link>: origin is not read"),
+    ("<link name='b' pose='1'/>", "attribute of <link>: pose is not read"),
+    (link("b", inside=BOX.replace("<size>", "<size unit='mm'>")), "attribute of <size>: unit is"),
+    (link("b", inside=BOX.replace(SIZE, SIZE + "<scale>2</scale>")), "<box>: scale is not read"),
+    (link("b", inside=BOX.replace("<geom", "<offset>1</offset><geom")), "offset is not read"),
+    ("<link name='b'/><pose mirror='x'/>", "attribute of <pose>: mirror is not read"),
+    (
+        f"<plugin name='p'><model><link>{BOX}</link></model></plugin>",
+        "<link>: the collision in it is not read",
+    ),
+    ("<frame name='f'><offset/></frame>", "<frame>: offset is not read"),
+    (
+        link("b") + joint("j", "a", "b", "revolute", axis(inside=START)),
+        "<axis>: initial_position is not read",
+    ),
+    (link("b") + joint("j", "a", "b", inside="<drake:mimic/>"), "<joint>: drake:mimic is not read"),
+]
+
+
+@pytest.mark.parametrize(("inside", "said"), UNREAD)
+def test_what_may_hold_or_move_a_body_blocks_a_pass(tmp_path: Path, inside: str, said: str) -> None:
+    _, issues = read(tmp_path, sdf(model("m", link("a"), inside)))
+    assert [issue.code for issue in issues] == ["unread"]
+    assert said in issues[0].message
+
+
+def test_a_stored_insertion_blocks_a_pass(tmp_path: Path) -> None:
+    stored = "<state world_name='w'><insertions>{}</insertions></state>"
+    cube = model("m", link("a"))
+    assert codes(tmp_path, world(cube, stored.format(""))) == []
+    assert codes(tmp_path, world(cube, stored.format(model("n", link("a"))))) == ["unread"]
+
+
+HARMLESS = [
+    "<plugin name='p'><pose>1 0 0 0 0 0</pose></plugin>",
+    "<static>true</static><allow_auto_disable>1</allow_auto_disable><enable_wind>0</enable_wind>",
+    "<scale>1 1 1</scale><selfCollide>false</selfCollide><gripper name='g'/>",
+    "<link name='b'><inertial><pose>1</pose></inertial><sensor/><light/><static>1</static></link>",
+    link("b", inside=BOX.replace("<geom", "<max_contacts>1</max_contacts><laser_retro/><geom")),
+    link("b", inside=BOX.replace("<geom", "<surface><friction><ode/></friction></surface><geom")),
+    "<drake:collision_filter_group name='g'/>",
+]
+
+
+@pytest.mark.parametrize("inside", HARMLESS)
+def test_what_places_nothing_is_no_issue(tmp_path: Path, inside: str) -> None:
+    assert read(tmp_path, sdf(model("m", link("a"), inside)))[1] == ()
 
 
 def test_what_is_placed_by_chance_or_a_script(tmp_path: Path) -> None:
@@ -276,10 +350,20 @@ def test_what_is_placed_by_chance_or_a_script(tmp_path: Path) -> None:
     assert "stored-state" in [issue.code for issue in scene.issues]
 
 
-def test_a_simplified_mesh_is_named(tmp_path: Path) -> None:
-    mesh = '<mesh optimization="convex_hull"><uri>m.stl</uri></mesh>'
-    _, (warning,) = read(tmp_path, sdf(model("m", link("a", inside=shape(mesh)))))
-    assert warning.code == "simplified-mesh"
+def test_a_mesh_that_a_simulator_replaces(tmp_path: Path) -> None:
+    """By its hull, which is checked, or by parts that nobody knows."""
+    mesh = '<mesh optimization="{}"><uri>m.stl</uri></mesh>'
+    for how, hull, blocking in (
+        ("", False, []),
+        ("convex_hull", True, []),
+        ("convex_decomposition", False, ["unread"]),
+    ):
+        inside = shape(mesh.format(how))
+        robot, issues = read(tmp_path, sdf(model("m", link("a", inside=inside))))
+        geometry = robot.links["m::a"].collisions[0].geometry
+        assert isinstance(geometry, MeshReference)
+        assert geometry.hull == hull
+        assert [issue.code for issue in issues] == blocking
 
 
 def test_too_many_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
