@@ -13,6 +13,9 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
 
+_VERSION = "2.0"
+_SHOWN = 3  # names in a message
+
 
 def parse_document(data: memoryview) -> dict[str, Any]:
     """The JSON of a glTF file. Raises MeshFileError."""
@@ -26,6 +29,10 @@ def parse_document(data: memoryview) -> dict[str, Any]:
     version = document["asset"].get("version")
     if not isinstance(version, str) or not version.startswith("2."):
         raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
+    least = document["asset"].get("minVersion", _VERSION)
+    if least != _VERSION:
+        message = f"the file needs glTF version {least!r}: {_VERSION} is read"
+        raise MeshFileError("unsupported-feature", message)
     return document
 
 
@@ -41,6 +48,13 @@ def _json(text: str) -> Any:
         ) from None
     except RecursionError:
         raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
+
+
+def shown(names: Sequence[str]) -> str:
+    """Return the first names, and how many there are."""
+    if len(names) <= _SHOWN:
+        return ", ".join(names)
+    return f"{', '.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"
 
 
 class NodeGraph:
@@ -81,6 +95,27 @@ class NodeGraph:
             matrix = multiply(self.matrix(parent), matrix)
             node = parent
         return matrix
+
+    def unclear_scene(self) -> bool:
+        """Say whether the file does not tell which of its scenes counts."""
+        return "scene" not in self._document and len(items(self._document, "scenes")) > 1
+
+    def left_out(self) -> str:
+        """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
+        drawn, waiting = set(), self.roots()
+        while waiting:
+            node = waiting.pop()
+            if node not in drawn:
+                drawn.add(node)
+                waiting += [child for child, _ in self.children(node)]
+        lost = [n for n in range(len(self._nodes)) if n not in drawn and self.mesh_of(n) >= 0]
+        used = {self.mesh_of(node) for node in range(len(self._nodes))}
+        unused = len(self._meshes) - len(used - {-1})
+        said = (
+            [f"{shown([self._name(node) for node in lost])} outside of the scene"] if lost else []
+        )
+        said += [f"{unused} meshes that no node has"] if unused else []
+        return "; ".join(said)
 
     def roots(self) -> list[int]:
         """Of the default scene; without scenes, the nodes that are no children."""
