@@ -12,6 +12,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from satcheck.core import Mesh
+from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
@@ -26,6 +28,7 @@ from satcheck.scene.loading.gltf_buffers import (
     member,
     split_glb,
 )
+from satcheck.scene.loading.gltf_colliders import UPRIGHT, Collider, Colliders, refuse_skew
 from satcheck.scene.loading.gltf_meshes import Meshes, Shape, Skin
 from satcheck.scene.loading.gltf_nodes import NodeGraph, parse_document, shown, trs_placement
 from satcheck.scene.loading.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
@@ -33,11 +36,15 @@ from satcheck.scene.loading.placing import Instance, multiply, raw_scene, tidy_n
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
     RawMesh,
+    RawNode,
+    RawPart,
+    RawRule,
     RawScene,
     Refusal,
 )
 from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.read_options import GeometryKind
 
 # Extensions that move all of the geometry even where they are optional.
 _MOVING = frozenset({"CESIUM_RTC"})
@@ -51,8 +58,11 @@ def read_gltf(
     binary: bool,
     allow_outside: bool = False,
     isolated: bool = False,
+    geometry: GeometryKind | None = None,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
+
+    geometry: `collision`: its colliders, and the nodes that have one.
 
     directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
     binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
@@ -68,7 +78,18 @@ def read_gltf(
     accessors = Accessors(document, views, work)
     meshes = Meshes(document, accessors, work)
     graph = NodeGraph(document, work)
-    scene = _Scene(document, accessors, meshes, graph, work).read()
+    colliders = Colliders(document, unknown)
+    reader = _Scene(document, accessors, meshes, graph, work)
+    if geometry == "collision":
+        scene = reader.colliders(colliders)
+    else:
+        scene = reader.read()
+        if colliders.any():
+            message = "meshes are checked, and no colliders (--geometry collision checks them)"
+            if geometry is None:
+                unknown.note(("colliders", ""), message)
+            else:
+                scene = replace(scene, warnings=(*scene.warnings, ("left-out", message)))
     if graph.unclear_scene():
         unknown.note(
             ("scene", ""), "the file has several scenes and no default: only the first is read"
@@ -138,6 +159,51 @@ class _Scene:
             return scene
         message = f"{shown(bare)} of lines or points alone, which have no area"
         return replace(scene, warnings=(("left-out", message),))
+
+    def colliders(self, colliders: Colliders) -> RawScene:
+        """The colliders of the nodes. Those of one rigid body may touch each other."""
+        placed = self._graph.placed(colliders.has)
+        if not placed:
+            raise MeshFileError("empty-mesh", "no node of the scene has a collider")
+        parts, nodes = [], []
+        for number, one in enumerate(placed):
+            collider = colliders.of(one.key)
+            content, matrix = self._content(collider, one.matrix)
+            body = self._graph.nearest(one.key, colliders.moves)
+            parts.append(RawPart(f"collider{number}", content))
+            groups = () if body is None else (f"rigid body {body}",)
+            nodes.append(RawNode(one.path, number, matrix, groups=groups))
+        bodies = dict.fromkeys(group for node in nodes for group in node.groups)
+        rules = [
+            RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
+        ]
+        note = "left-out", "colliders are checked: meshes that are no collider have no body"
+        return RawScene(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
+
+    def _content(
+        self, collider: Collider, matrix: Transform | None
+    ) -> tuple[RawMesh | Primitive | Refusal, Transform | None]:
+        """The mesh or shape of a collider, and its placement."""
+        shape = collider.shape
+        try:
+            if isinstance(shape, Refusal):
+                return shape, matrix
+            if isinstance(shape, int):
+                key = Shape(shape) if collider.node is None else self._shape(collider.node)
+                mesh = self._mesh(key)
+                if collider.hull and isinstance(mesh, RawMesh):
+                    hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
+                    vertices, triangles = hull.to_bytes()
+                    mesh = replace(mesh, vertices=vertices, triangles=triangles)
+                return mesh, None if key.skin is not None else matrix
+            if not isinstance(shape, Box):
+                matrix = multiply(matrix, UPRIGHT)
+                refuse_skew(shape, matrix)
+            return shape, matrix
+        except MeshFileError as error:
+            return Refusal(error.code, error.message), matrix
+        except (OverflowError, ValueError) as error:
+            return Refusal("bad-record", f"convex hull: {error}"), matrix
 
     def _shape(self, number: int) -> Shape:
         node, mesh = self._nodes[number], self._graph.mesh_of(number)
