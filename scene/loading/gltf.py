@@ -30,7 +30,7 @@ from satcheck.scene.loading.gltf_buffers import (
 )
 from satcheck.scene.loading.gltf_colliders import UPRIGHT, Collider, Colliders, refuse_skew
 from satcheck.scene.loading.gltf_meshes import Meshes, Shape, Skin
-from satcheck.scene.loading.gltf_nodes import NodeGraph, parse_document, shown, trs_placement
+from satcheck.scene.loading.gltf_nodes import NodeGraph, parse_document, trs_placement
 from satcheck.scene.loading.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
 from satcheck.scene.loading.placing import Instance, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
@@ -42,7 +42,7 @@ from satcheck.scene.loading.raw_mesh import (
     RawScene,
     Refusal,
 )
-from satcheck.scene.loading.unknown_names import UnknownNames
+from satcheck.scene.loading.unknown_names import UnknownNames, shown
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.read_options import GeometryKind
 

@@ -12,9 +12,9 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
+from satcheck.scene.loading.unknown_names import shown
 
 _VERSION = "2.0"
-_SHOWN = 3  # names in a message
 
 
 def parse_document(data: memoryview) -> dict[str, Any]:
@@ -48,13 +48,6 @@ def _json(text: str) -> Any:
         ) from None
     except RecursionError:
         raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
-
-
-def shown(names: Sequence[str]) -> str:
-    """Return the first names, and how many there are."""
-    if len(names) <= _SHOWN:
-        return ", ".join(names)
-    return f"{', '.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"
 
 
 class NodeGraph:
