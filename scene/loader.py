@@ -101,7 +101,8 @@ def load_scene(
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     document_ids = iter(plain_ids([path for path in given if kind_of(path) == "document"]))
     alone = sum(_has_bodies(path, scenes) for path in given) == 1
-    split = split or ("nodes" if alone else "none")
+    # Colliders are exact shapes, which no mesh of a whole file holds.
+    split = split or ("nodes" if alone or reading.geometry == "collision" else "none")
     if split == "none":
         files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
     for path in given:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
-_CHOSEN = frozenset(("usd",))  # formats whose parts depend on options
+_CHOSEN = frozenset(("usd", "glb", "gltf"))  # formats whose parts depend on options
 MODEL_SUFFIX = ".xml"  # of MJCF files
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048

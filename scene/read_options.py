@@ -14,6 +14,8 @@ Purpose = Literal["render", "proxy", "guide"]
 # The options that count for files of a format.
 OPTIONS_OF: dict[str, tuple[str, ...]] = {
     "usd": ("time", "geometry", "purpose"),
+    "glb": ("geometry",),
+    "gltf": ("geometry",),
     "step": ("chord_tolerance", "angular_tolerance"),
     "ifc": ("chord_tolerance", "angular_tolerance"),
 }

@@ -94,10 +94,17 @@ class SceneBuilder:
         self._taken_apart |= len(parts.nodes) > 1
         units = (node.file.units for node in parts.nodes if isinstance(node.file, MeshFile))
         self._begin("mesh", path, next(units, None))
+        groups = self._document_groups.of(parts)
+        ids = {}
         for node in parts.nodes:
             wanted = _node_id(node.path, id_, alone)
             title = wanted if node.path else name
-            self._add(wanted, title, path, node.file, node.transform, node=node.path)
+            own = tuple(groups[group] for group in node.groups)
+            place = node.path if node.shape is None else None  # as in a document
+            ids[node.path] = self._add(
+                wanted, title, path, node.file, node.transform, own, shape=node.shape, node=place
+            )
+        self._document_rules += document_rules(parts, ids, groups, path)
 
     def add_document(self, id_: str, path: str, location: Path, alone: bool) -> None:
         """alone: as in `add_nodes`."""

@@ -85,6 +85,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
                 str(source.location.parent),
                 binary=source.format == "glb",
                 allow_outside=allowed.allow_outside,
+                geometry=allowed.options.geometry,
             )
             if not flat:
                 return scene

@@ -166,4 +166,5 @@ def _read(request: Request) -> RawScene:
         binary=request.format == "glb",
         allow_outside=request.allow_outside,
         isolated=True,
+        geometry=request.options.geometry,
     )

@@ -94,7 +94,20 @@ class _Document:
             )
             parts.append(RawPart(str(number), mesh))
             placements.append(RawNode(node.path, number, node.matrix))
-        return RawScene(tuple(parts), tuple(placements))
+        return RawScene(tuple(parts), tuple(placements), self._beside())
+
+    def _beside(self) -> tuple[tuple[str, str], ...]:
+        """What stands beside the visual scene and is not read."""
+        warnings = []
+        scene = self._root.find("scene")
+        if scene is not None and (physics := scene.find("instance_physics_scene")) is not None:
+            message = (
+                f"line {physics.line}: <instance_physics_scene> is not read; it may hold bodies"
+            )
+            warnings.append(("unread", message))
+        if self._root.find("library_animations") is not None:
+            warnings.append(("time-sampled", "the file is animated; checked as stored"))
+        return tuple(warnings)
 
     def _units(self) -> str:
         asset = self._root.find("asset")

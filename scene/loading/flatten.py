@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from satcheck.core import Mesh, largest_stretch
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.issue import BLOCKING
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene, Refusal
 
@@ -21,7 +22,7 @@ def flattened(scene: RawScene) -> RawMesh:
     A mesh of lines or points only adds a warning. Raises MeshFileError if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
-    warnings = dict(scene.warnings)
+    warnings = list(scene.warnings)
     placed = []
     for node in scene.nodes:
         mesh = scene.parts[node.part].mesh
@@ -30,7 +31,7 @@ def flattened(scene: RawScene) -> RawMesh:
         elif not isinstance(mesh, Refusal):
             raise MeshFileError("unsupported-feature", _SHAPES)
         elif mesh.code == NO_SURFACE:
-            warnings["ignored-geometry"] = mesh.message
+            warnings.append(("ignored-geometry", mesh.message))
         else:
             raise MeshFileError(mesh.code, mesh.message)
     total = sum(len(mesh.triangles) // 12 for mesh, _ in placed)
@@ -50,7 +51,7 @@ def flattened(scene: RawScene) -> RawMesh:
         [(mesh.vertices, mesh.triangles, matrix) for mesh, matrix in placed]
     )
     for mesh in meshes:
-        warnings |= dict(mesh.warnings)
+        warnings += mesh.warnings
     return RawMesh(
         vertices=vertices,
         triangles=triangles,
@@ -58,10 +59,16 @@ def flattened(scene: RawScene) -> RawMesh:
         decimals=max(mesh.decimals for mesh in meshes),
         significant=max(mesh.significant for mesh in meshes),
         units=meshes[0].units,
-        warnings=tuple(warnings.items()),
+        warnings=_once(warnings),
         surface_tolerance=max(mesh.surface_tolerance * _stretch(matrix) for mesh, matrix in placed),
         rounding=max(mesh.rounding * _stretch(matrix) for mesh, matrix in placed),
     )
+
+
+def _once(warnings: Sequence[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """Return the last warning of each code, but all that block a pass."""
+    kept = {(code, said if code in BLOCKING else ""): (code, said) for code, said in warnings}
+    return tuple(kept.values())
 
 
 def _stretch(matrix: Transform | None) -> float:

@@ -12,6 +12,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from satcheck.core import Mesh
+from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
@@ -26,40 +28,27 @@ from satcheck.scene.loading.gltf_buffers import (
     member,
     split_glb,
 )
-from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape, Skin
+from satcheck.scene.loading.gltf_colliders import UPRIGHT, Collider, Colliders, refuse_skew
+from satcheck.scene.loading.gltf_meshes import Meshes, Shape, Skin
 from satcheck.scene.loading.gltf_nodes import NodeGraph, parse_document, trs_placement
+from satcheck.scene.loading.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
 from satcheck.scene.loading.placing import Instance, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
     RawMesh,
+    RawNode,
+    RawPart,
+    RawRule,
     RawScene,
     Refusal,
 )
+from satcheck.scene.loading.unknown_names import UnknownNames, shown
 from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.read_options import GeometryKind
 
-# Extensions a file may require without changing where its triangles are.
-_HARMLESS_PREFIXES = (
-    "KHR_materials_",
-    "KHR_technique",
-    "KHR_texture_",
-    "KHR_lights_",
-    "KHR_xmp_",
-    "EXT_texture_",
-    "EXT_lights_",
-)
-_INSTANCING = "EXT_mesh_gpu_instancing"
-_READ = frozenset(
-    {
-        DRACO,
-        _INSTANCING,
-        "EXT_meshopt_compression",
-        "KHR_meshopt_compression",
-        "KHR_mesh_quantization",
-    }
-)
 # Extensions that move all of the geometry even where they are optional.
 _MOVING = frozenset({"CESIUM_RTC"})
-_ANIMATED = (("time-sampled", "the file is animated; checked as stored"),)
+_ANIMATED = ("time-sampled", "the file is animated; checked as stored")
 
 
 def read_gltf(
@@ -69,8 +58,11 @@ def read_gltf(
     binary: bool,
     allow_outside: bool = False,
     isolated: bool = False,
+    geometry: GeometryKind | None = None,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
+
+    geometry: `collision`: its colliders, and the nodes that have one.
 
     directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
     binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
@@ -78,18 +70,44 @@ def read_gltf(
     """
     text, chunk = split_glb(data) if binary else (data, None)
     document = parse_document(text)
+    unknown = UnknownNames()
     _check_extensions(document)
+    look_at(document, unknown)
     work = Work(isolated=isolated)
     views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
     accessors = Accessors(document, views, work)
     meshes = Meshes(document, accessors, work)
-    scene = _Scene(document, accessors, meshes, work).read()
-    return replace(scene, warnings=_ANIMATED) if items(document, "animations") else scene
+    graph = NodeGraph(document, work)
+    colliders = Colliders(document, unknown)
+    reader = _Scene(document, accessors, meshes, graph, work)
+    if geometry == "collision":
+        scene = reader.colliders(colliders)
+    else:
+        scene = reader.read()
+        if colliders.any():
+            message = "meshes are checked, and no colliders (--geometry collision checks them)"
+            if geometry is None:
+                unknown.note(("colliders", ""), message)
+            else:
+                scene = replace(scene, warnings=(*scene.warnings, ("left-out", message)))
+    if graph.unclear_scene():
+        unknown.note(
+            ("scene", ""), "the file has several scenes and no default: only the first is read"
+        )
+    animated = items(document, "animations") or ANIMATING & set(_names(document, "extensionsUsed"))
+    left_out = graph.left_out()
+    warnings = (
+        *scene.warnings,
+        *unknown.warnings(),
+        *([_ANIMATED] if animated else []),
+        *([("left-out", left_out)] if left_out else []),
+    )
+    return replace(scene, warnings=warnings)
 
 
 def _check_extensions(document: dict[str, Any]) -> None:
     for name in _names(document, "extensionsRequired"):
-        if name not in _READ and not name.startswith(_HARMLESS_PREFIXES):
+        if not EXTENSIONS.knows(name):
             raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
     for name in _names(document, "extensionsUsed"):
         if name in _MOVING:
@@ -103,15 +121,24 @@ def _names(document: dict[str, Any], key: str) -> list[str]:
     return names
 
 
+def _without_surface(mesh: RawMesh | Refusal) -> bool:
+    return isinstance(mesh, Refusal) and mesh.code == NO_SURFACE
+
+
 class _Scene:
     def __init__(
-        self, document: dict[str, Any], accessors: Accessors, meshes: Meshes, work: Work
+        self,
+        document: dict[str, Any],
+        accessors: Accessors,
+        meshes: Meshes,
+        graph: NodeGraph,
+        work: Work,
     ) -> None:
         self._work = work
         self._document = document
         self._accessors = accessors
         self._nodes = items(document, "nodes")
-        self._graph = NodeGraph(document, work)
+        self._graph = graph
         self._meshes = meshes
         self._copied = 0
 
@@ -122,11 +149,61 @@ class _Scene:
             for node in self._graph.drawn()
             for path, matrix in self._copies(node)
         ]
-        scene = raw_scene(placed, lambda shape: self._mesh_name(shape.mesh), self._mesh)
-        meshes = [part.mesh for part in scene.parts]
-        if all(isinstance(mesh, Refusal) and mesh.code == NO_SURFACE for mesh in meshes):
+        meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
+        solid = [one for one in placed if not _without_surface(meshes[one.key])]
+        if not solid:
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-        return scene
+        scene = raw_scene(solid, lambda shape: self._mesh_name(shape.mesh), meshes.__getitem__)
+        bare = [one.path for one in placed if _without_surface(meshes[one.key])]
+        if not bare:
+            return scene
+        message = f"{shown(bare)} of lines or points alone, which have no area"
+        return replace(scene, warnings=(("left-out", message),))
+
+    def colliders(self, colliders: Colliders) -> RawScene:
+        """The colliders of the nodes. Those of one rigid body may touch each other."""
+        placed = self._graph.placed(colliders.has)
+        if not placed:
+            raise MeshFileError("empty-mesh", "no node of the scene has a collider")
+        parts, nodes = [], []
+        for number, one in enumerate(placed):
+            collider = colliders.of(one.key)
+            content, matrix = self._content(collider, one.matrix)
+            body = self._graph.nearest(one.key, colliders.moves)
+            parts.append(RawPart(f"collider{number}", content))
+            groups = () if body is None else (f"rigid body {body}",)
+            nodes.append(RawNode(one.path, number, matrix, groups=groups))
+        bodies = dict.fromkeys(group for node in nodes for group in node.groups)
+        rules = [
+            RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
+        ]
+        note = "left-out", "colliders are checked: meshes that are no collider have no body"
+        return RawScene(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
+
+    def _content(
+        self, collider: Collider, matrix: Transform | None
+    ) -> tuple[RawMesh | Primitive | Refusal, Transform | None]:
+        """The mesh or shape of a collider, and its placement."""
+        shape = collider.shape
+        try:
+            if isinstance(shape, Refusal):
+                return shape, matrix
+            if isinstance(shape, int):
+                key = Shape(shape) if collider.node is None else self._shape(collider.node)
+                mesh = self._mesh(key)
+                if collider.hull and isinstance(mesh, RawMesh):
+                    hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
+                    vertices, triangles = hull.to_bytes()
+                    mesh = replace(mesh, vertices=vertices, triangles=triangles)
+                return mesh, None if key.skin is not None else matrix
+            if not isinstance(shape, Box):
+                matrix = multiply(matrix, UPRIGHT)
+                refuse_skew(shape, matrix)
+            return shape, matrix
+        except MeshFileError as error:
+            return Refusal(error.code, error.message), matrix
+        except (OverflowError, ValueError) as error:
+            return Refusal("bad-record", f"convex hull: {error}"), matrix
 
     def _shape(self, number: int) -> Shape:
         node, mesh = self._nodes[number], self._graph.mesh_of(number)
@@ -143,7 +220,7 @@ class _Scene:
 
     def _copies(self, node: Instance[int]) -> list[tuple[str, Transform | None]]:
         """(path, matrix) of a node, or of each GPU instance of the node."""
-        instancing = extension(self._nodes[node.key], _INSTANCING)
+        instancing = extension(self._nodes[node.key], INSTANCING)
         if "skin" in self._nodes[node.key]:  # its joints place it
             return [(node.path, None)]
         if instancing is None:

@@ -9,6 +9,7 @@ from satcheck._native.readers import ReadError, unpack_meshopt
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
+from satcheck.scene.loading.gltf_vocabulary import MESHOPT
 from satcheck.scene.path_kind import followed, is_file
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
@@ -16,8 +17,6 @@ _CHUNK_HEADER = 8  # length, type
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
 
-# Both pack a buffer view in the same way.
-_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _MODES = ("ATTRIBUTES", "TRIANGLES", "INDICES")
 _FILTERS = ("NONE", "EXPONENTIAL", "QUATERNION")  # the others are for normals and colours
 _BYTES_OF_NUMBER = 8
@@ -146,7 +145,7 @@ class BufferViews:
 
     def view(self, number: int) -> memoryview:
         view = member(self._views, number, "buffer view")
-        for name in _MESHOPT:
+        for name in MESHOPT:  # both pack in the same way
             packed = extension(view, name)
             if packed is not None:
                 if number not in self._unpacked:
@@ -158,7 +157,7 @@ class BufferViews:
         """A view whose floats are packed as integers of 24 bits times a power of two: these words,
         with the exponent in the highest byte; None: another view."""
         view = member(self._views, number, "buffer view")
-        for name in _MESHOPT:
+        for name in MESHOPT:  # both pack in the same way
             packed = extension(view, name)
             if packed is not None and packed.get("filter") == "EXPONENTIAL":
                 return memoryview(self._unpack(number, view, {**packed, "filter": "NONE"}))

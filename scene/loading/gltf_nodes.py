@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NoReturn
 
 from satcheck.core.transform import Transform, placed, quaternion_matrix
@@ -12,7 +12,10 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
+from satcheck.scene.loading.unknown_names import shown
 from satcheck.scene.words import why_unreadable
+
+_VERSION = "2.0"
 
 
 def parse_document(data: memoryview) -> dict[str, Any]:
@@ -27,6 +30,10 @@ def parse_document(data: memoryview) -> dict[str, Any]:
     version = document["asset"].get("version")
     if not isinstance(version, str) or not version.startswith("2."):
         raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
+    least = document["asset"].get("minVersion", _VERSION)
+    if least != _VERSION:
+        message = f"the file needs glTF version {least!r}: {_VERSION} is read"
+        raise MeshFileError("unsupported-feature", message)
     return document
 
 
@@ -58,32 +65,69 @@ class NodeGraph:
 
     def drawn(self) -> list[Instance[int]]:
         """The nodes with a mesh, by their numbers, with world matrix and path."""
+        return self.placed(lambda node: self.mesh_of(node) >= 0)
+
+    def placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
+        """The chosen nodes of the scene, as in `drawn`."""
         return instances(
             [(root, self.matrix(root)) for root in self.roots()],
             children=self.children,
-            has_mesh=lambda node: self.mesh_of(node) >= 0,
+            has_mesh=chosen,
             name=self._name,
             kind="node",
         )
 
     def world(self, node: int) -> Transform | None:
         """The world matrix of a node; None: the identity."""
+        matrix = self.matrix(node)
+        for parent in self._above(node):
+            self._work.spend(len(IDENTITY))
+            matrix = multiply(self.matrix(parent), matrix)
+        return matrix
+
+    def nearest(self, node: int, chosen: Callable[[int], bool]) -> int | None:
+        """The first chosen node from a node upwards; None: there is none."""
+        return next(filter(chosen, (node, *self._above(node))), None)
+
+    def _above(self, node: int) -> Iterator[int]:
+        """The nodes around a node, from the inside."""
         if self._parents is None:
             self._parents = {
                 child: parent
                 for parent in range(len(self._nodes))
                 for child, _ in self.children(parent)
             }
-        matrix = self.matrix(node)
         seen = {node}
         while (parent := self._parents.get(node)) is not None:
             if parent in seen:
                 raise MeshFileError("reference-cycle", f"node {parent} contains itself: a cycle")
             seen.add(parent)
-            self._work.spend(len(IDENTITY))
-            matrix = multiply(self.matrix(parent), matrix)
+            yield parent
             node = parent
-        return matrix
+
+    def unclear_scene(self) -> bool:
+        """Say whether the file does not tell which of its scenes counts."""
+        return "scene" not in self._document and len(items(self._document, "scenes")) > 1
+
+    def left_out(self) -> str:
+        """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
+        drawn, waiting = set(), self.roots()
+        while waiting:
+            node = waiting.pop()
+            if node not in drawn:
+                drawn.add(node)
+                waiting += [child for child, _ in self.children(node)]
+        meshes = {
+            number: node["mesh"]
+            for number, node in enumerate(self._nodes)
+            if isinstance(node, dict) and type(node.get("mesh")) is int
+        }
+        used = set(meshes.values())
+        lost = [f"node {number}" for number in meshes if number not in drawn]
+        unused = [f"mesh {number}" for number in range(len(self._meshes)) if number not in used]
+        said = [f"{shown(lost)} outside of the scene"] if lost else []
+        said += [f"{shown(unused)} without a node"] if unused else []
+        return "; ".join(said)
 
     def roots(self) -> list[int]:
         """Of the default scene; without scenes, the nodes that are no children."""

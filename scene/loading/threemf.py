@@ -16,10 +16,22 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import IO
 
+from msgspec.structs import replace
+
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.loading.slicer_config import BAMBU, PRUSA, Volume, volumes
+from satcheck.scene.loading.threemf_vocabulary import (
+    ATTRIBUTES,
+    CHILDREN,
+    CORE,
+    CURA_VOLUMES,
+    UNITS,
+    short,
+)
+from satcheck.scene.loading.unknown_names import UnknownNames, shown
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
@@ -33,16 +45,8 @@ from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
-_CORE = frozenset(
-    {
-        "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
-        "http://schemas.microsoft.com/3dmanufacturing/2013/01",
-    }
-)
-_OBJECT = frozenset(f"{namespace} object" for namespace in _CORE)
-_BUILD = frozenset(f"{namespace} build" for namespace in _CORE)
-# Any other element of the core namespace in an object or in the build is misspelt.
-_KNOWN = frozenset({"mesh", "vertices", "triangles", "components", "metadatagroup", "metadata"})
+_OBJECT = frozenset(f"{namespace} object" for namespace in CORE)
+_BUILD = frozenset(f"{namespace} build" for namespace in CORE)
 _PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 # Extensions that a model may require. They do not change its triangles.
 _HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
@@ -67,10 +71,14 @@ class _Package:
         self._package = package
         self._names = {name.lower(): name for name in package.namelist()}
         self._models: dict[str, Model] = {}
+        self._used: set[tuple[str, str]] = set()
+        self._settings: list[str] = []
+        self._unknown = UnknownNames()
 
     def read(self) -> RawScene:
         start = self._start_part()
         root = self._model(start)
+        self._apply_config(root)
         if not root.items:
             raise MeshFileError("empty-mesh", "empty mesh: the build has no items")
         nodes = instances(
@@ -85,11 +93,46 @@ class _Package:
         )
         if not nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the build has no triangles")
-        return raw_scene(
+        scene = raw_scene(
             nodes,
             lambda key: self._object(*key).name,
             lambda key: self._object(*key).mesh(root.unit),
         )
+        left_out = self._left_out()
+        unread = [each for model in self._models.values() for each in model.unread]
+        return replace(scene, warnings=(*unread, *self._unknown.warnings(), *left_out))
+
+    def _left_out(self) -> list[tuple[str, str]]:
+        """Notes about what has no body."""
+        unused = [
+            f"object {id_!r}"
+            for part, model in self._models.items()
+            for id_ in model.objects
+            if (part, id_) not in self._used
+        ]
+        said = [f"{shown(unused)} not in the build"] if unused else []
+        said += [f"{shown(self._settings)} of a slicer, which print nothing"] * bool(self._settings)
+        return [("left-out", "; ".join(said))] if said else []
+
+    def _apply_config(self, root: Model) -> None:
+        """Leave out the volumes that the config of a slicer makes settings; refuse an object that
+        one of them is taken away from."""
+        for name in (PRUSA, BAMBU):
+            if name not in self._names:
+                continue
+            with self._open(name) as stream:
+                config = read_elements(stream)
+            for volume in volumes(config):
+                object_ = root.objects.get(volume.owner)
+                if object_ is None or volume.negative or not object_.leave_out(volume):
+                    what = "has a negative volume" if volume.negative else "has a modifier"
+                    message = f"object {volume.owner!r} {what}, which is not read"
+                    if object_ is None:
+                        raise MeshFileError("unsupported-feature", message)
+                    object_.refusal = MeshFileError("unsupported-feature", message)
+                    object_.references.clear()
+                else:
+                    self._settings.append(f"a volume of object {volume.owner!r}")
 
     def _start_part(self) -> str:
         relationships = self._names.get("_rels/.rels")
@@ -102,6 +145,9 @@ class _Package:
             for element in root.below()
             if element.tag == "Relationship" and element.attributes.get("Type") == _START_PART
         ]
+        if len(set(targets)) > 1:
+            message = f"of the start parts {', '.join(targets)} only the first is read"
+            self._unknown.note(("start part", ""), message)
         return part_name(targets[0]) if targets else _DEFAULT_PART
 
     def _open(self, part: str) -> IO[bytes]:
@@ -123,6 +169,7 @@ class _Package:
         return model
 
     def _object(self, part: str, id_: str) -> Object:
+        self._used.add((part, id_))
         object_ = self._model(part).objects.get(id_)
         if object_ is None:
             raise MeshFileError("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
@@ -148,6 +195,20 @@ class Object:
     @property
     def has_mesh(self) -> bool:
         return self.refusal is not None or bool(self.triangles)
+
+    def leave_out(self, volume: Volume) -> bool:
+        """Drop a volume that is no material. False: it is none of this object."""
+        if volume.triangles is None:
+            kept = [each for each in self.references if each.id != volume.part]
+            dropped = len(kept) < len(self.references)
+            self.references = kept
+            return dropped
+        first, last = volume.triangles
+        if not first <= last < len(self.triangles) // 3:
+            return False
+        # The triangles after it keep their numbers: a triangle of one corner has no area.
+        self.triangles[3 * first : 3 * last + 3] = array("I", [0]) * (3 * (last - first + 1))
+        return True
 
     def mesh(self, unit: str) -> RawMesh | Refusal:
         if self.refusal is not None:
@@ -176,6 +237,7 @@ class Model:
     unit: str = _DEFAULT_UNIT
     objects: dict[str, Object] = field(default_factory=dict)
     items: list[Reference] = field(default_factory=list)
+    unread: tuple[tuple[str, str], ...] = ()
 
 
 def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = False) -> Model:
@@ -200,6 +262,8 @@ class _ModelReader:
         self._model = Model()
         self._object: Object | None = None
         self._in_object = self._in_build = False
+        self._unknown = UnknownNames()
+        self._around: list[str] = []  # the elements that are open
         self._parser = guarded_parser(_ENCODINGS, namespaces=not undeclared_prefixes)
         self._prefixes: dict[str | None, str] = {}
         self._undeclared: UndeclaredPrefixes | None = None
@@ -220,6 +284,7 @@ class _ModelReader:
 
     def read(self, stream: IO[bytes]) -> Model:
         parse_stream(self._parser, stream)
+        self._model.unread = self._unknown.warnings()
         for id_, object_ in self._model.objects.items():
             if object_.is_empty:
                 object_.refusal = MeshFileError("empty-mesh", f"object {id_!r} has no triangles")
@@ -241,7 +306,8 @@ class _ModelReader:
 
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
-        handler = self._handlers.get(local) if namespace in _CORE else None
+        self._look(short(name), attributes)
+        handler = self._handlers.get(local) if namespace in CORE else None
         if handler is None:
             self._on_other(namespace, local)
             return
@@ -252,7 +318,22 @@ class _ModelReader:
                 raise
             self._object.refusal = self._object.refusal or error
 
+    def _look(self, name: str, attributes: dict[str, str]) -> None:
+        """Gather the element, if it is unknown there, and its attributes."""
+        around = self._around[-1] if self._around else ""
+        self._around.append(name)
+        place = f"{self._part}, line {self._parser.CurrentLineNumber}"
+        if around in CHILDREN:
+            self._unknown.look(CHILDREN[around], (name,), f"in {around}", f"{place}: <{around}>")
+        if name in ATTRIBUTES:
+            given = [short(key) for key in attributes]
+            self._unknown.look(ATTRIBUTES[name], given, name, f"{place}: <{name}>")
+        elif name == "metadata" and self._in_object and attributes.get("name") in CURA_VOLUMES:
+            message = f"{place}: {attributes['name']} is not read; it may make a body none"
+            self._unknown.note((name, attributes["name"]), message)
+
     def _on_end(self, name: str) -> None:
+        self._around.pop()
         if name in _OBJECT:
             self._in_object = False
         elif name in _BUILD:
@@ -260,14 +341,12 @@ class _ModelReader:
 
     def _on_other(self, namespace: str, local: str) -> None:
         """Refuses other elements unless they are known to hold and place no geometry."""
-        if local == "build" and namespace in _CORE:
+        if local == "build" and namespace in CORE:
             self._in_build = True
         elif not (self._in_object or self._in_build):
             return
         elif local in _OTHER_GEOMETRY:
             self._refuse(f"<{local}> is not read")
-        elif namespace in _CORE and local not in _KNOWN:
-            self._refuse(f"<{local}> is unknown: it could be geometry")
         elif namespace.startswith(UNDECLARED):
             prefix = namespace.removeprefix(UNDECLARED)
             self._refuse(f"<{prefix}:{local}> could be geometry: its prefix is not declared")
@@ -291,6 +370,10 @@ class _ModelReader:
 
     def _on_model(self, attributes: dict[str, str]) -> None:
         self._model.unit = attributes.get("unit", _DEFAULT_UNIT)
+        if self._model.unit not in UNITS:
+            known = ", ".join(sorted(UNITS))
+            message = f"the unit is {self._model.unit!r}, none of {known}"
+            raise self._fail("bad-record", message)
         for prefix in attributes.get("requiredextensions", "").split():
             known = self._undeclared.namespace(prefix) if self._undeclared else None
             uri = known or self._prefixes.get(prefix, prefix)

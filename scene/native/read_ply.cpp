@@ -185,6 +185,39 @@ bool has_corners(const PlyElement& element) {
   return std::any_of(element.properties.begin(), element.properties.end(), is_corner_list);
 }
 
+bool is_among(const std::string& name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Lists of data beside the corners of a face, or beside a vertex.
+bool is_harmless_list(const std::string& name) {
+  return is_among(name, {"texcoord", "texcoords", "texture_coordinates", "colors", "color", "normals", "flags", "edge_flags"});
+}
+
+// Elements that have no surface, whatever their properties.
+bool is_harmless_element(const std::string& name) {
+  return is_among(name, {"edge", "material", "camera", "obj_info", "range_grid", "texture", "multi_texture_face"});
+}
+
+// What may hold triangles, or the size of what is at a vertex, under other names.
+void note_unread(const PlyElement& element, MeshData& mesh) {
+  if (element.count == 0 || is_harmless_element(element.name)) return;
+  const bool known = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+  std::string unread;
+  bool splats = false;
+  for (const PlyProperty& property : element.properties) {
+    const bool is_list = property.is_list && !is_corner_list(property) && !is_harmless_list(property.name);
+    const bool is_index = !known && !is_float(property.type) && property.name.starts_with("v");
+    splats = splats || property.name == "scale_0" || property.name == "radius";
+    if (is_list || is_index) unread += (unread.empty() ? "" : ", ") + property.name;
+  }
+  if (!unread.empty()) {
+    mesh.warnings.push_back({code::unread, "element " + quoted(element.name) + ": " + unread + " is not read; it may be faces"});
+  } else if (element.name == "vertex" && splats) {
+    mesh.warnings.push_back({code::unread, "vertices have a size of their own, which is not read"});
+  }
+}
+
 // Calls `take` with the list of vertex numbers of each record of the element.
 template <class Records, class Take>
 void read_corners(Records& records, const PlyElement& element, std::int64_t vertex_count, std::int64_t lowest, Take take) {
@@ -278,6 +311,7 @@ MeshData read_body(Records records, const PlyHeader& header) {
   Polygons polygons;
   set_precision(mesh, header);
   for (const PlyElement& element : header.elements) {
+    note_unread(element, mesh);
     if (element.name == "vertex") {
       read_vertices(records, element, mesh);
     } else if (element.name == "face") {

@@ -52,6 +52,7 @@ inline constexpr const char* empty_mesh = "empty-mesh";
 inline constexpr const char* unsupported_feature = "unsupported-feature";
 inline constexpr const char* too_large = "too-large";
 inline constexpr const char* short_face = "short-face";
+inline constexpr const char* unread = "unread";
 inline constexpr const char* unknown_statement = "unknown-statement";
 inline constexpr const char* ignored_geometry = "ignored-geometry";
 }  // namespace code

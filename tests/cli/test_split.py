@@ -42,34 +42,19 @@ def test_units_of_a_file_are_those_of_lengths() -> None:
         assert found["gripper/palm", "payload"] == relation
 
 
-def test_a_node_of_lines_is_no_pass(tmp_path: Path) -> None:
+@pytest.mark.parametrize("mode", [0, 1])
+def test_a_node_of_lines_or_points_is_a_note(tmp_path: Path, mode: int) -> None:
     document, buffer = graphs.meshes("cube", "line")
-    document["meshes"][1]["primitives"] = [{"attributes": {"POSITION": 0}, "mode": 1}]
+    document["meshes"][1]["primitives"] = [{"attributes": {"POSITION": 0}, "mode": mode}]
     far = {"name": "c", "mesh": 0, "translation": [3, 0, 0]}
     document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}, far]
     document["scenes"] = [{"nodes": [0, 1, 2]}]
     path = tmp_path / "lines.glb"
     path.write_bytes(files.glb(document, buffer))
     ran = satcheck("--format", "json", str(path))
-    assert ran.code == 3
-    assert ran.document["summary"]["pairs"]["indeterminate"] == 2
-    assert [(issue["code"], issue["body"]) for issue in ran.document["issues"]] == [
-        ("no-surface", "b")
-    ]
-
-
-def test_a_cube_beside_a_node_of_lines_is_no_pass_in_a_table_either(tmp_path: Path) -> None:
-    document, buffer = graphs.meshes("cube", "line")
-    document["meshes"][1]["primitives"] = [{"attributes": {"POSITION": 0}, "mode": 0}]
-    document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}]
-    document["scenes"] = [{"nodes": [0, 1]}]
-    path = tmp_path / "points.glb"
-    path.write_bytes(files.glb(document, buffer))
-    ran = satcheck(str(path))
-    assert ran.code == satcheck("--format", "json", str(path)).code == 3
-    assert "b: could not be used, its 1 pair not checked" in ran.out
-    assert "[no-surface]" in ran.out
-    assert ran.out.endswith("INCOMPLETE: no collision was found, but 1 pair is indeterminate.\n")
+    assert ran.code == 0
+    assert [body["id"] for body in ran.document["bodies"]] == ["a", "c"]
+    assert [issue["code"] for issue in ran.document["issues"]] == ["left-out"]
 
 
 def test_components_of_a_plain_mesh(tmp_path: Path) -> None:

@@ -144,3 +144,15 @@ def test_what_places_no_triangles_need_not_be_read(tmp_path):
     extra = '<extra><technique profile="x"><geometry id="g"/></technique></extra>'
     nodes = camera + '<node id="n"><instance_geometry url="#g"/></node>' + extra
     assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 1.0
+
+
+def test_physics_blocks_a_pass(tmp_path):
+    physics = b'<instance_physics_scene url="#P"/></scene>'
+    content = files.collada().replace(b"</scene>", physics)
+    assert set(warnings(loaded(tmp_path, "a.dae", content))) == {"unread"}
+
+
+def test_an_animation_is_a_note(tmp_path):
+    content = files.collada().replace(b"<scene>", b"<library_animations/><scene>")
+    (issue,) = loaded(tmp_path, "a.dae", content).issues
+    assert (issue.code, issue.severity) == ("time-sampled", "note")

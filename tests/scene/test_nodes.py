@@ -207,17 +207,15 @@ def lines_beside_a_cube():
     return files.glb(document, buffer)
 
 
-def test_a_node_of_lines_is_a_body_that_cannot_be_checked(tmp_path):
-    scene = scene_of(tmp_path, "a.glb", lines_beside_a_cube())
-    assert [body.id for body in scene.bodies] == ["a"]
-    (lost,) = scene.unreadable
-    assert (lost.id, lost.issue.code, lost.issue.severity) == ("b", "no-surface", "warning")
-
-
-def test_lines_in_a_file_that_is_one_body_are_a_warning(tmp_path):
+@pytest.mark.parametrize("split", ["nodes", "none"])
+def test_a_node_of_lines_beside_meshes_is_a_note(tmp_path, split):
     (tmp_path / "a.glb").write_bytes(lines_beside_a_cube())
-    (body,) = load_scene([tmp_path / "a.glb"], split="none").bodies
-    assert [issue.code for issue in body.file.issues] == ["ignored-geometry"]
+    scene = load_scene([tmp_path / "a.glb"], split=split)
+    assert len(scene.bodies) == 1
+    assert not scene.unreadable
+    (note,) = scene.issues
+    assert (note.code, note.severity) == ("left-out", "note")
+    assert note.message.startswith("b of lines or points")
 
 
 def test_a_shared_mesh_names_itself_in_its_one_warning(tmp_path):

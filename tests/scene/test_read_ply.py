@@ -142,3 +142,15 @@ def test_faces_may_stand_before_the_vertices(tmp_path, ascii):
 def test_blanks_behind_the_first_word(tmp_path):
     content = files.ascii_ply().replace(b"ply\n", b"ply \n", 1)
     assert loaded(tmp_path, "a.ply", content).health.volume == 1.0
+
+
+@pytest.mark.parametrize(
+    ("element", "record"),
+    [
+        ("element quad 1\nproperty list uchar int verts\n", "3 0 1 2\n"),
+        ("element cell 1\nproperty int v0\nproperty int v1\n", "0 1\n"),
+    ],
+)
+def test_a_list_of_another_name_blocks_a_pass(tmp_path, element, record):
+    content = files.ascii_ply().replace(b"end_header\n", element.encode() + b"end_header\n")
+    assert set(warnings(loaded(tmp_path, "a.ply", content + record.encode()))) == {"unread"}

@@ -1,0 +1,86 @@
+"""What the elements of a 3MF model may hold: names that are read, and names that are harmless.
+
+3MF core specification 1.3 and the extensions of the 3MF consortium; the attributes that common
+slicers add. A name of an extension has the usual prefix of its namespace.
+"""
+
+from __future__ import annotations
+
+from satcheck.scene.loading.xml_tree import UNDECLARED, split_name
+from satcheck.scene.vocabulary import Names
+
+CORE = frozenset(
+    {
+        "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+        "http://schemas.microsoft.com/3dmanufacturing/2013/01",
+    }
+)
+UNITS = frozenset({"micron", "millimeter", "centimeter", "inch", "foot", "meter"})
+_PREFIXES = {
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06": "p",
+    "http://schemas.microsoft.com/3dmanufacturing/production/alternatives/2021/04": "pa",
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02": "m",
+    "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07": "s",
+    "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07": "t",
+    "http://schemas.slic3r.org/3mf/2017/06": "slic3rpe",
+    "http://schemas.bambulab.com/package/2021": "BambuStudio",
+    "http://software.ultimaker.com/xml/cura/3mf/2015/10": "cura",
+    "http://www.w3.org/XML/1998/namespace": "xml",
+    "http://www.w3.org/2001/XMLSchema-instance": "xsi",
+}
+_PRINTING = {"printable": "it is checked all the same", "slic3rpe:*": "printing"}
+_PRINTING |= {"BambuStudio:*": "printing", "cura:*": "printing"}
+_ABOUT = {
+    "xml:*": "of XML",
+    "xsi:*": "of XML",
+    "p:UUID": "a name",
+    "partnumber": "a name",
+    **_PRINTING,
+}
+
+
+def _names(read: str, **harmless: str) -> Names:
+    return Names(frozenset(read.split()), _ABOUT | harmless)
+
+
+# By the element of the core namespace.
+ATTRIBUTES = {
+    "model": _names(
+        "unit requiredextensions",
+        recommendedextensions="nothing depends on them",
+        lang="a language",
+        preview="a picture",
+    ),
+    "object": _names(
+        "id type",
+        name="a name",
+        pid="appearance",
+        pindex="appearance",
+        thumbnail="a picture",
+    ),
+    "component": _names("objectid transform p:path"),
+    "item": _names("objectid transform p:path"),
+    "build": _names(""),
+}
+_DATA = {"metadata": "data", "metadatagroup": "data", "slic3rpe:*": "printing"}
+CHILDREN = {
+    "model": Names(frozenset({"resources", "build"}), _DATA),
+    "object": Names(frozenset({"mesh", "components"}), _DATA),
+    "mesh": Names(frozenset({"vertices", "triangles"}), {"t:trianglesets": "names of triangles"}),
+    "vertices": Names(frozenset({"vertex"})),
+    "triangles": Names(frozenset({"triangle"})),
+    "components": Names(frozenset({"component"})),
+    "build": Names(frozenset({"item"}), _DATA),
+}
+# Settings of Cura for an object that is no body, or takes from one.
+_CURA = ("anti_overhang", "cutting", "infill", "support")
+CURA_VOLUMES = frozenset(f"cura:{kind}_mesh" for kind in _CURA)
+
+
+def short(name: str) -> str:
+    """Return the name of an element or attribute with the prefix of its namespace."""
+    namespace, local = split_name(name)
+    if not namespace or namespace in CORE:
+        return local
+    prefix = _PREFIXES.get(namespace) or namespace.removeprefix(UNDECLARED)
+    return f"{prefix}:{local}"

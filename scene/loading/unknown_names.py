@@ -1,0 +1,56 @@
+"""Gathers the names of a mesh file that its reader does not know, for the one rule about them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.vocabulary import Names
+
+_SHOWN = 3  # names in a message
+
+
+class UnknownNames:
+    """Unknown names, each once for a kind of place, with its first place."""
+
+    def __init__(self) -> None:
+        self._messages: dict[tuple[str, str], str] = {}
+        self._counts: dict[tuple[str, str], int] = {}
+
+    def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
+        """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
+        Raises MeshFileError for a misspelt name."""
+        if names.read.issuperset(found):
+            return
+        for name in found:
+            key = kind, name
+            if key in self._counts:
+                self._counts[key] += 1
+                continue
+            try:
+                for unread in names.unread([name], place):
+                    self.note(key, unread.message)
+            except SatcheckError as error:
+                raise MeshFileError(error.code, error.message) from None
+
+    def note(self, key: tuple[str, str], message: str) -> None:
+        """Take something that blocks a pass and is no single name. key: what is named once."""
+        if key not in self._counts:
+            self._messages[key] = message
+        self._counts[key] = self._counts.get(key, 0) + 1
+
+    def warnings(self) -> tuple[tuple[str, str], ...]:
+        """Return (code, message) for each name."""
+        return tuple(
+            ("unread", message + (f" ({count} times)" if count > 1 else ""))
+            for key, message in self._messages.items()
+            for count in (self._counts[key],)
+        )
+
+
+def shown(names: Sequence[str]) -> str:
+    """Return the first names, and how many there are."""
+    if len(names) <= _SHOWN:
+        return ", ".join(names)
+    return f"{', '.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"
