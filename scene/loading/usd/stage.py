@@ -69,7 +69,10 @@ def open_stage(location: Path, *, allow_outside: bool) -> Stage:
     lost, warnings = _composition_errors(stage)
     lost |= _lost_clips(stage)
     unit, scale = _unit(stage, warnings)
-    y_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y
+    axis = UsdGeom.GetStageUpAxis(stage)
+    if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
+        raise MeshFileError("bad-record", f"upAxis is {axis!r}, not Y or Z")
+    y_up = axis == UsdGeom.Tokens.y
     return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
 
 
