@@ -22,10 +22,12 @@ ALIKE = 0.8
 
 class Names(Struct, frozen=True):
     """The names at one place. harmless: why none of them can make, move, hide, reshape or exempt a
-    body, by name; a name that ends in `*` stands for all that begin so."""
+    body, by name; a name that ends in `*` stands for all that begin so. alike: how much of two
+    names is the same if one of them is misspelt."""
 
     read: frozenset[str]
     harmless: Mapping[str, str] = {}
+    alike: float = ALIKE
 
     def knows(self, name: str) -> bool:
         if name in self.read or name in self.harmless:
@@ -45,8 +47,20 @@ class Names(Struct, frozen=True):
         for name in dict.fromkeys(names):
             if self.knows(name):
                 continue
-            if near := get_close_matches(name, sorted(self.read), 1, ALIKE):
-                message = f"{place}: unknown {name} (did you mean {near[0]}?)"
-                raise SatcheckError("misspelt", message, file=file, body=body)
+            self.refuse_misspelt([name], place, body=body, file=file)
             message = f"{place}: {name} is not read; it may hold or move a body"
             yield issue("unread", message, body=body, file=file)
+
+    def refuse_misspelt(
+        self, names: Iterable[str], place: str, *, body: str | None = None, file: str | None = None
+    ) -> None:
+        """Raises SatcheckError for the first name that is misspelt. Where a format lets everybody
+        write names of their own, the others are harmless."""
+        for name in names:
+            near = [] if self.knows(name) else self._near(name)
+            if near:
+                message = f"{place}: unknown {name} (did you mean {near[0]}?)"
+                raise SatcheckError("misspelt", message, file=file, body=body)
+
+    def _near(self, name: str) -> list[str]:
+        return get_close_matches(name, sorted(self.read), 1, self.alike)

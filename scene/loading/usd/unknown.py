@@ -10,8 +10,6 @@ from typing import Any
 
 from pxr import Sdf, Usd, UsdGeom
 
-from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.usd import names
 from satcheck.scene.loading.usd.choice import Choice
 from satcheck.scene.loading.usd.remarks import Remarks
@@ -33,7 +31,7 @@ _OF_GEOMETRY = names.named(
 
 
 def look_at_stage(stage: Any, choice: Choice, said: Remarks) -> None:
-    """Says what the stage holds that is not read. Raises MeshFileError for names that are
+    """Says what the stage holds that is not read. Raises SatcheckError for names that are
     misspelt."""
     look = _Look(choice, said)
     look.at_layer(stage)
@@ -58,11 +56,11 @@ class _Look:
         self._physics = names.of_physics()
 
     def at_layer(self, stage: Any) -> None:
-        self._misspelt(names.LAYER, _unregistered(stage.GetPseudoRoot()), "the root layer")
+        names.LAYER.refuse_misspelt(_unregistered(stage.GetPseudoRoot()), "the root layer")
 
     def at(self, prim: Any) -> None:
         path = str(prim.GetPath())
-        self._misspelt(names.PRIM, _unregistered(prim), path)
+        names.PRIM.refuse_misspelt(_unregistered(prim), path)
         self._unread(names.APIS, self._unknown_apis(prim), path, prim)
         self._at_properties(prim, path)
         self._at_tokens(prim, path)
@@ -73,22 +71,10 @@ class _Look:
             self._at_collider(prim, path)
 
     def _unread(self, known: Names, found: Iterable[str], path: str, prim: Any) -> None:
-        """Says which of these names nobody knows. Raises MeshFileError for one that is misspelt."""
+        """Says which of these names nobody knows. Raises SatcheckError for one that is misspelt."""
         for name in found:
-            try:
-                issues = list(known.unread([name], path))
-            except SatcheckError as error:
-                raise MeshFileError(error.code, error.message) from None
-            if issues and prim.IsA(UsdGeom.Imageable):
+            if list(known.unread([name], path)) and prim.IsA(UsdGeom.Imageable):
                 self._said.add("unread", f"{name} {_NOT_READ}", path)
-
-    def _misspelt(self, known: Names, found: Iterable[str], path: str) -> None:
-        """Raises MeshFileError for a name that is misspelt; others change nothing."""
-        for name in found:
-            try:
-                list(known.unread([name], path))
-            except SatcheckError as error:
-                raise MeshFileError(error.code, error.message) from None
 
     def _unknown_apis(self, prim: Any) -> Iterator[str]:
         registry = Usd.SchemaRegistry
@@ -114,12 +100,12 @@ class _Look:
         if plain:
             own = _names_of(known)
             custom = {name for name in plain if prim.GetProperty(name).IsCustom()}
-            self._misspelt(own, plain, path)
+            own.refuse_misspelt(plain, path)
             if prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdGeom.PointInstancer):
                 self._unread(own, [name for name in plain if name not in custom], path, prim)
-        self._misspelt(self._physics, physics, path)
+        self._physics.refuse_misspelt(physics, path)
         if prim.IsA(UsdGeom.Gprim):
-            self._misspelt(names.PRIMVARS, primvars, path)
+            names.PRIMVARS.refuse_misspelt(primvars, path)
 
     def _at_tokens(self, prim: Any, path: str) -> None:
         definition = prim.GetPrimDefinition()
