@@ -22,10 +22,12 @@ ALIKE = 0.8
 
 class Names(Struct, frozen=True):
     """The names at one place. harmless: why none of them can make, move, hide, reshape or exempt a
-    body, by name; a name that ends in `*` stands for all that begin so."""
+    body, by name; a name that ends in `*` stands for all that begin so. alike: how much of two
+    names is the same if one of them is misspelt."""
 
     read: frozenset[str]
     harmless: Mapping[str, str] = {}
+    alike: float = ALIKE
 
     def knows(self, name: str) -> bool:
         if name in self.read or name in self.harmless:
@@ -45,19 +47,26 @@ class Names(Struct, frozen=True):
         for name in dict.fromkeys(names):
             if self.knows(name):
                 continue
-            if near := self._like(name):
-                message = f"{place}: unknown {name} (did you mean {near}?)"
-                raise SatcheckError("misspelt", message, file=file, body=body)
+            self.refuse_misspelt([name], place, body=body, file=file)
             message = f"{place}: {name} is not read; it may hold or move a body"
             yield issue("unread", message, body=body, file=file)
 
-    def _like(self, name: str) -> str | None:
+    def refuse_misspelt(
+        self, names: Iterable[str], place: str, *, body: str | None = None, file: str | None = None
+    ) -> None:
+        """Raises SatcheckError for the first name that is misspelt. Where a format lets everybody
+        write names of their own, the others are harmless."""
+        for name in names:
+            near = [] if self.knows(name) else self._near(name)
+            if near:
+                message = f"{place}: unknown {name} (did you mean {near[0]}?)"
+                raise SatcheckError("misspelt", message, file=file, body=body)
+
+    def _near(self, name: str) -> list[str]:
         """Return the name that is read and resembles it most. Capitals do not count, and short
         names are misspelt by swapped letters: `nmae`, `xzy`."""
+        low = name.casefold()
         read = {known.casefold(): known for known in sorted(self.read)}
-        swapped = [known for low, known in read.items() if sorted(low) == sorted(name.casefold())]
-        if swapped:
-            return swapped[0]
-        return next(
-            (read[near] for near in get_close_matches(name.casefold(), read, 1, ALIKE)), None
-        )
+        swapped = [known for known in read if sorted(known) == sorted(low)]
+        near = swapped[:1] or get_close_matches(low, read, 1, self.alike)
+        return [read[each] for each in near]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import msgspec
 
+from satcheck.core.errors import SatcheckError
 from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import files_read, note, note_lost_reader
@@ -130,7 +131,7 @@ def _content(request: Request) -> RawScene | Refusal:
 
             return alone(flattened(scene))
         return scene
-    except MeshFileError as error:
+    except SatcheckError as error:
         return Refusal(error.code, error.message)
 
 

@@ -219,7 +219,7 @@ def test_faces_that_are_not_read_are_counted(tmp_path: Path) -> None:
     first, _, rest = face.partition("('',(")
     lost = GOOD.replace(face, f"{first}('',({rest.partition(',')[2]}")
     scene = load(tmp_path, lost)
-    (said,) = [issue for issue in scene.issues if issue.code == "ignored-geometry"]
+    (said,) = [issue for issue in scene.issues if issue.code == "unread"]
     assert "5 of the 6 faces" in said.message
     assert "not-closed" in codes(scene)
 
@@ -256,3 +256,27 @@ def test_the_sample_of_the_docs_is_this_rig() -> None:
 def test_a_packed_file_is_refused_with_what_to_do(tmp_path: Path) -> None:
     code, message = refusal(tmp_path, "a.stpz", b"\x1f\x8b")
     assert (code, "unpack it" in message) == ("unsupported-format", True)
+
+
+@pytest.mark.parametrize(
+    ("kind", "misspelt"),
+    [
+        ("ITEM_DEFINED_TRANSFORMATION", "ITEM_DEFINED_TRANSFORMATON"),
+        (
+            "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION",
+            "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMTION",
+        ),
+        ("AXIS2_PLACEMENT_3D", "AXIS2_PLACEMNT_3D"),
+        ("CLOSED_SHELL", "CLOSED_SHEL"),
+    ],
+)
+def test_a_kind_of_record_that_is_misspelt_is_refused(
+    tmp_path: Path, kind: str, misspelt: str
+) -> None:
+    file = StepFile()
+    whole = file.product("rig", [], kind="")
+    file.occurrence("a", whole, file.product("box", [file.box((0, 0, 0), (1, 1, 1))]), (0, 0, 0))
+    assert kind in file.text()
+    text = file.text().replace(kind, misspelt)
+    code, message = refusal(tmp_path, "a.step", text.encode())
+    assert (code, kind in message) == ("misspelt", True)

@@ -117,8 +117,8 @@ class _Assembly:
         if all(part.key.mesh is None for part in placed):
             self._refuse_empty([part.key.name for part in placed], curves)
         scene = raw_scene(placed, lambda part: part.name, self._mesh)
-        ignored = self._ignored((part.key for part in placed), curves)
-        return replace(scene, warnings=tuple(self._warnings(scene, ignored)))
+        lost = self._lost_faces(part.key for part in placed)
+        return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
 
     def _children(self, node: int) -> list[tuple[int, Transform | None]]:
         return [(child, self._matrix(child)) for child in items(self._nodes[node], "children")]
@@ -204,12 +204,17 @@ class _Assembly:
         used = self._accessors.indices(integer(faces, "faceIndices", -1))
         return planes.issuperset(used)
 
-    def _warnings(self, scene: RawScene, ignored: list[str]) -> Iterator[tuple[str, str]]:
+    def _warnings(
+        self, scene: RawScene, curves: list[str], lost: str | None
+    ) -> Iterator[tuple[str, str]]:
         if not self._exchange.has_unit:
             message = "the file states no unit of length: its numbers count as millimetres"
             yield "assumed-units", message
-        if ignored:
-            yield "ignored-geometry", "; ".join(ignored)
+        if curves:
+            words = f"{len(curves)} products of curves alone have no body: {listed(curves)}"
+            yield "ignored-geometry", words
+        if lost is not None:
+            yield "unread", lost
         meshes = [part.mesh for part in scene.parts if isinstance(part.mesh, RawMesh)]
         faceted = sum(mesh.surface_tolerance > 0 for mesh in meshes)
         if faceted:
@@ -219,15 +224,12 @@ class _Assembly:
             )
             yield "faceted", message
 
-    def _ignored(self, parts: Iterable[_Part], curves: list[str]) -> list[str]:
-        """What the file has and the bodies lack."""
-        said = []
-        if curves:
-            said.append(f"{len(curves)} products of curves alone have no body: {listed(curves)}")
+    def _lost_faces(self, parts: Iterable[_Part]) -> str | None:
+        """Words about faces that the file has and the bodies lack."""
         read, faces = self._faces(parts), self._exchange.faces
-        if read is not None and read < faces:
-            said.append(f"OpenCascade reads {read} of the {faces} faces of the file")
-        return said
+        if read is None or read >= faces:
+            return None
+        return f"OpenCascade reads {read} of the {faces} faces of the file; bodies may be missing"
 
     def _faces(self, parts: Iterable[_Part]) -> int | None:
         """How many faces the products have; None: cascadio says it only of a part of them."""

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from msgspec import Struct
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.vocabulary import Names
 
 _BEGIN, _END = "ISO-10303-21", "END-ISO-10303-21"
 _TEXT = rb"'((?:[^']|'')*)'"
@@ -81,6 +82,39 @@ _TESSELLATED = frozenset(
     ("TESSELLATED_SOLID", "TESSELLATED_SHELL", "TESSELLATED_GEOMETRIC_SET", "TRIANGULATED_FACE",
      "COMPLEX_TRIANGULATED_FACE")
 )  # fmt: skip
+# Records that place and shape bodies. Others are many, and few names of them are like these.
+_KINDS = Names(
+    frozenset(
+        ("ADVANCED_BREP_SHAPE_REPRESENTATION", "ADVANCED_FACE", "AXIS2_PLACEMENT_3D",
+         "B_SPLINE_CURVE_WITH_KNOTS", "B_SPLINE_SURFACE_WITH_KNOTS", "BREP_WITH_VOIDS",
+         "CARTESIAN_POINT", "CARTESIAN_TRANSFORMATION_OPERATOR_3D", "CIRCLE", "CLOSED_SHELL",
+         "CONICAL_SURFACE", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", "CONVERSION_BASED_UNIT",
+         "CYLINDRICAL_SURFACE", "DIRECTION", "EDGE_CURVE", "EDGE_LOOP", "ELLIPSE", "FACE_BOUND",
+         "FACE_OUTER_BOUND", "FACE_SURFACE", "FACETED_BREP", "FACETED_BREP_SHAPE_REPRESENTATION",
+         "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION", "GLOBAL_UNIT_ASSIGNED_CONTEXT",
+         "ITEM_DEFINED_TRANSFORMATION", "LENGTH_MEASURE_WITH_UNIT", "LENGTH_UNIT",
+         "MANIFOLD_SOLID_BREP", "MANIFOLD_SURFACE_SHAPE_REPRESENTATION", "MAPPED_ITEM",
+         "NEXT_ASSEMBLY_USAGE_OCCURRENCE", "OPEN_SHELL", "ORIENTED_CLOSED_SHELL", "ORIENTED_EDGE",
+         "ORIENTED_OPEN_SHELL", "POLY_LOOP", "PRODUCT_DEFINITION", "PRODUCT_DEFINITION_SHAPE",
+         "REPRESENTATION_MAP", "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION",
+         "SHAPE_DEFINITION_REPRESENTATION", "SHAPE_REPRESENTATION",
+         "SHAPE_REPRESENTATION_RELATIONSHIP", "SHELL_BASED_SURFACE_MODEL", "SI_UNIT",
+         "SPHERICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "SURFACE_OF_REVOLUTION",
+         "TOROIDAL_SURFACE", "VERTEX_LOOP", "VERTEX_POINT")
+    ),
+    dict.fromkeys(
+        ("CSG_SHAPE_REPRESENTATION", "CARTESIAN_TRANSFORMATION_OPERATOR",
+         "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION",
+         "MANIFOLD_SUBSURFACE_SHAPE_REPRESENTATION", "FACE_SHAPE_REPRESENTATION_RELATIONSHIP",
+         "FEA_AXIS2_PLACEMENT_3D", "CARTESIAN_TRANSFORMATION_OPERATOR_2D",
+         "NON_MANIFOLD_SURFACE_SHAPE_REPRESENTATION", "PRODUCT_DEFINITION_USAGE",
+         "AXIS2_PLACEMENT_2D", "REPRESENTATION_RELATIONSHIP"),
+        "a kind of its own: what it holds is counted by its solids and faces",
+    ),
+    alike=0.9,
+)  # fmt: skip
+_COMPLEX = re.compile(rb"=\s*\(([^;]*);")
+_KIND = re.compile(rb"([A-Za-z_]\w*)\s*\(")
 _SURFACES = frozenset(("ADVANCED_FACE", "FACE_SURFACE"))
 
 
@@ -101,8 +135,9 @@ class Exchange(Struct, frozen=True):
 
 
 def read_exchange(data: bytes) -> Exchange:
-    """Raises MeshFileError for a file that is cut off, that names records which it lacks, that has
-    values or units which are none, or that has solids which are not read."""
+    """Raises SatcheckError for a file that is cut off, that names records which it lacks, that has
+    values or units which are none, kinds
+    that are misspelt, or solids which are not read."""
     if not data.lstrip().startswith(_BEGIN.encode()):
         raise MeshFileError("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
     schema = _SCHEMA.search(data)
@@ -121,6 +156,10 @@ def read_exchange(data: bytes) -> Exchange:
     if not kinds.keys() & _SURFACES and (facets := sorted(_TESSELLATED & kinds.keys())):
         message = f"it has only facets ({', '.join(facets)}), which are not read: export surfaces"
         raise MeshFileError("unsupported-feature", message)
+    of_complex = {
+        m.decode("ascii").upper() for c in _COMPLEX.findall(bare) for m in _KIND.findall(c)
+    }
+    _KINDS.refuse_misspelt(sorted({*kinds, *of_complex}), "records")
     documents = dict.fromkeys(_decoded(match[1]) for match in _DOCUMENT.finditer(data))
     return Exchange(
         kinds,

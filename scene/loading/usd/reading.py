@@ -14,7 +14,9 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.usd.choice import Choice
 from satcheck.scene.loading.usd.joints import Joints
+from satcheck.scene.loading.usd.layers import in_other_units
 from satcheck.scene.loading.usd.mesh import read_mesh, read_tetrahedra
+from satcheck.scene.loading.usd.names import TYPES
 from satcheck.scene.loading.usd.physics import with_physics
 from satcheck.scene.loading.usd.remarks import Remarks
 from satcheck.scene.loading.usd.shapes import (
@@ -25,7 +27,9 @@ from satcheck.scene.loading.usd.shapes import (
     placed_shape,
     shape_of,
 )
+from satcheck.scene.loading.usd.skinning import Skinning
 from satcheck.scene.loading.usd.stage import Stage, said, unknown_variants
+from satcheck.scene.loading.usd.unknown import look_at_stage
 from satcheck.scene.loading.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.scene.loading.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.read_options import ReadOptions
@@ -44,6 +48,7 @@ class _Reading:
         self._stage = stage
         self._choice = Choice(options)
         self._said = Remarks()
+        self._skinning = Skinning(self._choice.time)
         self._lost = dict(stage.lost)
         self._parts: list[RawPart] = []
         self._nodes: list[RawNode] = []
@@ -53,12 +58,18 @@ class _Reading:
 
     def scene(self) -> RawScene:
         self._refuse_lost_in_instances()
+        look_at_stage(self._stage.stage, self._choice, self._said)
         self._lost |= unknown_variants(self._stage.stage)
         for placed in Walk(self._stage.stage, self._choice.time).prims():
             self._take(placed)
         for name, reason in self._lost.items():
             self._add(PlacedPrim(name, None, WORLD), reason, None)
-        warnings = (*self._stage.warnings, *self._of_time(), *self._said.warnings())
+        warnings = (
+            *self._stage.warnings,
+            *self._of_time(),
+            *in_other_units(self._stage.stage),
+            *self._said.warnings(),
+        )
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
             raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
@@ -115,9 +126,8 @@ class _Reading:
         if (reason := hidden_geometry(prim, self._choice)) is not None:
             if self._choice.why_not(placed, lost=True) is None:
                 self._add(placed, reason, None)
-        elif prim.GetTypeName() and not type_of(prim):
-            words = f"of type {prim.GetTypeName()}, which is not known"
-            self._said.add("unknown-element", words, name)
+        elif prim.GetTypeName() and not type_of(prim) and not TYPES.knows(prim.GetTypeName()):
+            self._said.add("unread", f"prims of the type {prim.GetTypeName()} are not known", name)
         elif self._choice.collides(prim):
             words = f"a collider of type {prim.GetTypeName()}, without geometry"
             self._said.add("ignored-geometry", words, name)
@@ -172,8 +182,9 @@ class _Reading:
             self._said.add(
                 "control-cage", f"subdivision surface ({scheme}), checked as its control cage", name
             )
-        if prim.HasAPI("SkelBindingAPI") or prim.HasAttribute("primvars:skel:jointIndices"):
-            self._said.add("rest-shape", "skinned, its points are those of the file", name)
+        if self._skinning.is_bound(prim):
+            self._said.add("rest-shape", "skinned, it stands as its skeleton does", name)
+            mesh = self._skinning.moved(prim, mesh)
         return self._simulated(prim, mesh) if self._choice.colliders else mesh
 
     def _simulated(self, prim: Any, mesh: RawMesh) -> RawMesh:

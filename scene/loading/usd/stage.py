@@ -14,7 +14,6 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
-from satcheck.scene.path_kind import followed
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
@@ -59,17 +58,27 @@ class Stage(Struct, frozen=True):
 def open_stage(location: Path, *, allow_outside: bool) -> Stage:
     """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError, and
     what the library raises."""
-    from pxr import Usd, UsdGeom
+    from pxr import Sdf, Usd, UsdGeom
 
-    stage = Usd.Stage.Open(str(location))
+    from satcheck.scene.loading.usd.outside import Closed, refusal
+
+    closed = Closed([location.parent])
+    root = Sdf.Layer.FindOrOpen(str(location))
+    if root is not None and not allow_outside:
+        closed.close(root)
+    stage = Usd.Stage.Open(root or str(location))
     layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
     _note_files(layers)
-    if not allow_outside:
-        _refuse_outside(layers, location.parent)
+    for layer in layers:
+        if not (allow_outside or closed.permits(layer.identifier)):
+            raise refusal(layer.identifier)
     lost, warnings = _composition_errors(stage)
     lost |= _lost_clips(stage)
     unit, scale = _unit(stage, warnings)
-    y_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y
+    axis = UsdGeom.GetStageUpAxis(stage)
+    if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
+        raise MeshFileError("bad-record", f"upAxis is {axis!r}, not Y or Z")
+    y_up = axis == UsdGeom.Tokens.y
     return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
 
 
@@ -94,17 +103,6 @@ def _note_files(layers: list[Any]) -> None:
         for name in filter(None, layer.GetCompositionAssetDependencies()):
             place = Sdf.ComputeAssetPathRelativeToLayer(layer, name)
             note(Ar.SplitPackageRelativePathOuter(place)[0])
-
-
-def _refuse_outside(layers: list[Any], folder: Path) -> None:
-    from pxr import Ar
-
-    root = followed(folder)
-    for layer in layers:
-        place = Ar.SplitPackageRelativePathOuter(layer.realPath)[0]
-        if not followed(Path(place)).is_relative_to(root):
-            message = f"layer {place!r} lies outside the file's directory: refused"
-            raise MeshFileError("outside-path", message)
 
 
 def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:

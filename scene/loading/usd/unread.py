@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Usd, UsdGeom, UsdPhysics
+from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
 from satcheck.scene.loading.usd.choice import Choice
+from satcheck.scene.loading.usd.names import TYPES
 from satcheck.scene.loading.usd.walk import type_of
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
 _WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
+_OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
+_OF_SKELETONS = (UsdSkel.Root, UsdSkel.Skeleton)
 # Properties that only a prim has that takes up space, whatever its type.
 _OF_SPACE = ("extent", "points", "xformOpOrder", "visibility", "purpose", "material:binding")
 
@@ -47,13 +50,26 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
     collider without geometry of its own may if the prims below have geometry.
     """
     kind = prim.GetTypeName()
-    if kind and not type_of(prim) and (choice.collides(prim) or _is_drawn(prim, choice)):
+    if not kind and not choice.colliders and any(map(prim.HasAttribute, _OF_MESHES)):
+        message = "a prim of no type has the points or faces of a mesh: it may be meant to be one"
+        return Refusal("unsupported-feature", message)
+    if _is_made_elsewhere(prim) and not choice.colliders:
+        return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
+    is_unknown = kind and not type_of(prim) and not TYPES.knows(kind)
+    if is_unknown and (choice.collides(prim) or _is_drawn(prim, choice)):
         message = f"prims of the type {kind} are not known: convert it to a Mesh"
         return Refusal("unsupported-feature", message)
     if choice.collides(prim) and _has_drawn_below(prim):
         message = f"a collider of type {kind or 'unknown'} that joins what is below is not read"
         return Refusal("unsupported-feature", message)
     return None
+
+
+def _is_made_elsewhere(prim: Any) -> bool:
+    """Whether the prim has an extent, and a renderer makes its geometry."""
+    if not prim.IsA(UsdGeom.Boundable) or prim.HasAPI(UsdLux.LightAPI):
+        return False
+    return not any(map(prim.IsA, (UsdGeom.Gprim, UsdGeom.PointInstancer, *_OF_SKELETONS)))
 
 
 def _is_drawn(prim: Any, choice: Choice) -> bool:
@@ -69,7 +85,10 @@ def _has_drawn_below(prim: Any) -> bool:
 
 
 def _has_widths(prim: Any, choice: Choice) -> bool:
-    return any(width > 0 for width in prim.GetAttribute("widths").Get(choice.time) or ())
+    inherited = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("widths")
+    values = [prim.GetAttribute("widths").Get(choice.time)]
+    values.append(inherited.Get(choice.time) if inherited else None)
+    return any(width > 0 for widths in values if widths is not None for width in widths)
 
 
 def _has_points(prim: Any, choice: Choice) -> bool:

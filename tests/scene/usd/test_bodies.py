@@ -226,7 +226,7 @@ def test_a_surface_that_is_not_read_is_a_body_that_is_not_read(tmp_path: Path) -
 
 def test_a_type_that_nobody_knows_is_named(tmp_path: Path) -> None:
     scene = load(tmp_path, stage(cube("A"), 'def Gadget "Strange" {\n}'))
-    assert "/Strange" in said(scene)["unknown-element"]
+    assert "/Strange" in said(scene)["unread"]
 
 
 def test_a_fallback_type_counts(tmp_path: Path) -> None:

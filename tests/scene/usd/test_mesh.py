@@ -51,11 +51,6 @@ def test_a_control_cage_is_named(tmp_path: Path) -> None:
     assert "/A" in said(load(tmp_path, stage(smooth)))["control-cage"]
 
 
-def test_a_skinned_mesh_is_named(tmp_path: Path) -> None:
-    scene = load(tmp_path, stage(cube("A", api='"SkelBindingAPI"')))
-    assert "/A" in said(scene)["rest-shape"]
-
-
 @pytest.mark.parametrize(
     ("old", "new", "code"),
     [

@@ -98,6 +98,40 @@ def test_layers_stay_in_the_folder_of_the_file(tmp_path: Path) -> None:
     assert [body.id for body in scene.bodies] == ["/A/Body"]
 
 
+@pytest.mark.parametrize(
+    "arc",
+    [
+        "references = @../secret.usda@</Part>",
+        "payload = @../secret.usda@",
+        "references = @./link.usda@</Part>",
+        "clips = {\ndictionary default = {\nasset[] assetPaths = [@../secret.usda@]\n"
+        'asset manifestAssetPath = @../secret.usda@\nstring primPath = "/A"\n}\n}',
+    ],
+)
+def test_a_file_outside_is_not_opened(tmp_path: Path, arc: str) -> None:
+    (tmp_path / "secret.usda").write_text("the word is swordfish")
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (folder / "link.usda").symlink_to(tmp_path / "secret.usda")
+    scene = load(folder, stage(f'def Xform "A" (\n{arc}\n) {{\n}}', cube("B")))
+    (lost,) = scene.unreadable
+    assert lost.issue.code == "outside-path"
+    assert "--allow-outside" in lost.issue.message
+    assert "swordfish" not in str([issue.message for issue in scene.issues])
+
+
+def test_a_layer_outside_that_no_variant_selects_is_no_matter(tmp_path: Path) -> None:
+    (tmp_path / "part.usda").write_text(stage(PART))
+    folder = tmp_path / "in"
+    folder.mkdir()
+    text = stage(
+        'def Xform "A" (\n variants = {\n string size = "thin"\n }\n prepend variantSets = "size"\n'
+        ')\n{\n variantSet "size" = {\n "thick" (references = @../part.usda@</Part>) {\n}\n'
+        f'"thin" {{\n{cube("M")}}}\n }}\n}}'
+    )
+    assert list(bounds_of(load(folder, text))) == ["/A/M"]
+
+
 def test_every_layer_is_noted_even_one_that_is_missing(tmp_path: Path) -> None:
     (tmp_path / "part.usda").write_text(stage(PART))
     text = stage(
