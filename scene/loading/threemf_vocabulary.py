@@ -57,6 +57,7 @@ ATTRIBUTES = {
         pid="appearance",
         pindex="appearance",
         thumbnail="a picture",
+        volumeid="the material of the inside",
     ),
     "component": _names("objectid transform p:path"),
     "item": _names("objectid transform p:path"),
