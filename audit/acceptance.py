@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
-from satcheck.scene.issue import BLOCKING
+from satcheck.scene.issue import BLOCKING, CODES
 
 # The code of an issue about an acceptance that accepts nothing.
 UNUSED_ACCEPTANCE = "unused-acceptance"
@@ -37,6 +37,9 @@ def acceptance(text: str) -> Acceptance:
     """Return what `CODE` or `CODE:NAME` accepts. Raises SatcheckError for a code that blocks
     nothing."""
     code, _, name = text.partition(":")
+    if code in CODES and CODES[code].severity == "error":
+        message = f"{code} is an error, which is not accepted: mend the file, or leave it out"
+        raise SatcheckError("bad-acceptance", message)
     if code not in BLOCKING:
         near = get_close_matches(code, BLOCKING, 1)
         hint = f'did you mean "{near[0]}"?' if near else f"these do: {', '.join(BLOCKING)}"

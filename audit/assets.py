@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 
 from msgspec.structs import replace
 
+from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
@@ -105,7 +106,9 @@ def without_unused_rules(given: Asset, files: Collection[str]) -> Asset:
 
 
 def _is_unused_rule(issue: Issue, files: Collection[str]) -> bool:
-    return issue.code == UNUSED_RULE and issue.file in files
+    """An acceptance that accepts nothing counts as one."""
+    of_files = issue.code == UNUSED_RULE and issue.file in files
+    return of_files or issue.code == UNUSED_ACCEPTANCE
 
 
 def _without_bodies(issues: list[Issue]) -> Report:

@@ -160,9 +160,21 @@ open_option = click.option(
     default=DEFAULTS.allow_open,
     help="Open meshes are meant to be open: sheets without an inside, not solids with holes.",
 )
+
+
+def _known(_: click.Context, __: click.Parameter, accepted: tuple[str, ...]) -> tuple[str, ...]:
+    if accepted:
+        from satcheck.audit.acceptance import acceptance
+
+        for text in accepted:
+            acceptance(text)
+    return accepted
+
+
 accept_option = click.option(
     "--accept",
     multiple=True,
+    callback=_known,
     metavar="CODE[:NAME]",
     help="Issues that may stay: what blocks a pass, by its code and the name of its file or body "
     "(`*` for any part). Repeatable.",

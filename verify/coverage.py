@@ -112,6 +112,7 @@ COVERAGE: dict[str, Cover] = {
     "issues[].file": _not("issues"),
     "issues[].line": _not("issues"),
     "issues[].message": _not("issues"),
+    "issues[].state": _not("issues"),
     "truncated.pairs": FOLLOWS,
     "truncated.reason": _not("reasons"),
     "regions.tolerance": _stated("gravity, friction and tolerance of contacts"),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # The commands that take options from a config file.
 COMMANDS = ("check", "each", "batch")
-_META = "satcheck.config"
+_META, _FOUND = "satcheck.config", "satcheck.config-was-found"
 # What a file that was merely found must not do: whoever wrote it may not be the one who calls.
 _BY_HAND = frozenset(("output", "png", "glb", "exit-zero", "allow-outside"))
 _LIMITS = frozenset(
@@ -57,9 +57,7 @@ def take_config(ctx: click.Context, given: str | None) -> None:
             defaults[options[key].name] = value
     ctx.default_map = defaults
     ctx.meta[_META] = file
-    deciding = [key for key in _DECIDING if key in options and options[key].name in defaults]
-    if deciding and given is None:
-        talk(f"satcheck: {file.path} sets {', '.join(deciding)}")
+    ctx.meta[_FOUND] = given is None
 
 
 def _refuse_found(file: ConfigFile, key: str, option: click.Option) -> None:
@@ -80,7 +78,8 @@ def config_of(ctx: click.Context) -> ConfigFile | None:
 
 
 def stated_config(ctx: click.Context) -> StatedConfig | None:
-    """Return what took effect, for a report; None: nothing."""
+    """Return what took effect, for a report; None: nothing. What a file that was merely found
+    decides is told on stderr."""
     file = config_of(ctx)
     if file is None:
         return None
@@ -92,6 +91,9 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
         for key, option in configurable(ctx.command).items()
         if key in file.values and is_from_config(ctx, option)
     }
+    deciding = [key for key in _DECIDING if key in taken]
+    if deciding and ctx.meta[_FOUND]:
+        talk(f"satcheck: {file.path} sets {', '.join(deciding)}")
     return StatedConfig(file.path, taken) if taken else None
 
 

@@ -79,9 +79,11 @@ def _by_rules(seen: Overview) -> list[str]:
 
 def _next_step(seen: Overview) -> list[str]:
     failing = seen.named.get("fail", [])[:1]
+    unsure = [] if failing else seen.named.get("incomplete", [])[:1]
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "report":
-        return [f"Next: {_check_of(file)} lists its pairs." for file in failing]
+        steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
+        return steps + [f"Next: {_check_of(file)} says what is open." for file in unsure]
     is_written = ctx.params.get("output") is not None
     return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
 

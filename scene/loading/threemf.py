@@ -371,8 +371,7 @@ class _ModelReader:
     def _on_model(self, attributes: dict[str, str]) -> None:
         self._model.unit = attributes.get("unit", _DEFAULT_UNIT)
         if self._model.unit not in UNITS:
-            known = ", ".join(sorted(UNITS))
-            message = f"the unit is {self._model.unit!r}, none of {known}"
+            message = f"the unit is {self._model.unit!r}, none of {', '.join(sorted(UNITS))}"
             raise self._fail("bad-record", message)
         for prefix in attributes.get("requiredextensions", "").split():
             known = self._undeclared.namespace(prefix) if self._undeclared else None

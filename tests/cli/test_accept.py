@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.cli.process import satcheck
+from tests.cli.process import SAMPLES, satcheck
 
 ROBOT = """<robot name="r">
 <link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision><fence/></link>
@@ -58,6 +59,24 @@ def test_rules_and_the_config_accept_too(robot: Path) -> None:
     (robot / "satcheck.toml").write_text(f'accept = ["{code}"]\n', encoding="utf-8")
     assert satcheck("r.urdf", cwd=robot).code == 0
     assert satcheck("each", "r.urdf", cwd=robot).code == 0
+
+
+def test_an_acceptance_need_not_be_about_every_asset(robot: Path) -> None:
+    shutil.copy(SAMPLES / "box.obj", robot)
+    ran = satcheck("each", ".", "--accept", f"{code_of(robot)}:r.urdf", cwd=robot)
+    assert ran.code == 0
+    assert "nothing is accepted" not in ran.out + ran.err
+    ran = satcheck("each", ".", "--accept", "unread:gone.urdf", cwd=robot)
+    assert ran.code == 3
+    assert 'nothing is accepted by "unread:gone.urdf"' in ran.out + ran.err
+    assert "Next: satcheck r.urdf" in ran.out
+
+
+@pytest.mark.parametrize("command", [(), ("each",)])
+def test_an_error_is_not_accepted(robot: Path, command: tuple[str, ...]) -> None:
+    ran = satcheck(*command, "r.urdf", "--accept", "misspelt", cwd=robot)
+    assert (ran.code, ran.out) == (2, "")
+    assert "mend the file" in ran.err
 
 
 def test_a_code_that_blocks_nothing_is_refused(robot: Path) -> None:
