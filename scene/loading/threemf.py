@@ -322,9 +322,13 @@ class _ModelReader:
         """Gather the element, if it is unknown there, and its attributes."""
         around = self._around[-1] if self._around else ""
         self._around.append(name)
+        children = CHILDREN.get(around)
+        is_known = children is None or children.knows(name)
+        if is_known and name not in ATTRIBUTES and name != "metadata":
+            return  # as nearly all elements of a mesh
         place = f"{self._part}, line {self._parser.CurrentLineNumber}"
-        if around in CHILDREN:
-            self._unknown.look(CHILDREN[around], (name,), f"in {around}", f"{place}: <{around}>")
+        if children is not None:
+            self._unknown.look(children, (name,), f"in {around}", f"{place}: <{around}>")
         if name in ATTRIBUTES:
             given = [short(key) for key in attributes]
             self._unknown.look(ATTRIBUTES[name], given, name, f"{place}: <{name}>")

@@ -6,6 +6,8 @@ slicers add. A name of an extension has the usual prefix of its namespace.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from satcheck.scene.loading.xml_tree import UNDECLARED, split_name
 from satcheck.scene.vocabulary import Names
 
@@ -78,6 +80,7 @@ _CURA = ("anti_overhang", "cutting", "infill", "support")
 CURA_VOLUMES = frozenset(f"cura:{kind}_mesh" for kind in _CURA)
 
 
+@lru_cache(maxsize=256)
 def short(name: str) -> str:
     """Return the name of an element or attribute with the prefix of its namespace."""
     namespace, local = split_name(name)
