@@ -72,7 +72,7 @@ def _passing_by_rules(report: Report, scene: Scene) -> Report:
     """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
     Robots are left out, as their own pairs are allowed without any rule."""
     pairs = report.summary.pairs
-    if report.answers:
+    if report.answers or any(issue.state == "blocking" for issue in report.issues):
         return report
     robots = any(not robot.loose for robot in scene.robots)
     if robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:

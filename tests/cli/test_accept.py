@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
@@ -70,6 +71,24 @@ def test_an_acceptance_need_not_be_about_every_asset(robot: Path) -> None:
     assert ran.code == 3
     assert 'nothing is accepted by "unread:gone.urdf"' in ran.out + ran.err
     assert "Next: satcheck r.urdf" in ran.out
+
+
+def test_rules_that_allow_every_pair_do_not_hide_what_is_not_read(tmp_path: Path) -> None:
+    """A collection of nodes with an extension that nobody reads."""
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path)
+    data = (tmp_path / "gripper.glb").read_bytes()
+    length = int.from_bytes(data[12:16], "little")
+    document = json.loads(data[20 : 20 + length])
+    rules = '[[rules]]\na = "*"\nb = "*"\nallowed = true\nreason = "glued"\n'
+    (tmp_path / "rules.toml").write_text(rules, encoding="utf-8")
+    asked = ("each", "gripper.glb", "--rules", "rules.toml")
+    assert satcheck(*asked, cwd=tmp_path).code == 0
+    text = json.dumps(document | {"extensionsUsed": ["NEW_bodies"]}).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = len(text).to_bytes(4, "little") + b"JSON" + text + data[20 + length :]
+    size = (12 + len(chunks)).to_bytes(4, "little")
+    (tmp_path / "gripper.glb").write_bytes(data[:8] + size + chunks)
+    assert satcheck(*asked, cwd=tmp_path).code == 3
 
 
 @pytest.mark.parametrize("command", [(), ("each",)])
