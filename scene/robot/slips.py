@@ -81,7 +81,7 @@ class Slips:
                 self._look_for_bodies(child)
 
     def _look_for_bodies(self, harmless: Element) -> None:
-        """Note the bodies in an element that has none as a rule. Names alone are references."""
+        """Note the bodies in an element that usually holds no body. Names alone are references."""
         for child in harmless.children:
             if child.tag in _BODIES and child.children:
                 self.note("unread", child, f"<{harmless.tag}>: the {child.tag} in it is not read")

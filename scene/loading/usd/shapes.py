@@ -66,7 +66,7 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
 
 def axis_turn(prim: Any, time: Any) -> Any:
     """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
-    MeshFileError for an axis that is none."""
+    MeshFileError for an axis other than X, Y and Z."""
     return _TURNS[_axis(prim, time)]
 
 
