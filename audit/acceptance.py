@@ -7,7 +7,6 @@ incomplete, until somebody says that it is meant to be so: by its code, and the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import PurePath
 
@@ -17,6 +16,7 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
 from satcheck.scene.issue import BLOCKING, CODES
+from satcheck.scene.words import meant
 
 # The code of an issue about an acceptance that accepts nothing.
 UNUSED_ACCEPTANCE = "unused-acceptance"
@@ -41,17 +41,14 @@ def acceptance(text: str) -> Acceptance:
         message = f"{code} is an error, which is not accepted: mend the file, or leave it out"
         raise SatcheckError("bad-acceptance", message)
     if code not in BLOCKING:
-        near = get_close_matches(code, BLOCKING, 1)
-        hint = f'did you mean "{near[0]}"?' if near else f"these do: {', '.join(BLOCKING)}"
-        raise SatcheckError(
-            "bad-acceptance", f'no issue of the code "{code}" blocks a pass; {hint}'
-        )
+        hint = meant(code, BLOCKING, "; did you mean {}?") or f"; these do: {', '.join(BLOCKING)}"
+        message = f"no issue of the code {code!r} blocks a pass{hint}"
+        raise SatcheckError("bad-acceptance", message)
     return Acceptance(code, name or "*")
 
 
 def with_states(issues: Iterable[Issue], accepted: Sequence[str]) -> list[Issue]:
-    """State of each issue whether it blocks a pass or is accepted, and name each acceptance that
-    accepts nothing."""
+    """Return the issues with their states, and one for each acceptance that accepts nothing."""
     known = {text: acceptance(text) for text in accepted}
     used: set[str] = set()
     judged = []

@@ -42,9 +42,10 @@ from satcheck.scene.loading.raw_mesh import (
     RawScene,
     Refusal,
 )
-from satcheck.scene.loading.unknown_names import UnknownNames, shown
+from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.words import listed
 
 # Extensions that move all of the geometry even where they are optional.
 _MOVING = frozenset({"CESIUM_RTC"})
@@ -157,7 +158,7 @@ class _Scene:
         bare = [one.path for one in placed if _without_surface(meshes[one.key])]
         if not bare:
             return scene
-        message = f"{shown(bare)} of lines or points alone, which have no area"
+        message = f"{listed(bare)} of lines or points alone, which have no area"
         return replace(scene, warnings=(("left-out", message),))
 
     def colliders(self, colliders: Colliders) -> RawScene:

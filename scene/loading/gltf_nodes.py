@@ -12,8 +12,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
-from satcheck.scene.loading.unknown_names import shown
-from satcheck.scene.words import why_unreadable
+from satcheck.scene.words import listed, why_unreadable
 
 _VERSION = "2.0"
 
@@ -125,8 +124,8 @@ class NodeGraph:
         used = set(meshes.values())
         lost = [f"node {number}" for number in meshes if number not in drawn]
         unused = [f"mesh {number}" for number in range(len(self._meshes)) if number not in used]
-        said = [f"{shown(lost)} outside of the scene"] if lost else []
-        said += [f"{shown(unused)} without a node"] if unused else []
+        said = [f"{listed(lost)} outside of the scene"] if lost else []
+        said += [f"{listed(unused)} without a node"] if unused else []
         return "; ".join(said)
 
     def roots(self) -> list[int]:

@@ -31,7 +31,7 @@ from satcheck.scene.loading.threemf_vocabulary import (
     UNITS,
     short,
 )
-from satcheck.scene.loading.unknown_names import UnknownNames, shown
+from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
@@ -42,6 +42,7 @@ from satcheck.scene.loading.xml_tree import (
     split_name,
 )
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
+from satcheck.scene.words import listed
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
@@ -110,8 +111,10 @@ class _Package:
             for id_ in model.objects
             if (part, id_) not in self._used
         ]
-        said = [f"{shown(unused)} not in the build"] if unused else []
-        said += [f"{shown(self._settings)} of a slicer, which print nothing"] * bool(self._settings)
+        said = [f"{listed(unused)} not in the build"] if unused else []
+        said += [f"{listed(self._settings)} of a slicer, which print nothing"] * bool(
+            self._settings
+        )
         return [("left-out", "; ".join(said))] if said else []
 
     def _apply_config(self, root: Model) -> None:

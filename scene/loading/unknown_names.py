@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.vocabulary import Names
-
-_SHOWN = 3  # names in a message
 
 
 class UnknownNames:
@@ -47,10 +45,3 @@ class UnknownNames:
             for key, message in self._messages.items()
             for count in (self._counts[key],)
         )
-
-
-def shown(names: Sequence[str]) -> str:
-    """Return the first names, and how many there are."""
-    if len(names) <= _SHOWN:
-        return ", ".join(names)
-    return f"{', '.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"

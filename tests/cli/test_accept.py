@@ -101,4 +101,4 @@ def test_an_error_is_not_accepted(robot: Path, command: tuple[str, ...]) -> None
 def test_a_code_that_blocks_nothing_is_refused(robot: Path) -> None:
     ran = satcheck("r.urdf", "--accept", "unraed", cwd=robot)
     assert ran.code == 2
-    assert 'did you mean "unread"' in ran.err
+    assert "did you mean 'unread'" in ran.err
