@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fnmatch import fnmatchcase
+from glob import escape
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -36,13 +37,16 @@ class Acceptance(Struct, frozen=True):
 def acceptance(text: str) -> Acceptance:
     """Return what `CODE` or `CODE:NAME` accepts. Raises SatcheckError for a code that blocks
     nothing."""
-    code, _, name = text.partition(":")
+    code, colon, name = text.partition(":")
     if code in CODES and CODES[code].severity == "error":
         message = f"{code} is an error, which is not accepted: mend the file, or leave it out"
         raise SatcheckError("bad-acceptance", message)
     if code not in BLOCKING:
         hint = meant(code, BLOCKING, "; did you mean {}?") or f"; these do: {', '.join(BLOCKING)}"
         message = f"no issue of the code {code!r} blocks a pass{hint}"
+        raise SatcheckError("bad-acceptance", message)
+    if colon and not name:
+        message = f"{text!r} names no file and no body; {code!r} alone accepts all of this code"
         raise SatcheckError("bad-acceptance", message)
     return Acceptance(code, name or "*")
 
@@ -68,5 +72,5 @@ def with_states(issues: Iterable[Issue], accepted: Sequence[str]) -> list[Issue]
 
 def words_to_accept(issue: Issue) -> str:
     """Return the option that accepts the issue."""
-    name = issue.body or PurePath(issue.file or "").name
+    name = escape(issue.body or PurePath(issue.file or "").name)
     return f"--accept {issue.code}:{name}" if name else f"--accept {issue.code}"

@@ -7,7 +7,10 @@ import shutil
 from pathlib import Path
 
 import pytest
+from msgspec import convert
 
+from satcheck.audit.acceptance import words_to_accept
+from satcheck.report.report import Issue
 from tests.cli.process import SAMPLES, satcheck
 
 ROBOT = """<robot name="r">
@@ -102,3 +105,23 @@ def test_a_code_that_blocks_nothing_is_refused(robot: Path) -> None:
     ran = satcheck("r.urdf", "--accept", "unraed", cwd=robot)
     assert ran.code == 2
     assert "did you mean 'unread'" in ran.err
+
+
+def test_no_name_is_no_name_of_everything(robot: Path) -> None:
+    ran = satcheck("r.urdf", "--accept", "unread:", cwd=robot)
+    assert ran.code == 2
+    assert "names no file and no body" in ran.err
+
+
+@pytest.mark.parametrize("name", ["d[1].urdf", "*.urdf"])
+def test_the_words_to_accept_mean_the_file_and_no_other(robot: Path, name: str) -> None:
+    (robot / "r.urdf").rename(robot / name)
+    (robot / "d1.urdf").write_text(ROBOT, encoding="utf-8")
+    (issue,) = (
+        issue
+        for issue in satcheck(name, "--format", "json", cwd=robot).document["issues"]
+        if issue["state"] == "blocking"
+    )
+    words = words_to_accept(convert(issue, Issue)).split()
+    assert satcheck(name, *words, cwd=robot).code == 0
+    assert satcheck("d1.urdf", *words, cwd=robot).code == 3
