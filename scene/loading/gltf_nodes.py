@@ -40,8 +40,15 @@ def _json(text: str) -> Any:
     def refuse(token: str) -> NoReturn:
         raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
 
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        values = dict(pairs)
+        if len(values) < len(pairs):
+            twice = next(key for k, (key, _) in enumerate(pairs) if (key in dict(pairs[:k])))
+            raise MeshFileError("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
+        return values
+
     try:
-        return json.loads(text, parse_constant=refuse)
+        return json.loads(text, parse_constant=refuse, object_pairs_hook=once)
     except json.JSONDecodeError as error:
         raise MeshFileError(
             "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"

@@ -175,6 +175,7 @@ class _Look:
 
     def at_file(self, document: dict[str, Any]) -> None:
         self._object(document, _FILE, "file", "the file")
+        self._extensions(document.get("asset"), "asset", "the asset")
         used = (_texts(document.get(key)) for key in ("extensionsUsed", "extensionsRequired"))
         declared = list(dict.fromkeys(name for names in used for name in names))
         self._unknown.look(EXTENSIONS, declared, "extension", "the file uses an extension")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,8 @@ import pytest
 
 from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.gltf_nodes import parse_document
 from satcheck.scene.read_options import GeometryKind
 from tests.scene import files
 from tests.scene.loading import refusal
@@ -208,3 +211,20 @@ def test_a_trigger_is_no_body(tmp_path: Path) -> None:
     made = document()
     made["nodes"][0]["extensions"] = {KHR: {"trigger": {"geometry": {"shape": 0}}}}
     assert not read(tmp_path, made).issues
+
+
+def test_a_key_given_twice_is_refused() -> None:
+    made = json.dumps(document()).replace(
+        '"mesh": 0, "tr', '"translation": [0, 0, 0], "mesh": 0, "tr'
+    )
+    with pytest.raises(MeshFileError, match="'translation' occurs twice") as error:
+        parse_document(memoryview(made.encode()))
+    assert error.value.code == "bad-record"
+
+
+def test_an_unknown_extension_of_the_asset_blocks_a_pass(tmp_path: Path) -> None:
+    made = document()
+    made["asset"]["extensions"] = {"KHR_xmp_json_ld": {}}
+    assert codes(read(tmp_path, made)) == []
+    made["asset"]["extensions"] = {"FOO_units": {}}
+    assert codes(read(tmp_path, made)) == ["unread"]
