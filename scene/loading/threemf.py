@@ -28,6 +28,7 @@ from satcheck.scene.loading.threemf_vocabulary import (
     CHILDREN,
     CORE,
     CURA_VOLUMES,
+    PREFIXES,
     UNITS,
     short,
 )
@@ -49,8 +50,8 @@ _DEFAULT_PART = "3D/3dmodel.model"
 _OBJECT = frozenset(f"{namespace} object" for namespace in CORE)
 _BUILD = frozenset(f"{namespace} build" for namespace in CORE)
 _PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
-# Extensions that a model may require. They do not change its triangles.
-_HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
+# Extensions that a model may require: what they add is read, or looked at where it stands.
+_REQUIRED = frozenset({"p", "m", "s", "t"})
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
 _MESH = frozenset({"vertex", "triangle"})  # errors in them refuse only their object
@@ -112,9 +113,8 @@ class _Package:
             if (part, id_) not in self._used
         ]
         said = [f"{listed(unused)} not in the build"] if unused else []
-        said += [f"{listed(self._settings)} of a slicer, which print nothing"] * bool(
-            self._settings
-        )
+        if self._settings:
+            said.append(f"{listed(self._settings)} of a slicer, which print nothing")
         return [("left-out", "; ".join(said))] if said else []
 
     def _apply_config(self, root: Model) -> None:
@@ -383,7 +383,7 @@ class _ModelReader:
         for prefix in attributes.get("requiredextensions", "").split():
             known = self._undeclared.namespace(prefix) if self._undeclared else None
             uri = known or self._prefixes.get(prefix, prefix)
-            if not any(part in uri for part in _HARMLESS):
+            if PREFIXES.get(uri) not in _REQUIRED:
                 raise self._fail("unsupported-feature", f"the model requires extension {uri!r}")
 
     def _on_object(self, attributes: dict[str, str]) -> None:

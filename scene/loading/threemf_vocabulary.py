@@ -18,7 +18,7 @@ CORE = frozenset(
     }
 )
 UNITS = frozenset({"micron", "millimeter", "centimeter", "inch", "foot", "meter"})
-_PREFIXES = {
+PREFIXES = {
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06": "p",
     "http://schemas.microsoft.com/3dmanufacturing/production/alternatives/2021/04": "pa",
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02": "m",
@@ -86,5 +86,5 @@ def short(name: str) -> str:
     namespace, local = split_name(name)
     if not namespace or namespace in CORE:
         return local
-    prefix = _PREFIXES.get(namespace) or namespace.removeprefix(UNDECLARED)
+    prefix = PREFIXES.get(namespace) or namespace.removeprefix(UNDECLARED)
     return f"{prefix}:{local}"

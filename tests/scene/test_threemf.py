@@ -45,6 +45,13 @@ def test_undeclared_prefixes_that_could_be_geometry(tmp_path, content):
     assert "my" in message
 
 
+def test_a_namespace_that_is_only_like_one_that_is_known(tmp_path):
+    keys = 'requiredextensions="z" xmlns:z="http://example.org/slice/2015/07"'
+    code, message = refusal(tmp_path, "a.3mf", package(attributes=keys))
+    assert code == "unsupported-feature"
+    assert "example.org" in message
+
+
 def test_production_paths_beside_undeclared_prefixes(tmp_path):
     reference = (
         '<component objectid="1" p:path="/3D/other.model" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>'
