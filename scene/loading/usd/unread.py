@@ -13,6 +13,7 @@ from satcheck.scene.loading.usd.walk import type_of
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
 _WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
+_OF_GEOMETRY = ("extent", "points")
 _OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
 _OF_SKELETONS = (UsdSkel.Root, UsdSkel.Skeleton)
 # Properties that only a prim has that takes up space, whatever its type.
@@ -55,7 +56,8 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
         return Refusal("unsupported-feature", message)
     if _is_made_elsewhere(prim) and not choice.colliders:
         return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
-    is_unknown = kind and not type_of(prim) and not TYPES.knows(kind)
+    has_points = any(map(prim.HasProperty, _OF_GEOMETRY))
+    is_unknown = kind and not type_of(prim) and (has_points or not TYPES.knows(kind))
     if is_unknown and (choice.collides(prim) or _is_drawn(prim, choice)):
         message = f"prims of the type {kind} are not known: convert it to a Mesh"
         return Refusal("unsupported-feature", message)

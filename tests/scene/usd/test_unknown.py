@@ -180,3 +180,11 @@ def test_a_skinned_mesh_stands_as_its_skeleton_does(tmp_path: Path) -> None:
 def test_an_axis_of_the_stage_that_is_none_is_refused(tmp_path: Path) -> None:
     ((code, message),) = refusals(load(tmp_path, stage(cube("A"), head='upAxis = "y"')))
     assert (code, "upAxis" in message) == ("bad-record", True)
+
+
+@pytest.mark.parametrize("kind", ["OmniMesh", "NewtonShape", "MjcGeom"])
+def test_a_type_of_a_program_that_takes_up_space_is_no_setting(tmp_path: Path, kind: str) -> None:
+    points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
+    found = load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n{points}\n}}'))
+    assert [code for code, _ in refusals(found)] == ["unsupported-feature"]
+    assert not refusals(load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n}}')))
