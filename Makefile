@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 ACTIVATE := . $(VENV)/bin/activate
 endif
 
-ROOMS := api cli studies batch audit verify report scene decompose core
+ROOMS := api plugins cli audit verify report scene decompose core
 LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/* $(room)/*/*/*/*)
 SOURCES := pyproject.toml CMakeLists.txt \
 	$(wildcard $(foreach kind,.py .pyi .json .html .css .js .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))

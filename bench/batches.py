@@ -4,8 +4,8 @@
 
 The scenes are made of the meshes of a folder. Five abort, five hang, five need too much memory: a
 `sitecustomize` for the processes of satcheck does that when a file with a marked name is read
-(tests/batch/planted). A hundred are broken by themselves. All go through one batch on two slots;
-then each good scene is checked in this process by `satcheck.audit.check`, and each answer is
+(tests/audit/batch/planted). A hundred are broken by themselves. All go through one batch on two
+slots; then each good scene is checked in this process by `satcheck.audit.check`, and each answer is
 compared. The memory of the processes is sampled meanwhile.
 
 The pace is that of a slice of good scenes: the batch on two slots, a plain Python loop of the same
@@ -37,7 +37,7 @@ from satcheck.audit import Settings, check
 from satcheck.report.json import line_of
 
 ROOT = Path(__file__).resolve().parent.parent
-PLANTED = ROOT / "tests" / "batch" / "planted"
+PLANTED = ROOT / "tests" / "audit" / "batch" / "planted"
 BODIES = 10
 LARGEST_BYTES = 100_000
 SUFFIXES = {".obj", ".stl", ".off", ".ply"}

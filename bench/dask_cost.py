@@ -1,6 +1,6 @@
 """What a task costs Dask: the time that client, scheduler and worker spend on a task that does
-nothing, sent as `satcheck batch --engine dask` sends its chunks. `batch/dask_engine.py` makes its
-chunks so long that this is less than a twentieth of their work.
+nothing, sent as `satcheck batch --engine dask` sends its chunks. `audit/batch/dask_engine.py` makes
+its chunks so long that this is less than a twentieth of their work.
 
 Needs the extra `dask` and a cluster: `python bench/dask_cost.py SCHEDULER [--tasks 2000]`
 """

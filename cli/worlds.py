@@ -13,10 +13,10 @@ from msgspec.structs import asdict
 
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
-from satcheck.batch.check_options import CheckOptions, World
-from satcheck.batch.limits import Limits
-from satcheck.batch.local import check_locally
-from satcheck.batch.slot_server import Answer, Wanted
+from satcheck.audit.batch.check_options import CheckOptions, World
+from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.slot_server import Answer, Wanted
 from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.ci import pieces as pieces_for_ci

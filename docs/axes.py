@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from bench.drawing import write_both
+from satcheck.audit.axes import axes_of
 from satcheck.cli.formats.axes_plot import draw
 from satcheck.core import Mesh
 from satcheck.report.axes import AxesReport
 from satcheck.scene import load_scene
-from satcheck.studies.axes import axes_of
 
 HERE = Path(__file__).parent
 SCENE = HERE.parent / "sample_meshes" / "crossed_edges.toml"

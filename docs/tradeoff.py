@@ -8,9 +8,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from bench.drawing import write_both
+from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli.formats.tradeoff_plot import draw
 from satcheck.scene import load_scene
-from satcheck.studies.tradeoff import tradeoff
 
 HERE = Path(__file__).parent
 SAMPLES = HERE.parent / "sample_meshes"

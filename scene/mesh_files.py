@@ -29,9 +29,9 @@ from satcheck.scene.shape_file import remeshed, shape_file
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
+    from satcheck.plugins.mjcf.messages import Model
     from satcheck.scene.known_meshes import KnownMeshes
     from satcheck.scene.planar.outline import Shape
-    from satcheck.scene.robot.mjcf.messages import Model
 
 Read = TypeVar("Read", MeshFile, Nodes)
 _CHOSEN = frozenset(("usd", "glb", "gltf"))  # formats whose parts depend on options
@@ -144,7 +144,7 @@ class MeshFiles:
     def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
         with _reading(path, location):
             if location.suffix.lower() == MODEL_SUFFIX:
-                from satcheck.scene.robot.mjcf.asking import read_own_meshes
+                from satcheck.plugins.mjcf.asking import read_own_meshes
 
                 own = read_own_meshes(path, location, self._limits, self._children)
                 return nodes_of(*own, components=components)
@@ -178,7 +178,7 @@ class MeshFiles:
 
     def model(self, path: str, packages: Mapping[str, str | Path] | None) -> Model:
         """Return what an MJCF file says. Raises MeshFileError."""
-        from satcheck.scene.robot.mjcf.asking import read_model
+        from satcheck.plugins.mjcf.asking import read_model
 
         with _reading(path, Path(path)):
             return read_model(path, packages, self._limits, self._children)

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 LINKS = ROOT / "build" / "links"
 PACKAGE = ROOT / "api" / "satcheck"  # its own files, beside the rooms
-ROOMS = ("cli", "studies", "batch", "audit", "verify", "report", "scene", "decompose", "core")
+ROOMS = ("plugins", "cli", "audit", "verify", "report", "scene", "decompose", "core")
 
 
 def make_links(folder: Path) -> None:

@@ -8,9 +8,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[1]
 ROOMS = (
     "api",
+    "plugins",
     "cli",
-    "studies",
-    "batch",
     "audit",
     "verify",
     "report",

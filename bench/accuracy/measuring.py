@@ -20,10 +20,10 @@ from msgspec.structs import replace
 
 from bench.accuracy.case import Case, Effort, case_of
 from satcheck.audit import Settings, check
+from satcheck.audit.tradeoff import RUNGS, Budget, Row, measure_pair
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import render
 from satcheck.scene import Body, load_scene
-from satcheck.studies.tradeoff import RUNGS, Budget, Row, measure_pair
 
 SECONDS_PER_MICROSECOND = 1e-6
 PARTS = [rung for rung in RUNGS if rung.threshold is not None]

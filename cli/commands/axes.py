@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from msgspec.structs import replace
 
+from satcheck.audit.axes import axes_of
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, form_option
@@ -33,7 +34,6 @@ from satcheck.cli.scene_options import (
 )
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
-from satcheck.studies.axes import axes_of
 
 if TYPE_CHECKING:
     from satcheck.core.conventions import Plane

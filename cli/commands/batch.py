@@ -14,17 +14,17 @@ from typing import Any
 import click
 from msgspec.structs import replace
 
-from satcheck.batch.check_options import World
-from satcheck.batch.limits import Limits
-from satcheck.batch.local import check_locally
-from satcheck.batch.manifest import read_manifest
-from satcheck.batch.remote_world import is_remote
-from satcheck.batch.results import ResultsFile
-from satcheck.batch.run import Tally, run
-from satcheck.batch.shard import Shard, parse_shard
-from satcheck.batch.slot_server import Answer
-from satcheck.batch.spool import Spool
-from satcheck.batch.urls import is_url, matches
+from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.manifest import read_manifest
+from satcheck.audit.batch.remote_world import is_remote
+from satcheck.audit.batch.results import ResultsFile
+from satcheck.audit.batch.run import Tally, run
+from satcheck.audit.batch.shard import Shard, parse_shard
+from satcheck.audit.batch.slot_server import Answer
+from satcheck.audit.batch.spool import Spool
+from satcheck.audit.batch.urls import is_url, matches
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -228,7 +228,7 @@ def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Genera
     if scheduler is None:
         return partial(check_locally, slots=jobs or os.cpu_count() or 1)
     try:
-        from satcheck.batch.dask_engine import check_with_dask
+        from satcheck.audit.batch.dask_engine import check_with_dask
     except ImportError:
         raise click.UsageError("--engine dask needs Dask: pip install 'satcheck[dask]'") from None
     return partial(check_with_dask, scheduler=scheduler)

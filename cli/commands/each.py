@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from satcheck.batch.limits import Limits
+from satcheck.audit.batch.limits import Limits
 from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command

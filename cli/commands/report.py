@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from satcheck.batch.manifest import read_manifest
-from satcheck.batch.stored import StoredResults
+from satcheck.audit.batch.manifest import read_manifest
+from satcheck.audit.batch.stored import StoredResults
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import REPORT_FORMATS, form_of

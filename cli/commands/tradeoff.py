@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from satcheck.audit.request.settings import Method
+from satcheck.audit.tradeoff import Tradeoff, tradeoff
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, form_option
@@ -25,7 +26,6 @@ from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_p
 from satcheck.cli.progress import Bar
 from satcheck.cli.scene_options import merge_option, reading_options, split_option, units_option
 from satcheck.report.json import document as json_document
-from satcheck.studies.tradeoff import Tradeoff, tradeoff
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)

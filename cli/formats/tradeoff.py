@@ -8,17 +8,16 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.audit.tradeoff import labels_of
 from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import DIGITS, bounds, duration, number
 from satcheck.cli.formats.tradeoff_steps import steps
 from satcheck.cli.formats.words import counted
-from satcheck.studies.tradeoff import labels_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.cli.output import Page
-    from satcheck.studies.tradeoff import (
+    from satcheck.audit.tradeoff import (
         Figure,
         PairTradeoff,
         Row,
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
         Times,
         Tradeoff,
     )
+    from satcheck.cli.output import Page
 
 _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}

@@ -17,16 +17,16 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
+from satcheck.audit.tradeoff import choices, labels_of
 from satcheck.cli.formats.numbers import duration, number
 from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Labels, Palette, style
 from satcheck.cli.formats.tradeoff_steps import steps
 from satcheck.cli.output import harmless
-from satcheck.studies.tradeoff import choices, labels_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from satcheck.studies.tradeoff import ClimbEnd, PairTradeoff, Row, Rung, Truth
+    from satcheck.audit.tradeoff import ClimbEnd, PairTradeoff, Row, Rung, Truth
 
 # Points, 72 to the inch.
 WIDTH = 780.0

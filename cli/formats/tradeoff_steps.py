@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from satcheck.cli.formats.numbers import DIGITS
 
 if TYPE_CHECKING:
-    from satcheck.studies.tradeoff import PairTradeoff, Row
+    from satcheck.audit.tradeoff import PairTradeoff, Row
 
 _DIGITS = range(3, DIGITS + 1)
 STANDING = {0: "proven", 1: "not proven", 2: "wrong"}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from satcheck.batch.stored import StoredResults
+from satcheck.audit.batch.stored import StoredResults
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.ci import pieces as pieces_for_ci
 from satcheck.cli.formats.overview import Overview, overview

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from satcheck.batch.key import digest
-from satcheck.batch.stored import Stored
+from satcheck.audit.batch.key import digest
+from satcheck.audit.batch.stored import Stored
 from satcheck.cli.formats.order import is_listed, rank, worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar

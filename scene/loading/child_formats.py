@@ -147,16 +147,16 @@ def _read(request: Request) -> RawScene:
 
             return alone(read_collada(data))
         case "ifc":
-            from satcheck.scene.loading.ifc import read_ifc
+            from satcheck.plugins.ifc import read_ifc
 
             return read_ifc(data, request.options)
         case "usd":
-            from satcheck.scene.loading.usd import read_usd
+            from satcheck.plugins.usd import read_usd
 
             place = Path(request.directory, request.name)
             return read_usd(place, request.options, allow_outside=request.allow_outside)
         case "step":
-            from satcheck.scene.loading.step.assembly import read_step
+            from satcheck.plugins.step.assembly import read_step
 
             return read_step(data, request.options)
     from satcheck.scene.loading.gltf import read_gltf

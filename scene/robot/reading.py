@@ -15,7 +15,7 @@ from satcheck.scene.robot.urdf import robot_of
 from satcheck.scene.robot.xml_tree import MJCF_ROOT, SDF_ROOTS, read_tree
 
 if TYPE_CHECKING:
-    from satcheck.scene.robot.mjcf.messages import Model
+    from satcheck.plugins.mjcf.messages import Model
 
 
 def read_robot(
@@ -35,12 +35,12 @@ def read_robot(
     """
     root = read_tree(path, location, "robot", *SDF_ROOTS, MJCF_ROOT)
     if root.tag in SDF_ROOTS:
-        from satcheck.scene.robot.sdf.includes import Includes
-        from satcheck.scene.robot.sdf.reading import read_sdf
+        from satcheck.plugins.sdf.includes import Includes
+        from satcheck.plugins.sdf.reading import read_sdf
 
         robot, issues = read_sdf(root, Includes(places), geometry)
     elif root.tag == MJCF_ROOT and compiled is not None:
-        from satcheck.scene.robot.mjcf.reading import robot_of_model
+        from satcheck.plugins.mjcf.reading import robot_of_model
 
         robot, issues = robot_of_model(path, _model(path, compiled), geometry, hulls=hulls)
     else:

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from satcheck.audit import Report, Settings, check
+from satcheck.audit.axes.chosen_pair import chosen_pair
+from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli.formats.words import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
-from satcheck.studies.axes.chosen_pair import chosen_pair
-from satcheck.studies.tradeoff import tradeoff
 from tests.audit.shapes import Mesh, box, unit_box, write
 from tests.scene import graphs
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from satcheck.studies.tradeoff import RUNGS
+from satcheck.audit.tradeoff import RUNGS
 
 Record = dict[str, Any]
 LABELS = [rung.label for rung in RUNGS]

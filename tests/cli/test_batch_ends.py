@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from tests.batch.test_slot import PLANTED
+from tests.audit.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix
 
 pytestmark = on_posix

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.batch.merge import merge
-from tests.batch.worlds import make_worlds
+from satcheck.audit.batch.merge import merge
+from tests.audit.batch.worlds import make_worlds
 from tests.cli.process import environment, on_posix, private_cache, satcheck
 from tests.test_docs import BLOCK, ROOT
 

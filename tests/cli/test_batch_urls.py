@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import trimesh
 
-from tests.batch.worlds import make_worlds
+from tests.audit.batch.worlds import make_worlds
 from tests.cli.process import SAMPLES, private_cache, satcheck
 
 _KEY = re.compile(r'"key":"\w+"')

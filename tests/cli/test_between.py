@@ -11,7 +11,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from tests.cli.process import SAMPLES, satcheck
-from tests.scene.ifc.models import Model
+from tests.plugins.ifc.models import Model
 
 THREE = ("box.obj", "box_pushed.stl", "cube.off")
 

@@ -17,7 +17,7 @@ from junitparser import JUnitXml
 
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.schema import text
-from tests.batch.test_slot import PLANTED
+from tests.audit.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 
 

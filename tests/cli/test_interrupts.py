@@ -21,7 +21,7 @@ from jsonschema import Draft202012Validator
 
 from satcheck import cli
 from satcheck.cli.formats.schema import text
-from tests.batch.test_slot import PLANTED, marked, on_linux, until
+from tests.audit.batch.test_slot import PLANTED, marked, on_linux, until
 from tests.cli.process import SAMPLES, command, environment
 
 pytestmark = on_linux

@@ -13,8 +13,8 @@ from jsonschema import Draft202012Validator
 from satcheck.cli.formats.schema import text
 from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
+from tests.plugins.usd.files import at, cube, stage
 from tests.scene.files import glb, gltf_document
-from tests.scene.usd.files import at, cube, stage
 
 # The box from (0, 0, 0) to (1, 1, 1).
 BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + (

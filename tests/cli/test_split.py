@@ -10,8 +10,8 @@ import pytest
 from satcheck.cli.scene_options import SPLITS
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
+from tests.plugins.usd.files import cube, stage
 from tests.scene import files, graphs
-from tests.scene.usd.files import cube, stage
 
 
 def test_the_choices_are_those_of_the_loader() -> None:

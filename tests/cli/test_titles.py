@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.cli.process import satcheck
-from tests.scene.ifc.models import Model
+from tests.plugins.ifc.models import Model
 
 
 def two_boxes(folder: Path) -> str:

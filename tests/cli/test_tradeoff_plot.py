@@ -11,9 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from msgspec.structs import replace
 
-from satcheck.cli.formats.plot_style import DARK, FORMS, LIGHT, file_of
-from satcheck.cli.formats.tradeoff_plot import draw
-from satcheck.studies.tradeoff import (
+from satcheck.audit.tradeoff import (
     RUNGS,
     ClimbEnd,
     Figure,
@@ -23,6 +21,8 @@ from satcheck.studies.tradeoff import (
     Truth,
     labels_of,
 )
+from satcheck.cli.formats.plot_style import DARK, FORMS, LIGHT, file_of
+from satcheck.cli.formats.tradeoff_plot import draw
 
 TRUTH = Truth("separated", Figure(1.0, 1.0, 1.0), 0.0)
 

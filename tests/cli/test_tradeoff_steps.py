@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from satcheck.audit.tradeoff import RUNGS, PairTradeoff, Row, Times, Truth
 from satcheck.cli.formats.tradeoff_steps import steps
-from satcheck.studies.tradeoff import RUNGS, PairTradeoff, Row, Times, Truth
 
 BY_NAME = {rung.name: rung for rung in RUNGS}
 

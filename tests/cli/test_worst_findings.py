@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.batch.stored import Stored
+from satcheck.audit.batch.stored import Stored
 from satcheck.cli.formats.overview import overview
 from satcheck.cli.formats.worst_page import render
 from satcheck.cli.results.worst_findings import Worst, file_name

@@ -16,6 +16,7 @@ from satcheck.cli.formats.picture.html import render as page
 from satcheck.cli.report_file import read_report
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
+from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import MeshFileError, Scene, load_scene
 from satcheck.scene.loading.child_formats import Reply, Request, serve
@@ -23,7 +24,6 @@ from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.robot.mjcf.reading import robot_of_model
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written

@@ -12,9 +12,9 @@ import pytest
 
 from satcheck.scene import load_scene
 from satcheck.scene.loading import limits
+from tests.plugins.ifc.models import Model
 from tests.scene import files, graphs
 from tests.scene.hostile import code_of, issues, issues_of, write
-from tests.scene.ifc.models import Model
 from tests.scene.loading import refusal
 from tests.scene.robot import robots
 

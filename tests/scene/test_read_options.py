@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.batch.check_options import CheckOptions
-from satcheck.batch.key import terms_of
+from satcheck.audit.batch.check_options import CheckOptions
+from satcheck.audit.batch.key import terms_of
 from satcheck.scene import load_scene
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.read_options import OPTIONS_OF, ReadOptions, as_stated

@@ -28,7 +28,8 @@ def render(
     """scene: that the report is about. split: a page shows convex parts, too. cache: of these."""
     from satcheck.cli.formats.picture.slabs import with_slabs
 
-    module = import_module(f"{__name__}.{form}")
+    package = "satcheck.plugins.ifc" if form == "bcf" else __name__
+    module = import_module(f"{package}.{form}")
     scene = with_slabs(scene)
     if split and form == "html":
         from satcheck.cli.formats.picture.parts import parts_of

@@ -1,0 +1,51 @@
+"""The scenes of a batch as a file names them."""
+
+from __future__ import annotations
+
+import codecs
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+
+from satcheck.audit.batch import urls
+from satcheck.audit.batch.check_options import World
+from satcheck.core.errors import SatcheckError
+
+_JSON_LIST = "["
+
+
+def read_manifest(name: str) -> Iterator[World]:
+    """A scene for each line: the name of a file, relative to the working directory, or a JSON list
+    of files that are one scene together. Empty lines are skipped. name: a path or a URL.
+
+    Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.urls`.
+    """
+    for number, line in enumerate(urls.lines(name) if urls.is_url(name) else _lines(name), 1):
+        text = os.fsdecode(line.removeprefix(codecs.BOM_UTF8) if number == 1 else line)
+        if text.strip():
+            yield _world(text.rstrip("\r\n"), f"{name}:{number}")
+
+
+def _lines(name: str) -> Iterator[bytes]:
+    try:
+        with Path(name).open("rb") as lines:
+            yield from lines
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise SatcheckError("unreadable-file", reason, file=name) from None
+
+
+def _world(line: str, place: str) -> World:
+    if not line.startswith(_JSON_LIST):
+        return (line,)
+    try:
+        world = msgspec.convert(json.loads(line), World)  # names may not be UTF-8
+    except (ValueError, RecursionError, msgspec.ValidationError) as error:
+        reason = f'no list of files: {error}; a name that begins with [ is written ["[..."]'
+        raise SatcheckError("bad-manifest", reason, file=place) from None
+    if not world:
+        raise SatcheckError("bad-manifest", "the list of files is empty", file=place)
+    return world

@@ -1,0 +1,81 @@
+"""A batch: the worlds that are not done yet go through an engine, and results to their file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from functools import lru_cache
+
+from msgspec import Struct
+
+from satcheck.audit.batch.check_options import CheckOptions, World
+from satcheck.audit.batch.key import digest, inputs_of, key_of, terms_of
+from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.results import Head, ResultsFile
+from satcheck.audit.batch.slot_server import Answer
+from satcheck.report.assets import AssetVerdict
+
+# Gives the answers for worlds, in any order.
+Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
+# Digests that a resumed run keeps, as worlds share files.
+_DIGESTS = 100_000
+
+
+class Tally(Struct):
+    """The number of worlds with each verdict; kept: of an earlier run."""
+
+    total: int
+    kept: int = 0
+    error: int = 0
+    fail: int = 0
+    incomplete: int = 0
+    passed: int = 0
+
+    @property
+    def done(self) -> int:
+        return self.error + self.fail + self.incomplete + self.passed
+
+    def count(self, verdict: AssetVerdict) -> None:
+        name = "passed" if verdict == "pass" else verdict
+        setattr(self, name, getattr(self, name) + 1)
+
+
+def run(
+    worlds: Sequence[World],
+    options: CheckOptions,
+    limits: Limits,
+    engine: Engine,
+    results: ResultsFile,
+    progress: Callable[[Tally], None],
+) -> Tally:
+    """Checks the worlds of which the file has no valid result, and brings the file into order.
+    progress: called when results are on the disk. Raises what the engine and the file raise."""
+    tally = Tally(len(worlds))
+    waiting = dict.fromkeys(worlds)
+    for head in results.keep(_validity(options, limits)):
+        if head.files in waiting:
+            del waiting[head.files]
+            tally.kept += 1
+            tally.count(head.verdict)
+    progress(tally)
+    with closing(engine(tuple(waiting))) as coming:
+        for answers in coming:
+            results.append((each.world, each.line) for each in answers)
+            for each in answers:
+                tally.count(each.verdict)
+            progress(tally)
+    results.finish(worlds)
+    return tally
+
+
+def _validity(options: CheckOptions, limits: Limits) -> Callable[[Head], bool]:
+    """Says of a result whether its files, the options and the version are the same now, and if it
+    depends on them also the limits."""
+    now = lru_cache(_DIGESTS)(digest)
+    terms = terms_of(options), terms_of(options, limits)
+
+    def valid(head: Head) -> bool:
+        inputs = inputs_of((file.path for file in head.inputs), now)
+        return head.key in [key_of(head.files, each, inputs) for each in terms]
+
+    return valid

@@ -1,0 +1,192 @@
+"""The child of a slot: checks the worlds of a chunk one after another (`core.worker`)."""
+
+from __future__ import annotations
+
+import gc
+import json
+import os
+import re
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache, partial
+from pathlib import Path
+from typing import NoReturn
+
+import msgspec
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.audit.assets import unreadable_asset, without_unused_rules
+from satcheck.audit.batch.check_options import CheckOptions, World
+from satcheck.audit.batch.check_world import check_world
+from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
+from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.remote_world import Copies, Copy, is_remote
+from satcheck.core import keep_freed_memory
+from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
+from satcheck.report.assets import Asset, AssetVerdict
+from satcheck.report.batch import InputFile, Result
+from satcheck.report.json import line_of
+from satcheck.scene.files_read import FilesRead, files_read, note
+from satcheck.scene.known_meshes import KnownMeshes
+
+# A line on standard error names the risky step that begins, in hexadecimal digits, as the name may
+# hold anything, and says when: in seconds of a clock that all processes share.
+STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
+
+# A scene names meshes, these name buffers: more rounds of fetching are a circle.
+_MOST_ROUNDS = 8
+
+# An issue that ends when a package is installed, which no file shows.
+_NOT_INSTALLED = "missing-extra"
+# What this process keeps for the next world. A triangle takes about 200 bytes.
+_KEPT_TRIANGLES = 1_000_000
+# New objects before Python looks for cycles among them, of which reports have none.
+_GARBAGE = 50_000
+_meshes = KnownMeshes(_KEPT_TRIANGLES)
+_digests = Digests()
+
+
+class Wanted(Struct, frozen=True):
+    """The wishes for a check beside its answer. kept: the result is for a file that a later run
+    resumes: it has its inputs, its key and no times. hashed: state the SHA-256 of the mesh files.
+    threads: for one check, as the other slots have the other cores."""
+
+    kept: bool = True
+    hashed: bool = True
+    threads: int = 1
+
+
+class Chunk(Struct, frozen=True):
+    """left_out: None: a plain check. Else a careful one, without these steps. copies: a folder for
+    copies of remote files, the same for each chunk of a slot."""
+
+    worlds: tuple[World, ...]
+    options: CheckOptions
+    limits: Limits
+    wanted: Wanted = Wanted()
+    left_out: Mapping[str, Loss] | None = None
+    copies: str | None = None
+
+
+class Answer(Struct, frozen=True):
+    """line: the Result as a line of JSON."""
+
+    world: World
+    verdict: AssetVerdict
+    line: bytes
+
+
+def request_of(chunk: Chunk) -> bytes:
+    """In ASCII, because msgspec writes no name of a file that is not UTF-8."""
+    return json.dumps(msgspec.to_builtins(chunk)).encode()
+
+
+def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
+    """Yield the answers of these worlds, in this order."""
+    verdicts_and_lines = msgspec.msgpack.decode(reply, type=list[tuple[AssetVerdict, bytes]])
+    return [Answer(world, *each) for world, each in zip(worlds, verdicts_and_lines, strict=True)]
+
+
+def serve(request: bytes) -> bytes:
+    keep_freed_memory()
+    gc.set_threshold(_GARBAGE)
+    end_at_memory_error(_end)
+    chunk = msgspec.convert(json.loads(request), Chunk)
+    settings = {**chunk.options.settings, "jobs": chunk.wanted.threads}
+    options = replace(chunk.options, settings=settings)
+    care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
+    with careful(care):
+        answers = list(_answers(chunk, options))
+    return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
+
+
+def _answers(chunk: Chunk, options: CheckOptions) -> Iterator[Answer]:
+    if not chunk.wanted.kept:
+        yield from (_answer_of_now(world, options, chunk.wanted) for world in chunk.worlds)
+        return
+    terms = terms_of(options, chunk.limits if chunk.left_out else None)
+    copies = None if chunk.copies is None else _copies(chunk.copies)
+    yield from (_answer(world, options, terms, copies=copies) for world in chunk.worlds)
+
+
+def _answer_of_now(world: World, options: CheckOptions, wanted: Wanted) -> Answer:
+    checked = check_world(world, options, hashed=wanted.hashed, known=_meshes)
+    line = line_of(_result(world, checked, (), None), timings=True)
+    return Answer(world, checked.verdict, line)
+
+
+@cache
+def _copies(folder: str) -> Copies:
+    return Copies(Path(folder))
+
+
+def _tell(step: str) -> None:
+    name = step.encode("utf-8", "surrogateescape").hex()
+    os.write(2, f"satcheck step {time.monotonic()} {name}\n".encode())
+
+
+def _end() -> NoReturn:
+    """The parent sees a lack of memory in the last line."""
+    os.write(2, b"MemoryError\n")
+    os._exit(1)
+
+
+def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | None) -> Answer:
+    if copies is not None and is_remote(world):
+        copy = copies.of(world, anywhere=options.allow_outside)
+        return _remote_answer(world, options, terms, copy=copy)
+    checked, files = _checked(world, options)
+    inputs = inputs_of(files, partial(_digests.digest, files))
+    return answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
+
+
+def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) -> Answer:
+    try:
+        checked, files = _checked_copy(world, options, copy)
+    except SatcheckError as error:  # of the fetch: the next run tries again
+        return answer(_result(world, unreadable_asset(world[0], error), (), None))
+    inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
+    made = answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
+    return replace(made, line=copy.with_urls(made.line))
+
+
+def _checked_copy(world: World, options: CheckOptions, copy: Copy) -> tuple[Asset, FilesRead]:
+    """Repeats the check as long as it looks for files that can be fetched. Raises SatcheckError."""
+    paths = tuple(map(copy.path, world))
+    copy.fetch(paths)
+    for _ in range(_MOST_ROUNDS):
+        checked, files = _checked(paths, options)
+        if not copy.fetch(files):
+            return checked, files
+    reason = f"names files that name files, and so on, {_MOST_ROUNDS} times: copy it and check that"
+    raise SatcheckError("too-many-files", reason, file=world[0])
+
+
+def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
+    with files_read() as files:
+        for name in world:
+            note(name)
+        checked = check_world(world, options, known=_meshes)
+    return without_unused_rules(checked, options.rules), files
+
+
+def _key(
+    world: World, terms: str, inputs: tuple[InputFile, ...], checked: Asset, files: FilesRead
+) -> str | None:
+    """None: the next run checks the world again."""
+    lacking = any(issue.code == _NOT_INSTALLED for issue in checked.report.issues)
+    if lacking or not files.are_certain():
+        return None
+    return key_of(world, terms, inputs, _digests.real_path)
+
+
+def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:
+    return Result(
+        files=world, key=key, verdict=checked.verdict, inputs=inputs, report=checked.report
+    )
+
+
+def answer(result: Result) -> Answer:
+    return Answer(result.files, result.verdict, line_of(result))

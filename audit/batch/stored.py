@@ -1,0 +1,276 @@
+"""Results files, read for questions: those of several shards together, a result for each world."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack
+from heapq import merge
+from itertools import groupby
+from os import fstat
+from pathlib import Path
+from typing import NamedTuple, Self, TypeVar
+
+import msgspec
+
+from satcheck.audit.assets import unreadable_asset
+from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.results import PART, part_of, resolved
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import Asset, AssetVerdict, worst_verdict
+from satcheck.report.batch import InputFile, Result
+from satcheck.report.json import read_line
+from satcheck.report.report import Issue
+
+BAD_RESULT = "bad-result"
+UNFINISHED = "unfinished-results"
+NO_RESULTS = "no-results"
+MISSING = "missing-results"
+DIFFERENT = "different-results"
+# What an issue allows at best.
+_VERDICTS: dict[str, AssetVerdict] = {
+    BAD_RESULT: "error",
+    UNFINISHED: "incomplete",
+    NO_RESULTS: "incomplete",
+    MISSING: "incomplete",
+    DIFFERENT: "pass",
+}
+# Lines of a file that are named one by one.
+_NAMED = 10
+_BLOCK_BYTES = 1 << 16
+_SURROGATE = b"\\ud"
+_T = TypeVar("_T")
+
+
+class Stored(NamedTuple):
+    """A result, read back. files: of the world. inputs: that the answer depends on."""
+
+    files: World
+    inputs: tuple[InputFile, ...]
+    asset: Asset
+
+
+class _Name(msgspec.Struct, frozen=True):
+    """What says which result a line is."""
+
+    files: World
+    key: str | None
+
+
+class _Line(NamedTuple):
+    name: _Name
+    text: bytes
+    path: Path
+
+
+class StoredResults:
+    """The results in files, one for each world, sorted by the names of the files of the worlds.
+    Each iteration reads the files again.
+
+    The memory does not grow with a file that is sorted, as a finished batch leaves it; of another
+    one, the places of its lines are kept. Of a batch that did not finish, its part is read. In one
+    file the last result of a world counts. In several
+    files the same key means the same answer; of different ones that of the last file counts.
+
+    expected: worlds that need a result. issues: what is wrong with the files; least: the verdict
+    that this allows at best. Use it in a `with` statement. Raises SatcheckError: `unreadable-file`.
+    """
+
+    def __init__(self, paths: Sequence[Path], expected: Iterable[World] = ()) -> None:
+        self._paths = paths
+        self._expected = expected
+        self._stack = ExitStack()
+        self._count = 0
+        self.issues: tuple[Issue, ...] = ()
+        self.least: AssetVerdict = "pass"
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            files = (each for path in self._paths for each in _files_of(path))
+            self._files = [_Lines(path, stack) for path in files]
+            self._stack = stack.pop_all()
+        self.issues = (*(issue for file in self._files for issue in file.issues), *self._scan())
+        self.least = worst_verdict(Counter(_VERDICTS[issue.code] for issue in self.issues))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Stored]:
+        for lines in self._worlds():
+            yield _read(lines[-1])
+
+    def _worlds(self) -> Iterator[list[_Line]]:
+        """The lines of each world, in the order of the files."""
+        lines = merge(*self._files, key=lambda line: line.name.files)
+        for _, same in groupby(lines, key=lambda line: line.name.files):
+            yield list(same)
+
+    def _scan(self) -> Iterator[Issue]:
+        different, first_different = 0, ""
+        missing = dict.fromkeys(self._expected)
+        for lines in self._worlds():
+            self._count += 1
+            missing.pop(lines[0].name.files, None)
+            if _differ(lines):
+                different += 1
+                first_different = first_different or _named(lines[0].name.files)
+        if different:
+            which = f"{first_different}{_more(different - 1)}"
+            reason = f"{which}: different results in several files; the last file counts"
+            yield Issue(DIFFERENT, "warning", None, None, reason)
+        if missing:
+            which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
+            yield Issue(MISSING, "warning", None, None, f"{which}: no result in these files")
+        if not self._count:
+            yield Issue(NO_RESULTS, "warning", None, None, "there is no result in these files")
+
+
+def _files_of(path: Path) -> Iterator[Path]:
+    """An unfinished run leaves a part beside the file of an earlier run, or in its place."""
+    path = resolved(path)
+    part = part_of(path)
+    if path.exists() or not part.exists():
+        yield path
+    if part.exists():
+        yield part
+
+
+def _named(world: World) -> str:
+    return ", ".join(world)
+
+
+def _more(scenes: int) -> str:
+    return f" and {scenes:,} more" if scenes else ""
+
+
+class _Lines:
+    """The complete lines of one file, in the order of their worlds. issues: about the file."""
+
+    def __init__(self, path: Path, stack: ExitStack) -> None:
+        self._path = path
+        try:
+            self._file = stack.enter_context(path.open("rb"))
+            self._end = fstat(self._file.fileno()).st_size  # a batch may still write
+            self._bad: list[Issue] = []
+            self._places: dict[World, int] | None = None
+            self._is_cut = False
+            is_sorted = self._scan()
+            if not is_sorted:
+                self._places = dict(sorted(self._place_of_each()))
+        except OSError as error:
+            reason = f"cannot be read: {error.strerror}"
+            raise SatcheckError("unreadable-file", reason, file=str(path)) from None
+        self.issues = [*self._bad[:_NAMED], *self._more_bad(), *self._unfinished(is_sorted)]
+
+    def __iter__(self) -> Iterator[_Line]:
+        if self._places is None:
+            named = ((_name(line), line) for _, line in self._lines())
+            yield from (_Line(name, line, self._path) for name, line in named if name is not None)
+            return
+        for begin in self._places.values():
+            self._file.seek(begin)
+            line = self._file.readline()
+            name = _name(line)
+            if name is not None:
+                yield _Line(name, line, self._path)
+
+    def _scan(self) -> bool:
+        """Notes bad lines; whether the others are sorted."""
+        is_sorted, last = True, None
+        for number, (_, line) in enumerate(self._lines(), 1):
+            name = _name(line)
+            if name is None:
+                self._bad.append(_bad(self._path, number))
+                continue
+            is_sorted &= last is None or last < name.files
+            last = name.files
+        return is_sorted
+
+    def _place_of_each(self) -> Iterator[tuple[World, int]]:
+        """The last place of each world."""
+        named = ((_name(line), begin) for begin, line in self._lines())
+        yield from {name.files: begin for name, begin in named if name is not None}.items()
+
+    def _lines(self) -> Iterator[tuple[int, bytes]]:
+        """(offset, line) of each line that ends."""
+        begin = 0
+        while begin < self._end:
+            self._file.seek(begin)
+            for line in self._file.readlines(_BLOCK_BYTES):
+                if begin >= self._end:
+                    return
+                if not line.endswith(b"\n"):
+                    self._is_cut = True
+                    return
+                yield begin, line
+                begin += len(line)
+
+    def _more_bad(self) -> Iterator[Issue]:
+        if (more := len(self._bad) - _NAMED) > 0:
+            reason = f"{self._path}: {more:,} more lines are no results"
+            yield Issue(BAD_RESULT, "error", None, str(self._path), reason)
+
+    def _unfinished(self, is_sorted: bool) -> Iterator[Issue]:
+        """A finished batch leaves a sorted file of complete lines."""
+        signs = {
+            "it is a part": self._path.suffix == PART,
+            "its last line is cut off": self._is_cut,
+            "its lines are not sorted": not is_sorted,
+        }
+        if any(signs.values()):
+            why = ", ".join(sign for sign, is_there in signs.items() if is_there)
+            reason = f"{self._path}: the batch did not finish, so scenes may be missing ({why})"
+            yield Issue(UNFINISHED, "warning", None, str(self._path), reason)
+
+
+def _differ(lines: list[_Line]) -> bool:
+    """Without a key nothing says that two results are the same."""
+    keys = {line.name.key for line in lines}
+    return len(keys) > 1 or (None in keys and len({line.text for line in lines}) > 1)
+
+
+def _name(line: bytes) -> _Name | None:
+    try:
+        name = _decoded(line, _Name)
+    except msgspec.MsgspecError:
+        return None
+    return name if name.files else None
+
+
+def _decoded(line: bytes, kind: type[_T]) -> _T:
+    """Raises msgspec.MsgspecError."""
+    try:
+        if _SURROGATE in line:  # it may stand for no byte of a file name
+            json.dumps(json.loads(line), ensure_ascii=False).encode(errors="surrogateescape")
+        return read_line(line, kind)
+    except (ValueError, RecursionError) as error:
+        raise msgspec.DecodeError(str(error)) from None
+
+
+def _bad(path: Path, number: int) -> Issue:
+    reason = f"{path}:{number}: no result of a batch"
+    return Issue(BAD_RESULT, "error", None, str(path), reason, number)
+
+
+def _read(line: _Line) -> Stored:
+    name = _named(line.name.files)
+    try:
+        result = _decoded(line.text, Result)
+        _require_bodies(result)
+    except msgspec.MsgspecError as error:
+        reason = f"{line.path}: no result of this version of satcheck: {error}"
+        asset = unreadable_asset(name, SatcheckError(BAD_RESULT, reason, file=name))
+        return Stored(line.name.files, (), asset)
+    return Stored(result.files, result.inputs, Asset(name, result.verdict, result.report))
+
+
+def _require_bodies(result: Result) -> None:
+    known = {body.id for body in result.report.bodies}
+    for finding in result.report.findings:
+        if not {finding.a, finding.b} <= known:
+            raise msgspec.ValidationError(f"no body is {finding.a}, or {finding.b}")

@@ -1,0 +1,148 @@
+"""Opens an IFC file, and refuses one that its parser reads only in part.
+
+The parser goes on without what it cannot read. A placement that is lost moves a body to the origin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from satcheck.plugins.ifc.kernel_log import Message, logged, start_log
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.extras import imported
+from satcheck.scene.loading.zip_guard import open_part, opened_zip
+
+UNITS = "m"  # the kernel converts all lengths
+_ZIP = b"PK\x03\x04"
+_FIRST = b"ISO-10303-21"
+_LAST = b"END-ISO-10303-21"
+_ENDS_BYTES = 4096
+_WRONG_COUNT = "VAL016"  # the code of a message: an instance has too few or too many attributes
+_TWICE = "Overwriting instance"
+_SHAPE = "IfcProductRepresentation"
+# What shapes or places a body. Damage elsewhere changes no body.
+_SHAPING = (
+    "IfcRepresentationItem",
+    "IfcRepresentation",
+    "IfcRepresentationMap",
+    "IfcRepresentationContext",
+    _SHAPE,
+    "IfcProfileDef",
+    "IfcObjectPlacement",
+    "IfcNamedUnit",
+    "IfcUnitAssignment",
+    "IfcMeasureWithUnit",
+    "IfcRelVoidsElement",
+)
+
+
+def open_model(data: memoryview) -> Any:
+    """The ifcopenshell.file. Raises MeshFileError."""
+    content = unpacked(data)
+    _refuse_other_content(content)
+    ifcopenshell = imported("ifcopenshell", "ifc", "IFC files")
+    start_log()
+    try:
+        model = ifcopenshell.file.from_string(_text(content))
+    except RuntimeError as error:
+        raise _unopened(list(logged()), str(error)) from None
+    _refuse_damage(model, logged())
+    _refuse_without_unit(model)
+    _refuse_cycles(model)
+    if not model.by_type("IfcGeometricRepresentationContext"):
+        message = "the file has no IfcGeometricRepresentationContext, so its shapes have no meaning"
+        raise MeshFileError("bad-record", message)
+    return model
+
+
+def unpacked(data: memoryview) -> bytes:
+    """The text of the file; of the only IFC file in an ifcZIP. Raises MeshFileError."""
+    if bytes(data[: len(_ZIP)]) != _ZIP:
+        return bytes(data)
+    with opened_zip(data, "an ifcZIP file") as archive:
+        names = [name for name in archive.namelist() if name.lower().endswith((".ifc", ".ifcxml"))]
+        if len(names) != 1:
+            message = f"an ifcZIP file holds one IFC file, not {len(names)}"
+            raise MeshFileError("bad-record" if names else "missing-resource", message)
+        with open_part(archive, names[0]) as part:
+            return part.read()
+
+
+def _refuse_other_content(content: bytes) -> None:
+    start = content[:_ENDS_BYTES].lstrip(b"\xef\xbb\xbf \t\r\n")
+    if start.startswith(b"<"):
+        message = "ifcXML is not read: export the model as a STEP physical file (.ifc)"
+        raise MeshFileError("unsupported-feature", message)
+    if not start.startswith(_FIRST):
+        message = f"not an IFC file: it does not begin with {_FIRST.decode()}"
+        raise MeshFileError("not-this-format", message)
+    if _LAST not in content[-_ENDS_BYTES:]:
+        raise MeshFileError("truncated", f"the file ends without {_LAST.decode()}")
+
+
+def _text(content: bytes) -> str:
+    """ISO 10303-21 prescribes ISO 8859-1; many programs write UTF-8."""
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        return content.decode("latin-1")
+
+
+def _unopened(messages: list[Message], otherwise: str) -> MeshFileError:
+    said = messages[0].line if messages else otherwise
+    return MeshFileError("bad-record", f"the file cannot be parsed: {said}")
+
+
+def _refuse_damage(model: Any, messages: Iterable[Message]) -> None:
+    for message in messages:
+        if message.level == "error" or message.message.startswith(_TWICE):
+            raise MeshFileError(
+                "bad-record", f"the parser reads a part of the file: {message.line}"
+            )
+        if message.code == _WRONG_COUNT and _shapes(model, message):
+            raise MeshFileError("bad-record", f"a record is of another form: {message.line}")
+
+
+def _shapes(model: Any, message: Message) -> bool:
+    """Whether the instance that the message ends with shapes or places a body. A product does not
+    if its placement and its shape are where they should be: then it lacks what follows them."""
+    number = message.message.rpartition("#")[2]
+    instance = model.by_id(int(number)) if number.isdecimal() else None
+    if instance is None or any(map(instance.is_a, _SHAPING)):
+        return True
+    if not instance.is_a("IfcProduct"):
+        return False
+    placement, shape = instance.ObjectPlacement, instance.Representation
+    return not (_is_a(placement, "IfcObjectPlacement") and _is_a(shape, _SHAPE))
+
+
+def _is_a(value: Any, name: str) -> bool:
+    """Whether an attribute is empty or an instance of the class."""
+    return value is None or (hasattr(value, "is_a") and value.is_a(name))
+
+
+def _refuse_without_unit(model: Any) -> None:
+    units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
+    if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
+        raise MeshFileError("bad-record", "the file states no unit of length (LENGTHUNIT)")
+
+
+def _refuse_cycles(model: Any) -> None:
+    """The kernel ends its process over a placement that is relative to itself."""
+    above = {
+        each.id(): each.PlacementRelTo.id()
+        for each in model.by_type("IfcLocalPlacement")
+        if each.PlacementRelTo is not None
+    }
+    fine: set[int] = set()
+    for number in above:
+        chain: dict[int, None] = {}
+        place: int | None = number
+        while place is not None and place not in fine:
+            if place in chain:
+                message = f"placement #{place} is relative to itself: a cycle"
+                raise MeshFileError("reference-cycle", message)
+            chain[place] = None
+            place = above.get(place)
+        fine.update(chain)

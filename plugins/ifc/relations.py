@@ -1,0 +1,181 @@
+"""Rules from the relations of an IFC file: pairs that meet by design.
+
+What fills an opening, covers an element or is part of one assembly touches its neighbours. An
+overlap there is a note. Nothing is checked between a whole and its parts, which are the same
+material. Walls that a path connects may overlap in their corner, as many programs export them, but
+not by most of one of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import Any
+
+from msgspec import Struct
+
+from satcheck.plugins.ifc.corners import meet_in_a_corner
+from satcheck.plugins.ifc.elements import parts_of
+from satcheck.plugins.ifc.shape import Shape
+from satcheck.scene.loading.raw_mesh import RawRule, Refusal, RuleSeverity
+
+_NOTE: RuleSeverity = "note"
+_BARS, _CONCRETE = "reinforcement", "reinforced"
+_BAR = "IfcReinforcingElement"
+# What reinforcement lies in. In IFC2X3 reinforcement is itself a building element.
+_HOSTS = (
+    *("IfcBeam", "IfcBuildingElementProxy", "IfcCivilElement", "IfcColumn", "IfcFooting"),
+    *("IfcMember", "IfcPile", "IfcPlate", "IfcRamp", "IfcRampFlight", "IfcRoof", "IfcSlab"),
+    *("IfcStair", "IfcStairFlight", "IfcWall", "IfcCourse", "IfcPavement", "IfcBearing"),
+)  # what may be of reinforced concrete
+
+
+class Relations(Struct, frozen=True):
+    """groups: the number of a body -> the groups that rules name."""
+
+    rules: tuple[RawRule, ...]
+    groups: Mapping[int, tuple[str, ...]]
+
+
+class _Pair(Struct, frozen=True):
+    a: Any
+    b: Any
+    reason: str
+    severity: RuleSeverity | None = _NOTE
+    is_corner: bool = False
+
+
+def relations_of(
+    model: Any,
+    bodies: Sequence[Any],
+    paths: Mapping[int, str],
+    shapes: Mapping[int, Shape | Refusal],
+) -> Relations:
+    """paths, shapes: of each body, by its number."""
+    groups: dict[int, list[str]] = {}
+    rules = [*_reinforcement(bodies, groups), *_assemblies(model, paths, groups)]
+    rules += _wholes(bodies, paths)
+    for pair in _pairs(model):
+        for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
+            if a != b and not (pair.is_corner and _may_coincide(shapes[a], shapes[b])):
+                rules.append(RawRule(paths[a], paths[b], pair.reason, severity=pair.severity))
+    return Relations(
+        tuple(dict.fromkeys(rules)), {body: tuple(names) for body, names in groups.items()}
+    )
+
+
+def _reinforcement(bodies: Sequence[Any], groups: dict[int, list[str]]) -> Iterator[RawRule]:
+    """Bars within the concrete, which few files relate to each other."""
+    bars = [body.id() for body in bodies if body.is_a(_BAR)]
+    hosts = [body.id() for body in bodies if not body.is_a(_BAR) and any(map(body.is_a, _HOSTS))]
+    if bars and hosts:
+        for name, members in ((_BARS, bars), (_CONCRETE, hosts)):
+            for body in members:
+                groups.setdefault(body, []).append(name)
+        yield RawRule(_BARS, _CONCRETE, f"{_BAR} within concrete", of_groups=True, severity=_NOTE)
+
+
+def _assemblies(
+    model: Any, paths: Mapping[int, str], groups: dict[int, list[str]]
+) -> Iterator[RawRule]:
+    """Parts of one whole, each assembly a group. A part that is a whole belongs to the outermost
+    one."""
+    wholes = [each for each in model.by_type("IfcElement") if any(True for _ in parts_of(each))]
+    inner = {part.id() for whole in wholes for part in parts_of(whole)}
+    for whole in sorted((each for each in wholes if each.id() not in inner), key=_by_id):
+        members = [body for body in _bodies_of(whole, paths) if body != whole.id()]
+        if len(members) > 1:
+            name = f"assembly:{whole.GlobalId}"
+            for body in members:
+                groups.setdefault(body, []).append(name)
+            reason = f"parts of {_called(whole)} (IfcRelAggregates)"
+            yield RawRule(name, name, reason, of_groups=True, severity=_NOTE)
+
+
+def _wholes(bodies: Sequence[Any], paths: Mapping[int, str]) -> Iterator[RawRule]:
+    """Wholes that have a shape of their own, with their parts."""
+    for whole in bodies:
+        for part in _bodies_of(whole, paths):
+            if part != whole.id():
+                reason = f"part of {_called(whole)} (IfcRelAggregates)"
+                yield RawRule(paths[whole.id()], paths[part], reason)
+
+
+def _pairs(model: Any) -> Iterator[_Pair]:
+    yield from _fillings(model)
+    for relation in _all(model, "IfcRelProjectsElement"):
+        host, addition = relation.RelatingElement, relation.RelatedFeatureElement
+        yield _Pair(host, addition, "a projection of its host (IfcRelProjectsElement)", None)
+    for relation in _all(model, "IfcRelConnectsElements"):
+        is_path = relation.is_a("IfcRelConnectsPathElements")
+        reason = f"connected ({relation.is_a()})"
+        ends = relation.RelatingElement, relation.RelatedElement
+        yield _Pair(*ends, reason, is_corner=is_path)
+        for real in getattr(relation, "RealizingElements", ()):
+            yield from (_Pair(real, end, reason) for end in ends)
+    for relation in _all(model, "IfcRelCoversBldgElements"):
+        for covering in relation.RelatedCoverings:
+            yield _Pair(
+                relation.RelatingBuildingElement,
+                covering,
+                "its covering (IfcRelCoversBldgElements)",
+            )
+    yield from _ports(model)
+
+
+def _fillings(model: Any) -> Iterator[_Pair]:
+    """Doors and windows in openings, with the hosts of the openings."""
+    for relation in _all(model, "IfcRelFillsElement"):
+        opening = relation.RelatingOpeningElement
+        for voids in opening.VoidsElements:
+            reason = f"it fills an opening of {_called(voids.RelatingBuildingElement)}"
+            yield _Pair(
+                voids.RelatingBuildingElement,
+                relation.RelatedBuildingElement,
+                f"{reason} (IfcRelFillsElement)",
+            )
+
+
+def _ports(model: Any) -> Iterator[_Pair]:
+    """Pipes, ducts and fittings whose ports are connected."""
+    from ifcopenshell.util.system import get_port_element
+
+    for relation in _all(model, "IfcRelConnectsPorts"):
+        a, b = map(get_port_element, (relation.RelatingPort, relation.RelatedPort))
+        if a is not None and b is not None:
+            yield _Pair(a, b, "connected by ports (IfcRelConnectsPorts)")
+
+
+def _may_coincide(a: Shape | Refusal, b: Shape | Refusal) -> bool:
+    """Whether two joined walls may share most of one of them."""
+    return isinstance(a, Shape) and isinstance(b, Shape) and not meet_in_a_corner(a, b)
+
+
+def _all(model: Any, name: str) -> list[Any]:
+    """All relations of a class, in the order of their numbers; none if the schema lacks it."""
+    try:
+        return sorted(model.by_type(name), key=_by_id)
+    except RuntimeError:
+        return []
+
+
+def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
+    """The numbers of the element and its parts, of those that are bodies."""
+    ids, seen, waiting = [], set(), [element]
+    while waiting:
+        each = waiting.pop()
+        if each is not None and each.id() not in seen:
+            seen.add(each.id())
+            if each.id() in paths:
+                ids.append(each.id())
+            if each.is_a("IfcElement"):
+                waiting += parts_of(each)
+    return sorted(ids)
+
+
+def _by_id(instance: Any) -> int:
+    return int(instance.id())
+
+
+def _called(element: Any) -> str:
+    return f"{element.is_a()} {element.GlobalId}"

@@ -1,0 +1,209 @@
+"""Compiles an MJCF file with MuJoCo. Runs in a child process, because MuJoCo may end its process.
+
+Images may be missing, and lengths of muscles need not be found. Nor does MuJoCo read meshes in
+formats that satcheck reads: a box stands for each.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from satcheck.plugins.mjcf.files import ModelFiles
+from satcheck.plugins.mjcf.messages import FileMesh, Key, Place, Request
+from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.robot.packages import FilePlaces
+
+# Else MuJoCo writes its warnings into a file of the working directory.
+mujoco.set_mju_user_warning(lambda _: None)
+_GEOM = mujoco.mjtGeom
+_READ_BY_SATCHECK = (".obj", ".stl")
+# A box whose centre and axes of inertia are those of its coordinates: MuJoCo does not move it.
+_CORNERS = [c for x in (-1, 1) for y in (-2, 2) for z in (-4, 4) for c in (x, y, z)]
+_FACES = [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1]
+_FACES += [2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3]
+_NOT_READ = {
+    _GEOM.mjGEOM_HFIELD: "a height field (hfield) is not read",
+    _GEOM.mjGEOM_SDF: "a signed distance field of a plugin (sdf) is not read",
+}
+
+
+class Compiled(NamedTuple):
+    """file_meshes, refused: the meshes that satcheck reads, and those that nobody does, by name.
+    of_geom: why a geom is not read, by its number. solved: what equality constraints connect."""
+
+    model: Any
+    name: str
+    file_meshes: dict[str, FileMesh]
+    refused: dict[str, Refusal]
+    of_geom: dict[int, Refusal]
+    lines: dict[int, int]
+    keys: tuple[Key, ...]
+    constraints: int
+    aligned: bool
+
+
+def compiled(request: Request) -> Compiled:
+    """Raises SceneFileError."""
+    path = request.path
+    places = FilePlaces(path, request.packages, allow_outside=request.allow_outside)
+    models = ModelFiles(path, places).models
+    try:
+        return _compiled(path, places, models)
+    except (ValueError, mujoco.FatalError) as error:
+        message = " ".join(str(error).removeprefix("Error: ").split())
+        code = "missing-resource" if "Error opening file" in message else "bad-robot"
+        raise SceneFileError(code, f"MuJoCo refuses it: {message}", file=path) from None
+
+
+def _compiled(path: str, places: FilePlaces, models: list[str]) -> Compiled:
+    spec = mujoco.MjSpec.from_file(path)
+    keys = [
+        Key(key.name or f"key{k}", tuple(key.qpos), tuple(key.mpos), tuple(key.mquat))
+        for k, key in enumerate(spec.keys)
+    ]
+    constraints = sum(bool(equality.active) for equality in spec.equalities)
+    _relax(spec)
+    _empty_textures(spec)
+    refusals = _replace_geoms(spec)
+    file_meshes, refused = _replace_meshes(spec, path, places, models)
+    for number, geom in enumerate(spec.geoms):
+        if geom.meshname in refused and geom.type != _GEOM.mjGEOM_MESH:
+            refusals[number] = refused[geom.meshname]
+    model = spec.compile()
+    return Compiled(
+        model,
+        spec.modelname,
+        file_meshes,
+        refused,
+        {geom.id: refusals[k] for k, geom in enumerate(spec.geoms) if k in refusals},
+        {geom.id: _line(geom.info) for geom in spec.geoms},
+        tuple(keys),
+        constraints,
+        bool(spec.compiler.alignfree) or any(joint.align == 1 for joint in spec.joints),
+    )
+
+
+def _delete(spec: Any, elements: Iterable[Any]) -> None:
+    for element in list(elements):
+        spec.delete(element)
+
+
+def _relax(spec: Any) -> None:
+    """Nothing is merged or left out, and nothing that places no geometry is refused: masses, sizes
+    of memory, lengths of muscles, keyframes."""
+    spec.memory = spec.nstack = spec.njmax = spec.nconmax = -1
+    spec.compiler.fusestatic = False
+    spec.compiler.discardvisual = False
+    spec.compiler.balanceinertia = True
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1e-6
+
+    spec.compiler.LRopt.mode = mujoco.mjtLRMode.mjLRMODE_NONE
+    for key in spec.keys:
+        for values in ("qpos", "qvel", "act", "ctrl", "mpos", "mquat"):
+            setattr(key, values, [])
+    _delete(spec, spec.skins)
+
+
+def _empty_textures(spec: Any) -> None:
+    """Images may be missing. (To delete an element takes long in a large model.)"""
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for number, texture in enumerate(spec.textures):
+        texture.name = texture.name or f"unnamed texture {number}"
+        texture.file, texture.cubefiles = "", [""] * len(texture.cubefiles)
+        texture.type = mujoco.mjtTexture.mjTEXTURE_2D
+        texture.builtin = mujoco.mjtBuiltin.mjBUILTIN_FLAT
+        texture.width = texture.height = 1
+        texture.nchannel = 3
+
+
+def _replace_geoms(spec: Any) -> dict[int, Refusal]:
+    """Puts a sphere in the place of each geom that is not read. Number of the geom -> the reason"""
+    refusals = {}
+    for number, geom in enumerate(spec.geoms):
+        if geom.type in _NOT_READ:
+            refusals[number] = Refusal("unsupported-feature", _NOT_READ[geom.type])
+            geom.type, geom.size = _GEOM.mjGEOM_SPHERE, (1, 1, 1)
+            geom.meshname = geom.hfieldname = ""
+    _delete(spec, spec.hfields)
+    return refusals
+
+
+def _replace_meshes(
+    spec: Any, path: str, places: FilePlaces, models: list[str]
+) -> tuple[dict[str, FileMesh], dict[str, Refusal]]:
+    """Puts a box in the place of each mesh that MuJoCo need not read, or cannot."""
+    fitted = _fitted(spec)
+    files: dict[str, FileMesh] = {}
+    refused: dict[str, Refusal] = {}
+    for mesh in spec.meshes:
+        if not mesh.file:
+            continue
+        uri, place = _place_of(mesh, path, places, models, stripped=bool(spec.strippath))
+        if isinstance(place, Path) and not _has_faces(place):
+            continue
+        if Path(uri).suffix.lower() in _READ_BY_SATCHECK:  # who also reports what is wrong with it
+            turn = Place(_numbers(mesh.refpos), _numbers(mesh.refquat))
+            files[mesh.name] = FileMesh(uri, _numbers(mesh.scale), turn)
+            if mesh.name in fitted and isinstance(place, Path):
+                continue
+        if isinstance(place, Refusal):
+            refused[mesh.name] = place
+        mesh.file, mesh.content_type = "", ""
+        mesh.uservert, mesh.userface = np.array(_CORNERS, float), np.array(_FACES)
+        mesh.scale, mesh.refpos, mesh.refquat = (1, 1, 1), (0, 0, 0), (1, 0, 0, 0)
+    return files, refused
+
+
+def _fitted(spec: Any) -> set[str]:
+    """The meshes that shapes are fitted to."""
+    return {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
+
+
+def _has_faces(place: Path) -> bool:
+    """Whether satcheck can read the mesh. MuJoCo takes the hull of an OBJ file with points only."""
+    suffix = place.suffix.lower()
+    if suffix != ".obj":
+        return suffix in _READ_BY_SATCHECK
+    with place.open("rb") as file:
+        return any(line.lstrip()[:2] in (b"f ", b"f\t") for line in file)
+
+
+def _place_of(
+    mesh: Any, path: str, places: FilePlaces, models: list[str], *, stripped: bool
+) -> tuple[str, Path | Refusal]:
+    """(the file of a mesh, relative to the folder of the model file, where it lies). MuJoCo does
+    not say which of the models that it attaches names the mesh, so one place must have the file."""
+    start = Path(path).parent
+    own = Path(mesh.compiler.meshdir, Path(mesh.file).name if stripped else mesh.file)
+    folders = dict.fromkeys(os.path.relpath(Path(model).parent, start) for model in models)
+    uris = [os.path.normpath(folder / own) for folder in folders]
+    located: dict[str, Path] = {}
+    failures: list[MeshFileError] = []
+    for uri in uris:
+        try:
+            located[uri] = places.of(path).locate(uri)
+        except MeshFileError as error:
+            failures.append(error)
+    if len(located) > 1:
+        message = f"mesh file {str(own)!r} lies beside several attached models"
+        return uris[0], Refusal("bad-robot", message)
+    if not located:
+        return uris[0], Refusal(failures[0].code, f"{own}: {failures[0].message}")
+    return next(iter(located.items()))
+
+
+def _line(info: str) -> int:
+    words = info.split()
+    return int(words[1]) if len(words) > 1 and words[0] == "line" and words[1].isdigit() else 0
+
+
+def _numbers(values: Any) -> Any:
+    return tuple(map(float, values))

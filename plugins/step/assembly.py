@@ -1,0 +1,244 @@
+"""The bodies of a STEP file: the products of its assemblies, as OpenCascade makes facets of them.
+
+cascadio writes a glTF document: a node for each occurrence of a product, in metres, with the axes
+of the STEP file. Its meshes are read like those of any glTF file.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any, NoReturn
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.core.transform import Transform
+from satcheck.plugins.step.exchange import Exchange, read_exchange
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.extras import imported
+from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_buffers import (
+    BufferViews,
+    Work,
+    extension,
+    integer,
+    items,
+    member,
+    split_glb,
+)
+from satcheck.scene.loading.gltf_meshes import NO_TRIANGLES, Meshes, Shape
+from satcheck.scene.loading.gltf_nodes import placement_of
+from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.words import listed
+
+_MILLIMETRES = 1000.0  # in the metre of glTF
+_FACES = "TM_brep_faces"  # the extension in which cascadio says what the faces of a solid are
+# Names that programs make up: of SolidWorks, and of OpenCascade.
+_MADE_UP = re.compile(r"NAUO\d+|=>\[[\d:]*\]|")
+
+
+class _Part(Struct, frozen=True):
+    """mesh: its number in the glTF document; None: the file has no surface for it."""
+
+    name: str
+    mesh: int | None
+
+
+def read_step(data: memoryview, options: ReadOptions) -> RawScene:
+    """A body for each occurrence of a product that has surfaces, in millimetres.
+
+    Raises MeshFileError without a file name.
+    """
+    exchange = read_exchange(bytes(data))
+    glb = _tessellated(bytes(data), options)
+    text, chunk = split_glb(memoryview(glb))
+    try:
+        document: dict[str, Any] = json.loads(str(text, "utf-8"))
+    except ValueError:  # it writes numbers that are not finite as they are
+        message = "OpenCascade turns it into coordinates that are infinite or no numbers"
+        raise MeshFileError("non-finite", message) from None
+    return _Assembly(document, chunk, exchange, options).read()
+
+
+def _tessellated(data: bytes, options: ReadOptions) -> bytes:
+    """The glTF document that OpenCascade makes of the file. One thread: the same facets in every
+    run."""
+    glb: bytes = imported("cascadio", "step", "STEP files").load(
+        data,
+        tol_linear=options.chord_of("step"),
+        tol_angular=options.angular_tolerance,
+        use_parallel=False,
+        include_brep=True,
+    )
+    if not glb:
+        raise MeshFileError("bad-record", "OpenCascade finds no product in the file")
+    return glb
+
+
+class _Assembly:
+    def __init__(
+        self,
+        document: dict[str, Any],
+        chunk: memoryview | None,
+        exchange: Exchange,
+        options: ReadOptions,
+    ) -> None:
+        work = Work(isolated=True)
+        views = BufferViews(document, chunk, "", work, allow_outside=False)
+        self._accessors = Accessors(document, views, work)
+        self._meshes = Meshes(document, self._accessors, work)
+        self._document = document
+        self._nodes = items(document, "nodes")
+        self._primitives = [items(mesh, "primitives") for mesh in items(document, "meshes")]
+        self._exchange = exchange
+        self._options = options
+
+    def read(self) -> RawScene:
+        scenes = items(self._document, "scenes")
+        roots = items(member(scenes, 0, "scene"), "nodes") if scenes else []
+        nodes = instances(
+            [(root, self._matrix(root)) for root in roots],
+            children=self._children,
+            has_mesh=lambda node: "mesh" in self._nodes[node] or not self._children(node),
+            name=self._name,
+            kind="product",
+        )
+        curves = [node.path for node in nodes if self._is_curves(node.key)]
+        placed = [
+            Instance(self._part(node.key), node.matrix, node.path)
+            for node in nodes
+            if not self._is_curves(node.key)
+        ]
+        if all(part.key.mesh is None for part in placed):
+            self._refuse_empty([part.key.name for part in placed], curves)
+        scene = raw_scene(placed, lambda part: part.name, self._mesh)
+        lost = self._lost_faces(part.key for part in placed)
+        return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
+
+    def _children(self, node: int) -> list[tuple[int, Transform | None]]:
+        return [(child, self._matrix(child)) for child in items(self._nodes[node], "children")]
+
+    def _matrix(self, node: int) -> Transform | None:
+        """The placement in millimetres. Coordinates in the document are of float32."""
+        matrix = placement_of(member(self._nodes, node, "node"), node)
+        if matrix is None:
+            return None
+        x, y, z = _millimetres(np.array(matrix[3:12:4])).tolist()
+        return (*matrix[:3], x, *matrix[4:7], y, *matrix[8:11], z, *matrix[12:])
+
+    def _name(self, number: int) -> str:
+        """The name of the occurrence, else of the product."""
+        node = self._nodes[number]
+        name = tidy_name(node.get("name"), "")
+        if name not in self._exchange.products and not _MADE_UP.fullmatch(name):
+            return name
+        named = self._meshes.name(node["mesh"]) if "mesh" in node else None
+        return tidy_name(named or self._exchange.products.get(name), name or f"product{number}")
+
+    def _is_curves(self, node: int) -> bool:
+        mesh = self._nodes[node].get("mesh")
+        if mesh is None:
+            return False
+        return all(primitive.get("mode", 4) in NO_TRIANGLES for primitive in self._primitives[mesh])
+
+    def _part(self, node: int) -> _Part:
+        """Occurrences of one product have meshes of their own, with the same primitives."""
+        mesh = self._nodes[node].get("mesh")
+        if mesh is None:
+            return _Part(self._name(node), None)
+        return _Part(
+            tidy_name(self._meshes.name(mesh), f"mesh{mesh}"),
+            self._primitives.index(self._primitives[mesh]),
+        )
+
+    def _mesh(self, part: _Part) -> RawMesh | Refusal:
+        if part.mesh is None:
+            return self._missing(part.name)
+        try:
+            raw = self._meshes.read(Shape(part.mesh), None)
+        except MeshFileError as error:
+            return Refusal(error.code, error.message)
+        vertices = _millimetres(np.frombuffer(raw.vertices))
+        flat = not self._exchange.is_curved or all(map(self._is_flat, self._primitives[part.mesh]))
+        return replace(
+            raw,
+            vertices=vertices.tobytes(),
+            units="mm",
+            surface_tolerance=0.0 if flat else self._options.chord_of("step"),
+        )
+
+    def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
+        """Refuses a file without any surface."""
+        if names and self._exchange.documents:
+            refusal = self._missing(names[0])
+            raise MeshFileError(refusal.code, refusal.message)
+        what = "curves alone" if curves else f"products without a shape: {listed(names)}"
+        raise MeshFileError("empty-mesh", f"empty mesh: the file has {what}")
+
+    def _missing(self, name: str) -> Refusal:
+        documents = self._exchange.documents
+        if documents:
+            files = listed([repr(each) for each in documents])
+            return Refusal(
+                "missing-resource",
+                f"its shape is in another file, which is not read: the file names {files}. Write "
+                "the assembly into one STEP file",
+            )
+        return Refusal("no-surface", f"the file has no surface for the product {name!r}")
+
+    def _is_flat(self, primitive: dict[str, Any]) -> bool:
+        """Whether all faces are planes, of which facets are exact."""
+        faces = extension(primitive, _FACES)
+        if faces is None:
+            return False
+        planes = {
+            integer(face, "face_index", -1)
+            for face in items(faces, "faces")
+            if isinstance(face, dict) and face.get("type") == "plane"  # others may be null
+        }
+        used = self._accessors.indices(integer(faces, "faceIndices", -1))
+        return planes.issuperset(used)
+
+    def _warnings(
+        self, scene: RawScene, curves: list[str], lost: str | None
+    ) -> Iterator[tuple[str, str]]:
+        if not self._exchange.has_unit:
+            message = "the file states no unit of length: its numbers count as millimetres"
+            yield "assumed-units", message
+        if curves:
+            words = f"{len(curves)} products of curves alone have no body: {listed(curves)}"
+            yield "ignored-geometry", words
+        if lost is not None:
+            yield "unread", lost
+        meshes = [part.mesh for part in scene.parts if isinstance(part.mesh, RawMesh)]
+        faceted = sum(mesh.surface_tolerance > 0 for mesh in meshes)
+        if faceted:
+            message = (
+                f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
+                f"by up to about {self._options.chord_of('step'):g} mm (--chord-tolerance)"
+            )
+            yield "faceted", message
+
+    def _lost_faces(self, parts: Iterable[_Part]) -> str | None:
+        """Words about faces that the file has and the bodies lack."""
+        read, faces = self._faces(parts), self._exchange.faces
+        if read is None or read >= faces:
+            return None
+        return f"OpenCascade reads {read} of the {faces} faces of the file; bodies may be missing"
+
+    def _faces(self, parts: Iterable[_Part]) -> int | None:
+        """How many faces the products have; None: cascadio says it only of a part of them."""
+        used = {part.mesh for part in parts if part.mesh is not None}
+        faces = [extension(each, _FACES) for mesh in used for each in self._primitives[mesh]]
+        known = [items(each, "faces") for each in faces if each is not None]
+        return sum(map(len, known)) if len(known) == len(faces) else None
+
+
+def _millimetres(metres: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """float32 numbers in metres as float32 numbers in millimetres, held as float64."""
+    return (metres * _MILLIMETRES).astype(np.float32).astype(np.float64)

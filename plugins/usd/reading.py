@@ -1,0 +1,228 @@
+"""Makes a scene of a stage: a node for each body, with its mesh or exact shape."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
+
+from satcheck.core import Mesh
+from satcheck.core.shapes import HalfSpace, Primitive
+from satcheck.core.transform import Transform
+from satcheck.plugins.usd.choice import Choice
+from satcheck.plugins.usd.joints import Joints
+from satcheck.plugins.usd.layers import in_other_units
+from satcheck.plugins.usd.mesh import read_mesh, read_tetrahedra
+from satcheck.plugins.usd.names import TYPES
+from satcheck.plugins.usd.physics import with_physics
+from satcheck.plugins.usd.remarks import Remarks
+from satcheck.plugins.usd.shapes import (
+    NoSuchShape,
+    axis_turn,
+    facets_around,
+    flat_faces,
+    placed_shape,
+    shape_of,
+)
+from satcheck.plugins.usd.skinning import Skinning
+from satcheck.plugins.usd.stage import Stage, said, unknown_variants
+from satcheck.plugins.usd.unknown import look_at_stage
+from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_extent
+from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.read_options import ReadOptions
+
+_NOT_TURNED = Gf.Matrix4d(1.0)
+Content = RawMesh | Primitive | Refusal
+
+
+def read_scene(stage: Stage, options: ReadOptions) -> RawScene:
+    """Raises MeshFileError if the stage has no body."""
+    return _Reading(stage, options).scene()
+
+
+class _Reading:
+    def __init__(self, stage: Stage, options: ReadOptions) -> None:
+        self._stage = stage
+        self._choice = Choice(options)
+        self._said = Remarks()
+        self._skinning = Skinning(self._choice.time)
+        self._lost = dict(stage.lost)
+        self._parts: list[RawPart] = []
+        self._nodes: list[RawNode] = []
+        self._placed: list[PlacedPrim] = []
+        self._read: dict[Any, tuple[int, Any]] = {}
+        self._places: dict[object, int] = {}
+
+    def scene(self) -> RawScene:
+        self._refuse_lost_in_instances()
+        look_at_stage(self._stage.stage, self._choice, self._said)
+        self._lost |= unknown_variants(self._stage.stage)
+        for placed in Walk(self._stage.stage, self._choice.time).prims():
+            self._take(placed)
+        for name, reason in self._lost.items():
+            self._add(PlacedPrim(name, None, WORLD), reason, None)
+        warnings = (
+            *self._stage.warnings,
+            *self._of_time(),
+            *in_other_units(self._stage.stage),
+            *self._said.warnings(),
+        )
+        if not self._nodes:
+            reasons = "; ".join(message for _, message in warnings)
+            raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
+        said = Remarks()
+        physics = with_physics(self._stage.stage, self._nodes, self._placed, said)
+        joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
+        return RawScene(
+            tuple(self._parts),
+            physics.nodes,
+            (*warnings, *said.warnings()),
+            self._stage.unit,
+            physics.rules,
+            joints,
+        )
+
+    def _refuse_lost_in_instances(self) -> None:
+        """A reference is lost in every instance, and composition names one of them or none."""
+        stage = self._stage.stage
+        if not self._lost or not (
+            stage.GetPrototypes() or any(map(_is_instancer, stage.Traverse()))
+        ):
+            return
+        name, reason = next(iter(self._lost.items()))
+        message = f"{name}: {reason.message} (the stage has instances, which may lack it, too)"
+        raise MeshFileError(reason.code, message)
+
+    def _of_time(self) -> list[tuple[str, str]]:
+        if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
+            return []
+        first, last = self._stage.sampled
+        message = f"bodies stand as at the first of the time codes {first:g} to {last:g} (--time)"
+        return [("time-sampled", message)]
+
+    def _take(self, placed: PlacedPrim) -> None:
+        """Adds the body of a prim, if it is one."""
+        prim, name = placed.prim, placed.name
+        refusal = placed.refusal or self._lost.pop(name, None)
+        if not prim.IsA(UsdGeom.Gprim) and refusal is None:
+            self._look_at_other(placed)
+        elif (reason := self._choice.why_not(placed, lost=refusal is not None)) is not None:
+            self._said.add("not-a-body", reason, name)
+        elif refusal is not None:
+            self._add(placed, refusal, None)
+        elif (words := without_extent(prim, self._choice)) is not None:
+            self._said.add("ignored-geometry", words, name)
+        elif (unread := not_read(prim, self._choice)) is not None:
+            self._add(placed, unread, None)
+        else:
+            self._place(placed)
+
+    def _look_at_other(self, placed: PlacedPrim) -> None:
+        """At a prim that is no known geometry."""
+        prim, name = placed.prim, placed.name
+        if (reason := hidden_geometry(prim, self._choice)) is not None:
+            if self._choice.why_not(placed, lost=True) is None:
+                self._add(placed, reason, None)
+        elif prim.GetTypeName() and not type_of(prim) and not TYPES.knows(prim.GetTypeName()):
+            self._said.add("unread", f"prims of the type {prim.GetTypeName()} are not known", name)
+        elif self._choice.collides(prim):
+            words = f"a collider of type {prim.GetTypeName()}, without geometry"
+            self._said.add("ignored-geometry", words, name)
+
+    def _place(self, placed: PlacedPrim) -> None:
+        prim = placed.prim
+        key = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
+        if key not in self._read:
+            content, turn = self._content(prim)
+            self._read[key] = self._part(placed.name, content), turn
+        number, turn = self._read[key]
+        content = self._parts[number].mesh
+        if isinstance(content, Refusal):
+            self._node(placed, number, None)
+            return
+        matrix = self._stage.matrix(turn * placed.matrix)
+        if not isinstance(content, RawMesh | HalfSpace):
+            try:
+                matrix = placed_shape(content, matrix)
+            except NoSuchShape as error:
+                words = f"{error}, so it is checked as facets around it"
+                self._said.add("faceted", words, placed.name)
+                number = self._part(placed.name, facets_around(content, self._stage.unit))
+        self._node(placed, number, None if matrix == IDENTITY else matrix)
+
+    def _content(self, prim: Any) -> tuple[Content, Any]:
+        """(mesh or shape of a prim in its own coordinates, a turn before its placement)."""
+        time, unit = self._choice.time, self._stage.unit
+        try:
+            if (shape := shape_of(prim, time)) is not None:
+                return shape
+            if self._choice.colliders and type_of(prim) == "Plane":
+                return HalfSpace(), axis_turn(prim, time)
+            if (faces := flat_faces(prim, time, unit)) is not None:
+                return faces, _NOT_TURNED
+            if prim.IsA(UsdGeom.Mesh):
+                return self._mesh(prim), _NOT_TURNED
+            if prim.IsA(UsdGeom.TetMesh):
+                return read_tetrahedra(prim, time, unit), _NOT_TURNED
+        except MeshFileError as error:
+            return Refusal(error.code, error.message), _NOT_TURNED
+        except Tf.ErrorException as error:
+            return Refusal("bad-record", said(error)), _NOT_TURNED
+        message = f"geometry of the type {prim.GetTypeName()} is not read: convert it to a Mesh"
+        return Refusal("unsupported-feature", message), _NOT_TURNED
+
+    def _mesh(self, prim: Any) -> RawMesh:
+        mesh = read_mesh(prim, self._choice.time, self._stage.unit)
+        scheme = UsdGeom.Mesh(prim).GetSubdivisionSchemeAttr().Get(self._choice.time)
+        name = str(prim.GetPath())
+        if scheme != UsdGeom.Tokens.none:
+            self._said.add(
+                "control-cage", f"subdivision surface ({scheme}), checked as its control cage", name
+            )
+        if self._skinning.is_bound(prim):
+            self._said.add("rest-shape", "skinned, it stands as its skeleton does", name)
+            mesh = self._skinning.moved(prim, mesh)
+        return self._simulated(prim, mesh) if self._choice.colliders else mesh
+
+    def _simulated(self, prim: Any, mesh: RawMesh) -> RawMesh:
+        """The convex hull if the simulator takes that. Other approximations are named."""
+        api = UsdPhysics.MeshCollisionAPI(prim)
+        kind = api.GetApproximationAttr().Get() if api else UsdPhysics.Tokens.none
+        if kind in (None, UsdPhysics.Tokens.none):
+            return mesh
+        if kind == UsdPhysics.Tokens.convexHull:
+            try:
+                hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
+            except ValueError as error:
+                raise MeshFileError("bad-record", f"it has no convex hull: {error}") from None
+            vertices, triangles = hull.to_bytes()
+            return RawMesh(vertices, triangles, mesh.number_format, units=mesh.units)
+        words = f"a simulator takes its {kind}, its mesh is checked"
+        self._said.add("simplified-mesh", words, str(prim.GetPath()))
+        return mesh
+
+    def _part(self, name: str, content: Content) -> int:
+        """Its number. Equal meshes and shapes are one part."""
+        if isinstance(content, RawMesh):
+            key: object = (bytes(content.vertices), bytes(content.triangles), content.warnings)
+        else:
+            key = content
+        if key not in self._places:
+            self._places[key] = len(self._parts)
+            self._parts.append(RawPart(name, content))
+        return self._places[key]
+
+    def _add(self, placed: PlacedPrim, content: Content, matrix: Transform | None) -> None:
+        self._parts.append(RawPart(placed.name, content))
+        self._node(placed, len(self._parts) - 1, matrix)
+
+    def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None) -> None:
+        self._nodes.append(RawNode(placed.name, part, matrix))
+        self._placed.append(placed)
+
+
+def _is_instancer(prim: Any) -> bool:
+    return bool(prim.IsA(UsdGeom.PointInstancer))

@@ -1,0 +1,184 @@
+"""The shapes of USD that have sizes: curved ones as exact shapes with their axis along z, flat ones
+as triangles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf
+
+from satcheck.core.rounding import ORTHOGONALITY
+from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
+from satcheck.core.transform import Transform
+from satcheck.plugins.usd.walk import type_of
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import RawMesh
+
+# Many programs write rotations and scales as float32. A placement this close to one of a shape is
+# one; a share of the size of the shape.
+FLOAT32_NOISE = 1e-6
+
+_SEGMENTS = 128  # of a circle, where facets stand for a shape: 0.1 % of its radius off
+
+
+class NoSuchShape(Exception):
+    """A scaled or sheared shape is not of its kind any more."""
+
+
+# Rows for row vectors: exact quarter turns that take z to the axis.
+_TURNS = {
+    "X": Gf.Matrix4d(0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1),
+    "Y": Gf.Matrix4d(0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1),
+    "Z": Gf.Matrix4d(1.0),
+}
+
+
+def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
+    """(curved shape, the turn to its axis as a matrix for row vectors); None: it is no such shape.
+
+    Raises MeshFileError for sizes that make no shape, and for two different radii.
+    """
+
+    def size(name: str) -> float:
+        return _number(prim, name, time)
+
+    try:
+        match type_of(prim):
+            case "Sphere":
+                return Sphere(size("radius")), _TURNS["Z"]
+            case "Cylinder":
+                shape: Primitive = Cylinder(size("radius"), size("height"))
+            case "Cone":
+                shape = Cone(size("radius"), size("height"))
+            case "Capsule":
+                shape = Capsule(size("radius"), size("height"))
+            case "Cylinder_1" | "Capsule_1":
+                shape = _of_two_radii(prim, size)
+            case _:
+                return None
+    except ValueError as error:
+        raise MeshFileError("bad-record", f"{type_of(prim)}: {error}") from None
+    return shape, axis_turn(prim, time)
+
+
+def axis_turn(prim: Any, time: Any) -> Any:
+    """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
+    MeshFileError for an axis other than X, Y and Z."""
+    return _TURNS[_axis(prim, time)]
+
+
+def _axis(prim: Any, time: Any) -> str:
+    axis = str(prim.GetAttribute("axis").Get(time))
+    if axis not in _TURNS:
+        raise MeshFileError("bad-record", f"{type_of(prim)}: axis is {axis!r}, not X, Y or Z")
+    return axis
+
+
+def _of_two_radii(prim: Any, size: Any) -> Primitive:
+    form = Cylinder if type_of(prim) == "Cylinder_1" else Capsule
+    bottom, top = size("radiusBottom"), size("radiusTop")
+    if bottom == top:
+        return form(bottom, size("height"))
+    if form is Cylinder and top == 0:
+        return Cone(bottom, size("height"))
+    message = f"a {form.__name__.lower()} of two radii: convert it to a Mesh"
+    raise MeshFileError("unsupported-feature", message)
+
+
+def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
+    """A Cube, or a Plane as it is drawn; None: it is neither. Raises MeshFileError.
+
+    Their triangles are exact. Their precision is that of float32, in which most files scale them.
+    """
+    match type_of(prim):
+        case "Cube":
+            try:
+                box = Box((_number(prim, "size", time),) * 3)
+            except ValueError as error:
+                raise MeshFileError("bad-record", f"Cube: {error}") from None
+            vertices, triangles = mesh_of(box).to_bytes()
+        case "Plane":
+            vertices, triangles = _quad(prim, time)
+        case _:
+            return None
+    return RawMesh(vertices, triangles, "float32", units=unit)
+
+
+def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
+    """The extents along the axes follow the schema of UsdGeomPlane."""
+    half = [_number(plane, name, time) / 2 for name in ("width", "length")]
+    along = {"X": (2, 1), "Y": (0, 2), "Z": (0, 1)}[_axis(plane, time)]
+    corners = np.zeros((4, 3), "<f8")
+    for axis, extent, signs in zip(along, half, ((-1, 1, 1, -1), (-1, -1, 1, 1)), strict=True):
+        corners[:, axis] = np.multiply(signs, extent)
+    return corners.tobytes(), np.array([0, 1, 2, 0, 2, 3], "<u4").tobytes()
+
+
+def _number(prim: Any, name: str, time: Any) -> float:
+    value = prim.GetAttribute(name).Get(time)
+    if not isinstance(value, float | int):
+        raise MeshFileError("bad-record", f"{type_of(prim)}: {name} is no number")
+    return float(value)
+
+
+def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
+    """The placement without the rounding of float32, which would skew the shape.
+
+    matrix: row-major 4x4 for column vectors. The nearest rotation replaces one that is off by
+    rounding, and scales that differ by rounding become equal. Raises NoSuchShape if the image is no
+    shape that is checked exactly.
+    """
+    columns = np.array(matrix).reshape(4, 4)[:3, :3]
+    scales = np.linalg.norm(columns, axis=0)
+    if not (np.isfinite(scales).all() and scales.min() > 0):
+        return matrix  # refused where bodies are placed
+    axes = columns / scales
+    skew = np.abs(axes.T @ axes - np.eye(3)).max()
+    if skew > FLOAT32_NOISE:
+        raise _refusal(shape, "sheared")
+    if skew > ORTHOGONALITY / 2:
+        left, _, right = np.linalg.svd(axes)
+        axes = left @ right
+    even = _evened(shape, scales)
+    if skew <= ORTHOGONALITY / 2 and (even == scales).all():
+        return matrix
+    placed = np.array(matrix).reshape(4, 4)
+    placed[:3, :3] = axes * even
+    return tuple(placed.ravel().tolist())
+
+
+def _evened(shape: Primitive, scales: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The scales with those equal that are equal up to rounding. Raises NoSuchShape if others
+    should be."""
+    even = scales.copy()
+    if _are_even(scales):
+        even[:] = scales.mean()
+    elif isinstance(shape, Sphere):
+        return even  # an ellipsoid
+    elif isinstance(shape, Cylinder | Cone) and _are_even(scales[:2]):
+        even[:2] = scales[:2].mean()
+    else:
+        raise _refusal(shape, "scaled unevenly")
+    return even
+
+
+def _are_even(scales: NDArray[np.float64]) -> bool:
+    return bool(scales.max() - scales.min() <= FLOAT32_NOISE * scales.max())
+
+
+def _refusal(shape: Primitive, how: str) -> NoSuchShape:
+    kind = type(shape).__name__.lower()
+    return NoSuchShape(f"a {kind} {how} is no {kind}")
+
+
+def facets_around(shape: Primitive, unit: str) -> RawMesh:
+    """A mesh that contains the shape, with its distance from it as surface tolerance. So bodies
+    that are apart from it are apart from the shape."""
+    mesh = mesh_around(shape, _SEGMENTS)
+    inner = np.asarray(mesh_of(shape, _SEGMENTS).vertices)
+    off = np.linalg.norm(np.asarray(mesh.vertices) - inner, axis=1).max() + sag_of(shape, _SEGMENTS)
+    vertices, triangles = mesh.to_bytes()
+    return RawMesh(vertices, triangles, "float32", units=unit, surface_tolerance=float(off))

@@ -1,0 +1,189 @@
+"""Opens a stage: its layers, its unit and up axis, and what of it could not be opened."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from msgspec import Struct
+
+from satcheck.core.transform import Transform
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.files_read import note
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.units import unit_of
+from satcheck.scene.words import listed
+
+_METRE = "m"
+_PARSER = re.compile(r"parse error matching .*? at(?= ')")  # rules of the grammar in C++
+_DIGITS = 7  # that float32 keeps
+# What a reference to such a file lacks is no body.
+_ONLY_MATERIALS = re.compile(r"@[^@]*\.mtlx(\?[^@]*)?@")
+# Composition errors that concern single opinions. All others may hide a part of the scene.
+_OF_OPINIONS = ("Target", "Inconsistent", "Property", "Opinion", "VariableExpression")
+_OF_LAYERS = ("Sublayer",)
+_CODES = {"ErrorInvalidAssetPath": "missing-resource", "ErrorArcCycle": "reference-cycle"}
+
+
+class Stage(Struct, frozen=True):
+    """An open stage.
+
+    unit: of lengths after the factor `scale`. y_up: its y axis points up. lost: prim -> why what it
+    refers to is missing. warnings: (code, message). sampled: it has time samples, from the first to
+    the last time code.
+    """
+
+    stage: Any
+    unit: str
+    scale: float
+    y_up: bool
+    lost: dict[str, Refusal]
+    warnings: tuple[tuple[str, str], ...]
+    sampled: tuple[float, float] | None
+
+    def matrix(self, matrix: Any) -> Transform:
+        """For column vectors, in the unit of the scene, with z up."""
+        columns = [[matrix[column][row] for column in range(4)] for row in range(4)]
+        if self.y_up:
+            x, y, z, last = columns
+            columns = [x, [0.0 - value for value in z], y, last]
+        scale = self.scale
+        scaled = [value * scale for row in columns[:3] for value in row]
+        return (*scaled, *columns[3])
+
+
+def open_stage(location: Path, *, allow_outside: bool) -> Stage:
+    """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError, and
+    what the library raises."""
+    from pxr import Sdf, Usd, UsdGeom
+
+    from satcheck.plugins.usd.outside import Closed, refusal
+
+    closed = Closed([location.parent])
+    root = Sdf.Layer.FindOrOpen(str(location))
+    if root is not None and not allow_outside:
+        closed.close(root)
+    stage = Usd.Stage.Open(root or str(location))
+    layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
+    _note_files(layers)
+    for layer in layers:
+        if not (allow_outside or closed.permits(layer.identifier)):
+            raise refusal(layer.identifier)
+    lost, warnings = _composition_errors(stage)
+    lost |= _lost_clips(stage)
+    unit, scale = _unit(stage, warnings)
+    axis = UsdGeom.GetStageUpAxis(stage)
+    if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
+        raise MeshFileError("bad-record", f"upAxis is {axis!r}, not Y or Z")
+    y_up = axis == UsdGeom.Tokens.y
+    return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
+
+
+def said(error: Exception) -> str:
+    """What an error of the library says, without the places in its source code."""
+    try:
+        message = str(error)
+    except UnicodeDecodeError:  # it quotes the file
+        return "its text is no UTF-8"
+    quoted = [line.partition(" : '")[2] for line in message.splitlines() if " : '" in line]
+    text = next(filter(None, quoted), message).strip().rstrip("'")
+    text = _PARSER.sub("parse error at", text)
+    return " ".join(text.split())
+
+
+def _note_files(layers: list[Any]) -> None:
+    """The layers, and those that they name, even if they are not there."""
+    from pxr import Ar, Sdf
+
+    for layer in layers:
+        note(Ar.SplitPackageRelativePathOuter(layer.realPath)[0])
+        for name in filter(None, layer.GetCompositionAssetDependencies()):
+            place = Sdf.ComputeAssetPathRelativeToLayer(layer, name)
+            note(Ar.SplitPackageRelativePathOuter(place)[0])
+
+
+def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:
+    """(prim -> why a part of it is missing, warnings). Raises MeshFileError for a lost layer."""
+    lost: dict[str, Refusal] = {}
+    ignored: list[str] = []
+    for error in stage.GetCompositionErrors():
+        kind, message = type(error).__name__, said(error)
+        code = _CODES.get(kind, "missing-resource")
+        if any(word in kind for word in _OF_LAYERS):
+            raise MeshFileError(code, message)
+        if any(word in kind for word in _OF_OPINIONS) or _ONLY_MATERIALS.search(message):
+            ignored.append(message)
+            continue
+        path = error.rootSite.path.GetPrimPath()
+        if _may_hold_bodies(stage.GetPrimAtPath(path)):
+            lost.setdefault(str(path.StripAllVariantSelections()), Refusal(code, message))
+        else:
+            ignored.append(message)
+    counted = f" (and {len(ignored) - 1} more)" if len(ignored) > 1 else ""
+    return lost, [("ignored-opinion", ignored[0] + counted)] if ignored else []
+
+
+def _may_hold_bodies(prim: Any) -> bool:
+    """Whether geometry may be missing below a prim with an unresolved reference."""
+    if not prim:
+        return True
+    if prim.IsAbstract():
+        return False
+    return prim.GetTypeName() not in ("Material", "Shader", "NodeGraph", "Camera")
+
+
+def unknown_variants(stage: Any) -> dict[str, Refusal]:
+    """Prim -> why a variant that it selects is missing. USD says nothing of these."""
+    from pxr import Usd
+
+    lost: dict[str, Refusal] = {}
+    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        if not prim.HasVariantSets() or not _may_hold_bodies(prim):
+            continue
+        sets = prim.GetVariantSets()
+        for name in sets.GetNames():
+            variants = sets.GetVariantSet(name)
+            selected, known = variants.GetVariantSelection(), variants.GetVariantNames()
+            if selected and selected not in known:
+                message = f"variant set {name!r} has no variant {selected!r} ({listed(known)})"
+                lost.setdefault(str(prim.GetPath()), Refusal("missing-resource", message))
+    return lost
+
+
+def _lost_clips(stage: Any) -> dict[str, Refusal]:
+    from pxr import Usd
+
+    return {
+        str(prim.GetPath()): Refusal("missing-resource", f"missing value clip {path.path!r}")
+        for prim in stage.Traverse()
+        if prim.HasAuthoredMetadata("clips")
+        for path in _clips(Usd.ClipsAPI(prim))
+        if not path.resolvedPath
+    }
+
+
+def _clips(api: Any) -> Iterator[Any]:
+    for name in api.GetClips() or ():
+        yield from api.GetClipAssetPaths(name) or ()
+
+
+def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
+    """(unit, factor from stage units to it). Only the root layer's value counts."""
+    from pxr import UsdGeom
+
+    metres = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)  # some files store it as float32
+    if not (isinstance(metres, float) and math.isfinite(metres) and metres > 0):
+        raise MeshFileError("bad-record", f"metersPerUnit is {metres}")
+    if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
+        message = f"the file has no metersPerUnit: {metres:g} counts, the default of USD"
+        warnings.append(("assumed-units", message))
+    unit = unit_of(f"{metres:.{_DIGITS}g} * meters")
+    return (_METRE, metres) if unit is None else (unit, 1.0)
+
+
+def _sampled(layers: list[Any]) -> tuple[float, float] | None:
+    times = [time for layer in layers for time in layer.ListAllTimeSamples()]
+    return (min(times), max(times)) if times else None

@@ -1,0 +1,190 @@
+"""What prims hold that nobody reads blocks a pass, or is refused as misspelt."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import Scene
+from tests.plugins.usd.files import at, bounds_of, cube, load, said, stage
+
+_HEAD = 'metersPerUnit = 1\nupAxis = "Z"'
+_ORDER = 'uniform token[] xformOpOrder = ["{}"]\n'
+
+
+def unread(scene: Scene) -> list[str]:
+    return [issue.message for issue in scene.issues if issue.code == "unread"]
+
+
+def refusals(scene: Scene) -> list[tuple[str, str]]:
+    return [(body.issue.code, body.issue.message) for body in scene.unreadable]
+
+
+@pytest.mark.parametrize(
+    ("text", "near"),
+    [
+        (cube("A", at(1).replace("xformOpOrder", "xformOpOrdr")), "xformOpOrder"),
+        (cube("A", at(1).replace("double3 xformOp:translate", "double3 xformOp:tranlate")), "tran"),
+        (
+            cube("A", at(1).replace("xformOp:translate", "xformOp:transate")),
+            "translate",
+        ),
+        (cube("A", 'token visibilty = "invisible"'), "visibility"),
+        (cube("A", "custom int[] holeIndces = [0]"), "holeIndices"),
+        (cube("A", head="instanceble = true"), "instanceable"),
+        (cube("A", head="activ = false"), "active"),
+        (cube("A", head="refrences = @b.usda@"), "references"),
+        (cube("A", api='"PhysicsColisionAPI"'), "PhysicsCollisionAPI"),
+        (cube("A", 'uniform token physics:approxmation = "convexHull"'), "approximation"),
+        (cube("A", "float[] primvars:width = [1]"), "widths"),
+        ('def Sphere "A" {\n double radus = 3\n}\n', "radius"),
+    ],
+)
+def test_a_name_that_is_misspelt_is_refused(tmp_path: Path, text: str, near: str) -> None:
+    ((code, message),) = refusals(load(tmp_path, stage(text)))
+    assert code == "misspelt"
+    assert near in message.partition("did you mean")[2]
+
+
+def test_a_field_of_the_layer_that_is_misspelt_is_refused(tmp_path: Path) -> None:
+    ((code, message),) = refusals(load(tmp_path, stage(cube("A"), head='upAxs = "Z"')))
+    assert (code, "upAxis" in message) == ("misspelt", True)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        cube("A", _ORDER.format("xformOp:translate")),
+        cube("A", "double3 xformOp:translate\n" + _ORDER.format("xformOp:translate")),
+        cube("A", "double bulge = 3"),
+        cube("A", 'token visibility = "seen"'),
+        cube("A", 'uniform token purpose = "rendr"') + cube("B"),
+        cube("A", api='"FrobnicateAPI"'),
+        f'def "Holder" {{\n{at(1)}\n{cube("A")}\n}}',
+        f'def "Set" (prepend variantSets = "v") {{\n'
+        f' variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
+        'def Xform "Card" (kind = "component") {\n uniform token model:drawMode = "cards"\n}\n'
+        + cube("B"),
+    ],
+)
+def test_what_nobody_reads_blocks_a_pass(tmp_path: Path, text: str) -> None:
+    assert len(unread(load(tmp_path, stage(text)))) == 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        cube("A", "double3 xformOp:translate = (1, 0, 0)"),  # without an order, USD ignores it
+        cube("A", "custom double note = 3"),
+        cube("A", 'string userProperties:note = "x"\nfloat physics:mass = 3'),
+        cube("A", "texCoord2f[] primvars:st1 = [(0, 0)]"),
+        cube("A", api='"PhysxCollisionAPI", "SemanticsAPI:x", "OmniNodeAPI"'),
+        cube("A", head='wobble = "x"'),
+        'def Xform "X" {\n float3[] extent = [(0, 0, 0), (1, 1, 1)]\n}\n' + cube("A"),
+        'def OmniGraph "G" {\n}\n' + cube("A"),
+        'def "Set" (prepend variantSets = "v") {\n variantSet "v" = {\n "red" {\n'
+        ' def Material "M" {\n}\n}\n}\n}\n' + cube("B"),
+    ],
+)
+def test_what_is_harmless_passes(tmp_path: Path, text: str) -> None:
+    scene = load(tmp_path, stage(text))
+    assert (unread(scene), refusals(scene)) == ([], [])
+
+
+@pytest.mark.parametrize(
+    "prim",
+    [
+        'def "A" {\n point3f[] points = [(0, 0, 0)]\n}',
+        'def GenerativeProcedural "A" {\n}',
+        'def BasisCurves "A" {\n int[] curveVertexCounts = [2]\n'
+        " point3f[] points = [(0, 0, 0), (1, 0, 0)]\n float[] primvars:widths = [1, 1]\n}",
+    ],
+)
+def test_geometry_that_is_not_read_is_a_body_that_is_not_read(tmp_path: Path, prim: str) -> None:
+    scene = load(tmp_path, stage(prim, cube("B")))
+    assert [body.id for body in scene.unreadable] == ["/A"]
+
+
+@pytest.mark.parametrize(
+    ("api", "more", "count"),
+    [
+        ("PhysxSDFMeshCollisionAPI", "", 1),
+        ("PhysxCollisionAPI", "float physxCollision:restOffset = 9", 1),
+        ("PhysxCollisionAPI", "float physxCollision:restOffset = 0", 0),
+        ("PhysxCollisionAPI", "float physxCollision:contactOffset = 9", 0),
+    ],
+)
+def test_what_shapes_a_collider_otherwise_blocks(
+    tmp_path: Path, api: str, more: str, count: int
+) -> None:
+    text = stage(cube("A", more, api=f'"PhysicsCollisionAPI", "{api}"'))
+    assert len(unread(load(tmp_path, text, geometry="collision"))) == count
+    assert unread(load(tmp_path, text)) == []
+
+
+@pytest.mark.parametrize(
+    ("head", "placed", "count"),
+    [
+        ('metersPerUnit = 0.01\nupAxis = "Z"', "", 1),
+        ('metersPerUnit = 1\nupAxis = "Y"', "", 1),
+        (_HEAD, "", 0),
+        ("", "", 0),
+        (
+            'metersPerUnit = 0.01\nupAxis = "Y"',
+            "float3 xformOp:scale:unitsResolve = (0.01, 0.01, 0.01)\n"
+            "double xformOp:rotateX:unitsResolve = 90\n"
+            'uniform token[] xformOpOrder = ["xformOp:rotateX:unitsResolve",'
+            ' "xformOp:scale:unitsResolve"]\n',
+            0,
+        ),
+    ],
+)
+def test_a_layer_in_other_units_blocks_unless_it_is_converted(
+    tmp_path: Path, head: str, placed: str, count: int
+) -> None:
+    (tmp_path / "part.usda").write_text(
+        stage(f'def Xform "P" {{\n{cube("M")}\n}}', head=f'defaultPrim = "P"\n{head}')
+    )
+    text = stage(f'def Xform "R" (references = @part.usda@) {{\n{placed}}}\n', cube("B"))
+    assert len(unread(load(tmp_path, text))) == count
+
+
+def test_a_skinned_mesh_stands_as_its_skeleton_does(tmp_path: Path) -> None:
+    unit, moved = (f"((1,0,0,0),(0,1,0,0),(0,0,1,0),({x},0,0,1))" for x in (0, -5))
+    skeleton = f"""def SkelRoot "S" {{
+        def Skeleton "K" {{
+            uniform token[] joints = ["j"]
+            uniform matrix4d[] bindTransforms = [{unit}]
+            uniform matrix4d[] restTransforms = [{moved}]
+            double3 xformOp:translate = (0, 7, 0)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }}
+        MESH
+    }}"""
+    weights = """rel skel:skeleton = </S/K>
+        int[] primvars:skel:jointIndices = [0] (
+            elementSize = 1
+            interpolation = "constant"
+        )
+        float[] primvars:skel:jointWeights = [1] (
+            elementSize = 1
+            interpolation = "constant"
+        )"""
+    mesh = cube("M", weights + "\n" + at(3), api='"SkelBindingAPI"')
+    scene = load(tmp_path, stage(skeleton.replace("MESH", mesh)))
+    assert bounds_of(scene)["/S/M"] == ((-5, 7, 0), (-4, 8, 1))
+    assert "/S/M" in said(scene)["rest-shape"]
+
+
+def test_an_axis_of_the_stage_that_is_none_is_refused(tmp_path: Path) -> None:
+    ((code, message),) = refusals(load(tmp_path, stage(cube("A"), head='upAxis = "y"')))
+    assert (code, "upAxis" in message) == ("bad-record", True)
+
+
+@pytest.mark.parametrize("kind", ["OmniMesh", "NewtonShape", "MjcGeom"])
+def test_a_type_of_a_program_that_takes_up_space_is_no_setting(tmp_path: Path, kind: str) -> None:
+    points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
+    found = load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n{points}\n}}'))
+    assert [code for code, _ in refusals(found)] == ["unsupported-feature"]
+    assert not refusals(load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n}}')))
