@@ -36,6 +36,7 @@ from satcheck.report.report import (
     Verdict,
 )
 from satcheck.report.settings import StatedReading
+from satcheck.scene.loading.readers import stated_options
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import FailOn
@@ -207,7 +208,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
 
 def stated_reading(scene: Scene) -> StatedReading | None:
     """The options that count for the formats of the files in the scene."""
-    stated = scene.reading.stated({body.file.format for body in scene.bodies})
+    stated = stated_options(scene.reading, {body.file.format for body in scene.bodies})
     return None if stated is None else StatedReading(**stated)
 
 

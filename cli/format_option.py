@@ -10,7 +10,7 @@ from click.core import ParameterSource
 
 from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
 from satcheck.cli.formats.picture import FORMATS as PICTURE_FORMATS
-from satcheck.scene.loading.formats import FORMATS as MESHES
+from satcheck.scene.loading.readers import readers
 
 FORMATS = ("table", "json")
 # Formats of one report or of many.
@@ -21,7 +21,7 @@ _ENDINGS = {
 }
 _BCF_2 = ".bcfzip"
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2, *MESHES} - _ENDINGS.keys()
+_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2, *readers()} - _ENDINGS.keys()
 
 form_option = click.option(
     "--format",

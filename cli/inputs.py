@@ -19,7 +19,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import reader_of
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
@@ -166,7 +166,7 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
-    if inputs.time is not None and not any(map(_may_hold_usd, paths)):
+    if inputs.time is not None and not any(map(_may_have_times, paths)):
         raise click.UsageError("--time is about USD files")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
@@ -190,9 +190,10 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     return scene
 
 
-def _may_hold_usd(path: str) -> bool:
-    """A scene may place a part of a USD file."""
-    return kind_of(path) == "scene" or FORMATS.get(Path(path).suffix.lower()) == "usd"
+def _may_have_times(path: str) -> bool:
+    """A scene may place a part of a file that has times."""
+    reader = reader_of(Path(path).suffix)
+    return kind_of(path) == "scene" or (reader is not None and "time" in reader.options)
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

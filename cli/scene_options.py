@@ -13,14 +13,21 @@ import click
 
 from satcheck.cli.lengths import millimetres
 from satcheck.cli.options import DEFAULTS, seconds_option, together
+from satcheck.scene.loading.readers import readers
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,
-    CHORD_TOLERANCES,
     GeometryKind,
     Purpose,
 )
 from satcheck.scene.units import MICROMETRES
+
+
+def _chords() -> str:
+    """The chord tolerances of the formats that have one."""
+    formats = {r.title: r.chord for r in readers().values() if r.chord is not None}
+    return ", ".join(f"{title}: {chord:g}mm" for title, chord in formats.items())
+
 
 SPLITS = ("nodes", "components", "none")
 
@@ -49,8 +56,7 @@ reading_options = together(
         "--chord-tolerance",
         type=millimetres,
         metavar="LENGTH",
-        help="How far facets of curved faces may be off "
-        f"[STEP: {CHORD_TOLERANCES['step']:g}mm, IFC: {CHORD_TOLERANCES['ifc']:g}mm].",
+        help=f"How far facets of curved faces may be off [{_chords()}].",
     ),
     click.option(
         "--angular-tolerance",

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from satcheck.cli.commands import COMMANDS
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import mesh_reader
 from satcheck.scene.path_kind import exists, is_file, is_folder
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
     advice += [each for path in bad[:MOST_PATHS] for each in _about_path(path)]
     files = Counter(os.path.realpath(path) for path in paths if is_file(path))
     twice = next((path for path in paths if files[os.path.realpath(path)] > 1), None)
-    if twice is not None and Path(twice).suffix.lower() in FORMATS:
+    if twice is not None and mesh_reader(Path(twice).suffix) is not None:
         pieces = _line(["--split", "components", twice])
         purpose = f"{twice} is given twice, so its bodies coincide. To check its pieces"
         advice.append(Advice(purpose, pieces))
@@ -223,7 +223,7 @@ def _sibling(path: str) -> str | None:
 
 
 def _meshes(folder: Path) -> list[Path]:
-    return [file for file in _listed(folder) if file.suffix.lower() in FORMATS]
+    return [file for file in _listed(folder) if mesh_reader(file.suffix) is not None]
 
 
 def _listed(folder: Path) -> list[Path]:

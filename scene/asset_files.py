@@ -7,20 +7,13 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES, is_model
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
+from satcheck.scene.loading.readers import mesh_reader, robots
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.path_kind import exists, is_folder
 
-_ENDINGS = ROBOT_SUFFIXES.union(FORMATS)
-# Most files with these endings are something else, unless they hold one of these texts.
+# Most JSON and TOML is something else, unless it holds one of these texts.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
-_SDF_MARKS = (b"<sdf", b"<gazebo")
-_XML = ".xml"
-_MARKS = {
-    **dict.fromkeys(SCENE_SUFFIXES, _SCENE_MARKS),
-    **dict.fromkeys(SDF_SUFFIXES, _SDF_MARKS),
-}
 _PATTERN = frozenset("*?[")
 
 
@@ -99,11 +92,18 @@ def _below(folder: str) -> Iterator[str]:
 
 def _is_asset(path: Path) -> bool:
     ending = path.suffix.lower()
-    if ending == _XML:  # reports of tests and much else
-        return is_model(path)
-    if ending not in _MARKS:
-        return ending in _ENDINGS
+    if ending in SCENE_SUFFIXES:
+        return _holds(path, _SCENE_MARKS)
+    for reader in robots().values():
+        if ending in reader.endings:
+            marks = reader.marks
+            return marks is None or is_robot(path) or (bool(marks) and _holds(path, marks))
+    return mesh_reader(ending) is not None
+
+
+def _holds(path: Path, marks: tuple[bytes, ...]) -> bool:
+    """Return whether a file holds one of these texts, or cannot be read."""
     content = content_of(path)
     # JSON may write a slash with a backslash.
     plain = None if content is None else content.replace(b"\\/", b"/")
-    return plain is None or any(mark in plain for mark in _MARKS[ending])
+    return plain is None or any(mark in plain for mark in marks)

@@ -15,13 +15,13 @@ from xml.sax.saxutils import escape
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
-from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.input_kind import SCENE_SUFFIXES, robot_endings
+from satcheck.scene.loading.readers import readers
 from satcheck.scene.path_kind import followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))
-_NAMING = SCENE_SUFFIXES.union(FORMATS, ROBOT_SUFFIXES, (".srdf", ".xacro")) - _ALONE
+_NAMING = SCENE_SUFFIXES.union(readers(), robot_endings(), (".srdf", ".xacro")) - _ALONE
 # Endings of ignored files that count as changed. Build folders hold many other ignored files.
 _READ = _NAMING | _ALONE | {".bin"}
 

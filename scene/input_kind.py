@@ -6,21 +6,13 @@ from pathlib import Path
 from typing import Literal
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.loading.formats import DOCUMENTS, FORMATS
+from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots
 from satcheck.scene.loading.regular_file import size_of
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
-SDF_SUFFIXES = frozenset((".sdf", ".world"))
-ROBOT_SUFFIXES = SDF_SUFFIXES | {".urdf"}
-_KINDS: dict[str, InputKind] = {
-    **dict.fromkeys(SCENE_SUFFIXES, "scene"),
-    **dict.fromkeys(FORMATS, "mesh"),
-    **dict.fromkeys((ending for ending in FORMATS if FORMATS[ending] in DOCUMENTS), "document"),
-    **dict.fromkeys(ROBOT_SUFFIXES, "robot"),
-    ".srdf": "srdf",
-}
+_SRDF = ".srdf"
 _XACRO = ".xacro"  # expands to a URDF or an SRDF
 # Elements of an SRDF that no URDF has. The outermost element of both is <robot>.
 _SRDF_ELEMENTS = frozenset(
@@ -32,17 +24,30 @@ _HEAD_BYTES = 1 << 20
 def kind_of(path: str) -> InputKind:
     """ "mesh" if no other kind fits. Its reader then reports errors."""
     suffix = Path(path).suffix.lower()
-    if suffix in _KINDS:
-        return _KINDS[suffix]
+    if suffix in SCENE_SUFFIXES:
+        return "scene"
+    if suffix == _SRDF:
+        return "srdf"
+    if suffix in robot_endings():
+        return "robot"
+    reader = mesh_reader(suffix)
+    if reader is not None:
+        return "document" if reader.kind == "document" else "mesh"
     root, *below = _first_elements(Path(path))
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
-    return "robot" if root in ("sdf", "mujoco") or suffix == _XACRO else "mesh"
+    return "robot" if suffix == _XACRO or robot_reader(root) is not None else "mesh"
 
 
-def is_model(location: Path) -> bool:
-    """Return whether it is an MJCF file."""
-    return _first_elements(location)[0] == "mujoco"
+def robot_endings() -> frozenset[str]:
+    """Return the endings of files that are robots, whatever they hold: of no other format."""
+    endings = {ending for reader in robots().values() for ending in reader.endings}
+    return frozenset(endings - readers().keys())
+
+
+def is_robot(location: Path) -> bool:
+    """Return whether the outermost element is that of a robot."""
+    return robot_reader(_first_elements(location)[0]) is not None
 
 
 def _first_elements(location: Path) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -16,26 +17,25 @@ from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
+from satcheck.scene.issue import Issue
 from satcheck.scene.loading import ReadLimits, load_mesh_file
-from satcheck.scene.loading.formats import FORMATS
-from satcheck.scene.loading.native_formats import NATIVE_FORMATS
-from satcheck.scene.loading.nodes import Node, Nodes, load_nodes, nodes_of
+from satcheck.scene.loading.nodes import Node, Nodes, load_nodes
+from satcheck.scene.loading.readers import RobotFile, reader_of
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.shape_file import remeshed, shape_file
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.plugins.mjcf.messages import Model
     from satcheck.scene.known_meshes import KnownMeshes
     from satcheck.scene.planar.outline import Shape
+    from satcheck.scene.robot.model import Robot
+    from satcheck.scene.robot.packages import FilePlaces
 
 Read = TypeVar("Read", MeshFile, Nodes)
-_CHOSEN = frozenset(("usd", "glb", "gltf"))  # formats whose parts depend on options
-MODEL_SUFFIX = ".xml"  # of MJCF files
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
 
@@ -93,7 +93,7 @@ class MeshFiles:
         waiting = {
             self._absolute(location): (path, location)
             for path, location in given
-            if FORMATS.get(location.suffix.lower()) in NATIVE_FORMATS and _is_large(location)
+            if _is_read_here(location) and _is_large(location)
         }
         if len(waiting) < 2 or is_careful():
             return
@@ -143,11 +143,6 @@ class MeshFiles:
 
     def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
         with _reading(path, location):
-            if location.suffix.lower() == MODEL_SUFFIX:
-                from satcheck.plugins.mjcf.asking import read_own_meshes
-
-                own = read_own_meshes(path, location, self._limits, self._children)
-                return nodes_of(*own, components=components)
             return load_nodes(path, location, self._limits, self._children, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
@@ -163,7 +158,8 @@ class MeshFiles:
         if part in by_path:
             return by_path[part]
         message = f"there is no part {part!r} in the file{meant(part, filter(None, by_path))}"
-        if FORMATS.get(location.suffix.lower()) in _CHOSEN:
+        reader = reader_of(location.suffix)
+        if reader is not None and "geometry" in reader.options:
             message += "; --geometry, --purpose and `reading` of a scene choose its parts"
         return MeshFileError("unknown-part", message, file=path)
 
@@ -176,12 +172,23 @@ class MeshFiles:
             self._hulls[key] = node if isinstance(node, MeshFileError) else _with_hull(node, part)
         return self._hulls[key]
 
-    def model(self, path: str, packages: Mapping[str, str | Path] | None) -> Model:
-        """Return what an MJCF file says. Raises MeshFileError."""
-        from satcheck.plugins.mjcf.asking import read_model
+    def robot(
+        self,
+        path: str,
+        location: Path,
+        places: FilePlaces,
+        packages: Mapping[str, str | Path] | None = None,
+        geometry: GeometryKind = "collision",
+        *,
+        hulls: bool = False,
+    ) -> tuple[Robot, tuple[Issue, ...]]:
+        """Return the robot that a file describes, and issues. Raises SceneFileError, and
+        MeshFileError if reading it has ended the process before."""
+        from satcheck.scene.robot import read_robot
 
-        with _reading(path, Path(path)):
-            return read_model(path, packages, self._limits, self._children)
+        file = RobotFile(places, packages or {}, geometry, hulls, self._limits, self._children)
+        with _reading(path, location):
+            return read_robot(path, location, file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
@@ -216,10 +223,16 @@ def _reading(path: str, location: Path) -> Iterator[None]:
             yield
     except LeftOut as error:
         note(location)
-        if FORMATS.get(location.suffix.lower()) == "gltf":  # it may name further files
+        if not _is_read_here(location):  # it may name further files
             note_lost_reader()
         reason = f"the process that read it {error.message}"
         raise MeshFileError(error.code, reason, file=path) from None
+
+
+def _is_read_here(location: Path) -> bool:
+    """Return whether its reader always runs in this process, and releases the GIL."""
+    reader = reader_of(location.suffix)
+    return reader is not None and reader.here == math.inf
 
 
 def _is_large(location: Path) -> bool:

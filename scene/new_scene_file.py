@@ -19,7 +19,7 @@ from satcheck.scene.common_units import scaled_mesh
 from satcheck.scene.format.document import SCENE_1
 from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.text import is_toml
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
 from satcheck.scene.path_kind import followed, is_file
@@ -56,7 +56,7 @@ def new_scene_file(
     head: dict[str, Any] = {"schema": SCENE_1}
     if scene.units:
         head["units"] = scene.units
-    if reading := scene.reading.changed({body.file.format for body in scene.bodies}):
+    if reading := scene.reading.changed(options_of({body.file.format for body in scene.bodies})):
         head["reading"] = to_builtins(reading)
     if scene.check_static and any(body.static for body in scene.in_order()):
         head["check_static"] = True
@@ -102,7 +102,7 @@ def path_from(output: Path, target: Path) -> str:
 
 def _has_file(body: Unreadable) -> bool:
     place = Path(body.file)
-    return place.suffix.lower() in FORMATS and is_file(place)
+    return mesh_reader(place.suffix) is not None and is_file(place)
 
 
 def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:

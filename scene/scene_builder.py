@@ -203,18 +203,11 @@ class SceneBuilder:
             SceneRobot,
             bare_links,
             parts_of,
-            read_robot,
         )
 
         places = FilePlaces(path, packages, allow_outside=allow_outside)
-        robot, issues = read_robot(
-            path,
-            location,
-            places,
-            geometry,
-            compiled=lambda given: self._files.model(given, packages),
-            hulls=bool(self._reading.mesh_hulls),
-        )
+        hulls = bool(self._reading.mesh_hulls)
+        robot, issues = self._files.robot(path, location, places, packages, geometry, hulls=hulls)
         self._names.append(robot.name)
         self._only_meshes = False
         self._begin("robot", path, ROBOT_UNITS)

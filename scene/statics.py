@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.loading.readers import reader_named
 from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ KEYS = (*QUESTIONS, "inside", *FACTS, "severity")
 
 _DOWN_Z: Vector = (0.0, 0.0, -1.0)
 _DOWN_Y: Vector = (0.0, -1.0, 0.0)
-_Y_UP = frozenset(("glb", "gltf"))  # "+Y is up": the glTF 2.0 specification, 3.4
 
 FRICTION = 0.5  # an assumption, for scenes that state none; reports show it
 
@@ -155,8 +155,8 @@ def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:
 def down_of(scene: Scene) -> Vector:
     """The direction of gravity of a scene that states none: along the up axis of the format if all
     bodies are nodes of files that have one, else -z."""
-    formats = {body.file.format for body in scene.bodies}
-    return _DOWN_Y if formats and formats <= _Y_UP and not scene.entries else _DOWN_Z
+    axes = up_axes(scene)
+    return _DOWN_Y if axes == {"y"} and not scene.entries else _DOWN_Z
 
 
 def disagreeing_axes(scene: Scene) -> bool:
@@ -164,8 +164,13 @@ def disagreeing_axes(scene: Scene) -> bool:
     then the assumption is wrong for some of them, unless their placement turns them."""
     if scene.statics is not None and scene.statics.gravity is not None:
         return False
-    formats = {body.file.format for body in scene.bodies}
-    return bool(formats & _Y_UP) and down_of(scene) == _DOWN_Z
+    return "y" in up_axes(scene) and down_of(scene) == _DOWN_Z
+
+
+def up_axes(scene: Scene) -> set[str | None]:
+    """Return the axes that point up in the formats of the bodies; None: a format has none."""
+    readers = map(reader_named, {body.file.format for body in scene.bodies})
+    return {None if reader is None else reader.up for reader in readers}
 
 
 def terms_values(scene: Scene) -> dict[str, Any]:

@@ -15,12 +15,11 @@ from msgspec.structs import replace
 from satcheck.audit.batch import urls
 from satcheck.audit.batch.check_options import World
 from satcheck.report.batch import InputFile
-from satcheck.scene.input_kind import ROBOT_SUFFIXES
+from satcheck.scene.loading.readers import robots
 
 # Copies beyond this size are removed before the next world.
 _MOST_BYTES = 2 << 30
 # Of robots; one in XML of another ending is known as such only when it is here.
-_ROBOTS = ROBOT_SUFFIXES | {".xml"}
 
 
 def is_remote(world: World) -> bool:
@@ -126,7 +125,7 @@ def _root(url: str, *, anywhere: bool) -> str:
     folders = _tidy(path).split("/")[:-1]
     if anywhere:
         folders = folders[:1]
-    elif posixpath.splitext(path)[1].lower() in _ROBOTS and len(folders) > 1:
+    elif posixpath.splitext(path)[1].lower() in _endings_of_robots() and len(folders) > 1:
         folders = folders[:-1]
     return head + "".join(f"{folder}/" for folder in folders)
 
@@ -134,3 +133,7 @@ def _root(url: str, *, anywhere: bool) -> str:
 def _tidy(path: str) -> str:
     """Without `..`, also where it leads above everything."""
     return posixpath.normpath(f"/{path}").lstrip("/")
+
+
+def _endings_of_robots() -> set[str]:
+    return {ending for reader in robots().values() for ending in reader.endings}

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from satcheck.core.transform import Transform
+from satcheck.plugins.ifc import CHORD
 from satcheck.plugins.ifc.curved import curved_bodies
 from satcheck.plugins.ifc.elements import material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in
@@ -43,7 +44,7 @@ def shapes_of(
             shapes[element.id].append(_shape(element, decimals))
     failures = failures_in(model, logged(), shapes)
     curved = curved_bodies(model, bodies)
-    chord = options.chord_of("ifc") * _METRES
+    chord = options.chord(CHORD) * _METRES
     return {
         body.id(): _whole(body, shapes[body.id()], failures, chord if body.id() in curved else 0.0)
         for body in bodies
@@ -55,7 +56,7 @@ def _elements(model: Any, bodies: Sequence[Any], options: ReadOptions) -> Iterat
     from ifcopenshell import geom
 
     settings = geom.settings()
-    settings.set("mesher-linear-deflection", options.chord_of("ifc") * _METRES)
+    settings.set("mesher-linear-deflection", options.chord(CHORD) * _METRES)
     settings.set("mesher-angular-deflection", options.angular_tolerance)
     settings.set("no-normals", True)
     settings.set("apply-default-materials", False)

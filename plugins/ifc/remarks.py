@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from satcheck.plugins.ifc import CHORD
 from satcheck.plugins.ifc.elements import Elements
 from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -42,7 +43,7 @@ def _facets(
         yield (
             "faceted",
             f"curved surfaces of {count} bodies are checked as facets, up to about "
-            f"{options.chord_of('ifc'):g} mm off (--chord-tolerance)",
+            f"{options.chord(CHORD):g} mm off (--chord-tolerance)",
         )
 
 

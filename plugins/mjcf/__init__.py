@@ -3,5 +3,26 @@
 The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html. MuJoCo itself reads the file,
 in a child process: `compiling` and `contents` run there, and `messages` are its answers. `files`
 reads the files that MuJoCo may open before it does. `reading` makes the robot of an answer,
-`joints` its joints, and `exemptions` says which pairs MuJoCo does not check.
+`joints` its joints, and `exemptions` says which pairs MuJoCo does not check. README.md says what is
+read.
 """
+
+from __future__ import annotations
+
+from satcheck.scene.loading.readers import Reader, RobotReader
+
+ENDING = ".xml"
+
+READERS = (
+    RobotReader(
+        "mjcf", "MJCF", (ENDING,), ("mujoco",), "satcheck.plugins.mjcf.asking:read_mjcf", marks=()
+    ),
+    Reader(
+        "mjcf",
+        "MJCF",
+        (ENDING,),
+        "satcheck.plugins.mjcf.child:own_meshes",
+        kind="robot",
+        by_name=True,
+    ),
+)

@@ -2,64 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
 from satcheck.core.worker import WorkerError
+from satcheck.plugins.mjcf import ENDING
 from satcheck.plugins.mjcf.messages import Answer, Model, Request
+from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader
-from satcheck.scene.issue import CODES
-from satcheck.scene.loading import ReadLimits
+from satcheck.scene.issue import CODES, Issue
 from satcheck.scene.loading.child_formats import refused_by_worker
-from satcheck.scene.loading.raw_mesh import RawScene, Refusal
-from satcheck.scene.loading.reading_children import ReadingChildren
-from satcheck.scene.loading.source import Source, read_source
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.readers import RobotFile
+from satcheck.scene.robot.model import Robot
+from satcheck.scene.robot.xml_tree import Element
 
-MODEL_FORMATS = {".xml": "mjcf"}
 _CHILD = "satcheck.plugins.mjcf.child"
 
 
-def read_model(
-    path: str,
-    packages: Mapping[str, str | Path] | None,
-    allowed: ReadLimits,
-    children: ReadingChildren,
-) -> Model:
-    """The model of a file, in its pose qpos0. Raises MeshFileError."""
-    if Path(path).suffix.lower() not in MODEL_FORMATS:
-        message = "MuJoCo reads files that end in .xml: rename it"
+def read_mjcf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+    """Return the robot of a file, in its pose qpos0, and issues. Raises MeshFileError."""
+    path = root.file
+    if Path(path).suffix.lower() != ENDING:
+        message = f"MuJoCo reads files that end in {ENDING}: rename it"
         raise MeshFileError("unsupported-format", message, file=path)
-    given = {name: str(place) for name, place in (packages or {}).items()}
-    request = Request(path, given, allowed.allow_outside)
-    content = _asked(request, allowed, children)
-    assert isinstance(content, Model)
-    return content
+    packages = {name: str(place) for name, place in file.packages.items()}
+    model = _asked(Request(path, packages, file.allowed.allow_outside), file)
+    return robot_of_model(path, model, file.geometry, hulls=file.hulls)
 
 
-def read_own_meshes(
-    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
-) -> tuple[Source, RawScene]:
-    """The file, and the meshes that only MuJoCo reads. Raises MeshFileError."""
-    source = read_source(
-        path,
-        location,
-        max_bytes=allowed.file_bytes,
-        formats=MODEL_FORMATS,
-        hashed=allowed.hashed,
-    )
-    request = Request(str(location), {}, allowed.allow_outside, only_meshes=True)
-    content = _asked(request, allowed, children)
-    assert isinstance(content, RawScene)
-    return source, content
-
-
-def _asked(request: Request, allowed: ReadLimits, children: ReadingChildren) -> Model | RawScene:
-    file = request.path
+def _asked(request: Request, robot: RobotFile) -> Model:
+    file, allowed = request.path, robot.allowed
     try:
-        reply = children.ask(_CHILD, msgspec.msgpack.encode(request), seconds=allowed.seconds)
+        sent = msgspec.msgpack.encode(request)
+        reply = robot.children.ask(_CHILD, sent, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Answer)
     except WorkerError as error:
         note_lost_reader()

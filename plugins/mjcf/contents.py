@@ -23,7 +23,7 @@ from satcheck.plugins.mjcf.messages import (
     OwnMesh,
     Place,
 )
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
@@ -171,8 +171,9 @@ class _Contents:
         return len(key.qpos) in (0, self._model.nq) and all(map(math.isfinite, key.qpos))
 
 
-def own_meshes_of(read: Compiled) -> RawScene | Refusal:
-    """The meshes that only MuJoCo reads, in the coordinates of the compiled model."""
+def own_meshes_of(read: Compiled) -> RawScene:
+    """Return the meshes that only MuJoCo reads, in the coordinates of the compiled model. Raises
+    MeshFileError."""
     m = read.model
     parts: list[RawPart] = []
     nodes: list[RawNode] = []
@@ -186,7 +187,7 @@ def own_meshes_of(read: Compiled) -> RawScene | Refusal:
         nodes.append(RawNode(_part_name(m, k), len(parts)))
         parts.append(RawPart(_part_name(m, k), mesh))
     if not parts:
-        return Refusal("unknown-part", "it has no mesh of its own")
+        raise MeshFileError("unknown-part", "it has no mesh of its own")
     return RawScene(tuple(parts), tuple(nodes))
 
 

@@ -12,19 +12,17 @@ from msgspec import Struct
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
-from satcheck.scene.loading.raw_mesh import RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import Refusal
 
 Quaternion = tuple[float, float, float, float]
 
 
 class Request(Struct, frozen=True):
-    """path: of the file, as given. packages, allow_outside: as for `FilePlaces`. only_meshes: the
-    answer is the meshes that only MuJoCo reads."""
+    """path: of the file, as given. packages, allow_outside: as for `FilePlaces`."""
 
     path: str
     packages: dict[str, str]
     allow_outside: bool
-    only_meshes: bool = False
 
 
 class Place(Struct, frozen=True):
@@ -124,5 +122,5 @@ class Model(Struct, frozen=True, tag=True):
 class Answer(Struct, frozen=True):
     """files: those that were read or looked for."""
 
-    content: Model | RawScene | Refusal
+    content: Model | Refusal
     files: tuple[str, ...]

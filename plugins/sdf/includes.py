@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from satcheck.plugins.sdf import ROOTS
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.path_kind import is_file, is_folder
 from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces
-from satcheck.scene.robot.xml_tree import SDF_ROOTS, Element, read_tree
+from satcheck.scene.robot.xml_tree import Element, read_tree
 
 _Version = tuple[int, ...]
 _MOST_DIGITS = 9
@@ -30,7 +31,7 @@ class Includes:
         try:
             path = (self._model_file(place) if is_folder(place) else place).as_posix()
             if path not in self._documents:
-                self._documents[path] = read_tree(path, Path(path), *SDF_ROOTS)
+                self._documents[path] = read_tree(path, Path(path), *ROOTS)
         except SceneFileError as error:
             raise MeshFileError(error.code, str(error)) from None
         return self._documents[path]

@@ -19,6 +19,7 @@ from satcheck.plugins.sdf.joints import JointEntry, moves_of
 from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
+from satcheck.scene.loading.readers import RobotFile
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_forest import Edge, trees_of
 from satcheck.scene.robot.joint_tree import check_mimics
@@ -27,15 +28,13 @@ from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
 
 
-def read_sdf(
-    root: Element, includes: Includes, geometry: GeometryKind = "collision"
-) -> tuple[Robot, tuple[Issue, ...]]:
-    """All links of the file and of the models that it includes as one robot, and warnings.
+def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+    """Return all links of the file and of the models that it includes as one robot, and warnings.
 
-    root: the outermost element, <sdf>. geometry: which elements of links become bodies. Links and
-    joints have their paths as names. Raises SceneFileError with the file, the line and the element.
-    No mesh is opened.
+    root: the outermost element. Links and joints have their paths as names. Raises SceneFileError
+    with the file, the line and the element. No mesh is opened.
     """
+    includes, geometry = Includes(file.places), file.geometry
     slips = Slips()
     others = "visual" if geometry == "collision" else "collision"
     contents = Contents(includes, slips, geometry)

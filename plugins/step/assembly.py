@@ -16,6 +16,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
+from satcheck.plugins.step import CHORD
 from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
@@ -33,6 +34,7 @@ from satcheck.scene.loading.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.loading.gltf_nodes import placement_of
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
@@ -49,13 +51,14 @@ class _Part(Struct, frozen=True):
     mesh: int | None
 
 
-def read_step(data: memoryview, options: ReadOptions) -> RawScene:
-    """A body for each occurrence of a product that has surfaces, in millimetres.
+def read_step(file: File) -> RawScene:
+    """Return a body for each occurrence of a product that has surfaces, in millimetres.
 
     Raises MeshFileError without a file name.
     """
-    exchange = read_exchange(bytes(data))
-    glb = _tessellated(bytes(data), options)
+    data, options = bytes(file.data), file.options
+    exchange = read_exchange(data)
+    glb = _tessellated(data, options)
     text, chunk = split_glb(memoryview(glb))
     try:
         document: dict[str, Any] = json.loads(str(text, "utf-8"))
@@ -70,7 +73,7 @@ def _tessellated(data: bytes, options: ReadOptions) -> bytes:
     run."""
     glb: bytes = imported("cascadio", "step", "STEP files").load(
         data,
-        tol_linear=options.chord_of("step"),
+        tol_linear=options.chord(CHORD),
         tol_angular=options.angular_tolerance,
         use_parallel=False,
         include_brep=True,
@@ -169,7 +172,7 @@ class _Assembly:
             raw,
             vertices=vertices.tobytes(),
             units="mm",
-            surface_tolerance=0.0 if flat else self._options.chord_of("step"),
+            surface_tolerance=0.0 if flat else self._options.chord(CHORD),
         )
 
     def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
@@ -220,7 +223,7 @@ class _Assembly:
         if faceted:
             message = (
                 f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
-                f"by up to about {self._options.chord_of('step'):g} mm (--chord-tolerance)"
+                f"by up to about {self._options.chord(CHORD):g} mm (--chord-tolerance)"
             )
             yield "faceted", message
 

@@ -1,25 +1,18 @@
-"""Reads USD (usda, usdc, usdz) with usd-core: a body for each geometric prim, named by its path."""
+"""USD: the prims of a stage as bodies. README.md says what is read."""
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
+from satcheck.scene.loading.readers import Reader
 
-from satcheck.plugins.usd.stage import open_stage, said
-from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.read_options import ReadOptions
-
-
-def read_usd(location: Path, options: ReadOptions, *, allow_outside: bool) -> RawScene:
-    """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError."""
-    os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
-    tf = imported("pxr.Tf", "usd", "USD files")
-    try:
-        stage = open_stage(location, allow_outside=allow_outside)
-        from satcheck.plugins.usd.reading import read_scene  # imports usd-core
-
-        return read_scene(stage, options)
-    except tf.ErrorException as error:
-        raise MeshFileError("bad-record", f"not a valid USD file: {said(error)}") from None
+READERS = (
+    Reader(
+        "usd",
+        "USD",
+        (".usd", ".usda", ".usdc", ".usdz"),
+        "satcheck.plugins.usd.reader:read_usd",
+        kind="document",
+        options=("time", "geometry", "purpose"),
+        marks=(b"PK\x03\x04",),
+        by_name=True,
+    ),
+)

@@ -12,7 +12,7 @@ from msgspec import Struct
 from satcheck.scene.files_read import note
 from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import mesh_reader, readers
 from satcheck.scene.path_kind import followed, is_file
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
@@ -105,8 +105,8 @@ class MeshPlaces:
         if "\0" in mesh:
             raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
         location = self._folder / mesh
-        if location.suffix.lower() not in FORMATS:
-            known = ", ".join(sorted(FORMATS))
+        if mesh_reader(location.suffix) is None:
+            known = ", ".join(sorted(filter(mesh_reader, readers())))
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
         note(location)

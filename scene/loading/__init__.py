@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.core import Mesh
 from satcheck.core.risky_steps import not_for_lack_of_memory
@@ -15,8 +16,8 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.native_formats import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
+from satcheck.scene.loading.readers import File, NeedsChild, reader_named
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.read_options import ReadOptions
@@ -72,37 +73,36 @@ def read_scene(
 
 
 def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: bool) -> RawScene:
-    if source.format in NATIVE_FORMATS:
-        return alone(read_native(source))
-    is_gltf = source.format in ("glb", "gltf")
-    if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
-        from satcheck.scene.loading.gltf import read_gltf
-        from satcheck.scene.loading.gltf_buffers import NeedsChild
-
+    reader = reader_named(source.format)
+    assert reader is not None  # it has opened the source
+    place = source.location
+    file = File(
+        source.format,
+        str(place.parent),
+        place.name,
+        source.data,
+        source.size,
+        allowed.options,
+        allowed.allow_outside,
+    )
+    if source.size <= reader.here:
         with suppress(NeedsChild):
-            scene = read_gltf(
-                memoryview(source.data),
-                str(source.location.parent),
-                binary=source.format == "glb",
-                allow_outside=allowed.allow_outside,
-                geometry=allowed.options.geometry,
-            )
-            if not flat:
-                return scene
-            from satcheck.scene.loading.flatten import flattened
-
-            return alone(flattened(scene))
+            scene = reader.function()(file)
+            return as_one(scene) if flat else scene
     from satcheck.scene.loading.child_formats import read_in_child
 
-    return read_in_child(
-        source,
-        children,
-        flat=flat,
-        allow_outside=allowed.allow_outside,
-        options=allowed.options,
-        seconds=allowed.seconds,
-        megabytes=allowed.megabytes,
-    )
+    if reader.by_name:
+        file = replace(file, data=b"")
+    return read_in_child(source.path, file, children, allowed, flat=flat)
+
+
+def as_one(scene: RawScene) -> RawScene:
+    """Return the scene with all of its meshes in one."""
+    if len(scene.nodes) == 1 and scene.nodes[0].path is None:
+        return scene
+    from satcheck.scene.loading.flatten import flattened
+
+    return alone(flattened(scene))
 
 
 def _only_mesh(scene: RawScene) -> RawMesh:

@@ -1,4 +1,4 @@
-"""Reads 3MF, DAE, STEP, IFC, USD and some glTF files in a child process.
+"""Reads files in a child process.
 
 Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
 `serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
@@ -10,18 +10,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
+from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
+from satcheck.scene.loading import ReadLimits, as_one
+from satcheck.scene.loading.raw_mesh import RawScene, Refusal
+from satcheck.scene.loading.readers import File, reader_named
 from satcheck.scene.loading.reading_children import ReadingChildren
-from satcheck.scene.loading.source import Source
-from satcheck.scene.read_options import ReadOptions
 
-_OPENED_BY_NAME = frozenset(("usd",))
 _LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
     "worker-timeout": "reader-timeout",
@@ -30,17 +30,10 @@ _CODE_OF_WORKER = {
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A file to read: its format, the directory that its references are relative to, its name
-    there, whether references may leave that directory, whether to return one mesh for the whole
-    file, the options of the user, and its bytes (none for a reader that opens it by name)."""
+    """flat: one mesh for the whole file is wanted."""
 
-    format: str
-    directory: str
-    name: str
+    file: File
     flat: bool
-    allow_outside: bool
-    options: ReadOptions
-    data: Block
 
 
 class Reply(msgspec.Struct, frozen=True):
@@ -51,35 +44,29 @@ class Reply(msgspec.Struct, frozen=True):
 
 
 def read_in_child(
-    source: Source,
-    children: ReadingChildren,
-    *,
-    flat: bool,
-    allow_outside: bool,
-    options: ReadOptions,
-    seconds: float,
-    megabytes: int,
+    path: str, file: File, children: ReadingChildren, allowed: ReadLimits, *, flat: bool
 ) -> RawScene:
-    """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
-    directory = str(source.location.absolute().parent)
-    data = b"" if source.format in _OPENED_BY_NAME else source.data
-    name = source.location.name
-    request = Request(source.format, directory, name, flat, allow_outside, options, data)
+    """Return the meshes of a file; flat: as one mesh. path: its name in messages. Raises
+    MeshFileError."""
+    folder = Path(file.directory)
+    directory = str(folder.absolute())
+    file = replace(file, directory=directory, isolated=True)
+    request = msgspec.msgpack.encode(Request(file, flat))
     try:
-        reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
+        reply = children.ask(__name__, request, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
     except WorkerError as error:
         note_lost_reader()
-        raise refused_by_worker(error, source.format, source.path, megabytes) from error
+        raise refused_by_worker(error, file.format, path, allowed.megabytes) from error
     except msgspec.DecodeError:
         message = "the reader's answer is damaged"
-        raise MeshFileError("reader-failed", message, file=source.path) from None
-    for file in answer.files:
-        note(_as_given(Path(file), directory, source.location.parent))
+        raise MeshFileError("reader-failed", message, file=path) from None
+    for name in answer.files:
+        note(_as_given(Path(name), directory, folder))
     content = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
-        raise MeshFileError(code, content.message, file=source.path)
+        raise MeshFileError(code, content.message, file=path)
     return content
 
 
@@ -124,48 +111,10 @@ def serve(message: bytes) -> bytes:
 
 
 def _content(request: Request) -> RawScene | Refusal:
+    reader = reader_named(request.file.format)
+    assert reader is not None  # the parent has asked it for the ending
     try:
-        scene = _read(request)
-        if request.flat:
-            from satcheck.scene.loading.flatten import flattened
-
-            return alone(flattened(scene))
-        return scene
+        scene = reader.function()(request.file)
+        return as_one(scene) if request.flat else scene
     except SatcheckError as error:
         return Refusal(error.code, error.message)
-
-
-def _read(request: Request) -> RawScene:
-    data = memoryview(request.data)
-    match request.format:
-        case "3mf":
-            from satcheck.scene.loading.threemf import read_3mf
-
-            return read_3mf(data)
-        case "dae":
-            from satcheck.scene.loading.collada import read_collada
-
-            return alone(read_collada(data))
-        case "ifc":
-            from satcheck.plugins.ifc import read_ifc
-
-            return read_ifc(data, request.options)
-        case "usd":
-            from satcheck.plugins.usd import read_usd
-
-            place = Path(request.directory, request.name)
-            return read_usd(place, request.options, allow_outside=request.allow_outside)
-        case "step":
-            from satcheck.plugins.step.assembly import read_step
-
-            return read_step(data, request.options)
-    from satcheck.scene.loading.gltf import read_gltf
-
-    return read_gltf(
-        data,
-        request.directory,
-        binary=request.format == "glb",
-        allow_outside=request.allow_outside,
-        isolated=True,
-        geometry=request.options.geometry,
-    )

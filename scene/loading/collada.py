@@ -24,9 +24,11 @@ from satcheck.scene.loading.raw_mesh import (
     RawNode,
     RawPart,
     RawScene,
+    alone,
     fan_triangles,
     strip_triangles,
 )
+from satcheck.scene.loading.readers import File
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
 Floats = NDArray[np.float64]
@@ -47,15 +49,16 @@ _WITHOUT_SURFACE = frozenset({"asset", "extra", "source", "vertices"})
 _AXES = (["X", "Y", "Z"], ["", "", ""])
 
 
-def read_collada(data: bytes | memoryview) -> RawMesh:
-    """The visual scene of a COLLADA file, flattened; raises MeshFileError without a file name.
+def read_collada(file: File) -> RawScene:
+    """Return the visual scene of a COLLADA file, flattened. Raises MeshFileError without a file
+    name.
 
     The precision is that of float32, because the programs that write COLLADA store coordinates so.
     """
-    root = read_elements(data)
+    root = read_elements(file.data)
     if root.tag != "COLLADA":
         raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
-    return flattened(_Document(root).read())
+    return alone(flattened(_Document(root).read()))
 
 
 class _Document:

@@ -42,9 +42,9 @@ from satcheck.scene.loading.raw_mesh import (
     RawScene,
     Refusal,
 )
+from satcheck.scene.loading.readers import File
 from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import listed
 
 # Extensions that move all of the geometry even where they are optional.
@@ -52,30 +52,22 @@ _MOVING = frozenset({"CESIUM_RTC"})
 _ANIMATED = ("time-sampled", "the file is animated; checked as stored")
 
 
-def read_gltf(
-    data: memoryview,
-    directory: str,
-    *,
-    binary: bool,
-    allow_outside: bool = False,
-    isolated: bool = False,
-    geometry: GeometryKind | None = None,
-) -> RawScene:
-    """The default scene of a glTF file: its meshes, and the nodes that have one.
+def read_gltf(file: File) -> RawScene:
+    """Return the default scene of a glTF or GLB file: its meshes, and the nodes that have one; for
+    the geometry `collision` its colliders, and the nodes that have one.
 
-    geometry: `collision`: its colliders, and the nodes that have one.
-
-    directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
-    binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
-    file name, and NeedsChild if the data need an isolated process and this one is not.
+    Raises MeshFileError without a file name, and NeedsChild if the data need an isolated process
+    and this one is not.
     """
-    text, chunk = split_glb(data) if binary else (data, None)
+    geometry = file.options.geometry
+    data = memoryview(file.data)
+    text, chunk = split_glb(data) if file.format == "glb" else (data, None)
     document = parse_document(text)
     unknown = UnknownNames()
     _check_extensions(document)
     look_at(document, unknown)
-    work = Work(isolated=isolated)
-    views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
+    work = Work(isolated=file.isolated)
+    views = BufferViews(document, chunk, file.directory, work, allow_outside=file.allow_outside)
     accessors = Accessors(document, views, work)
     meshes = Meshes(document, accessors, work)
     graph = NodeGraph(document, work)

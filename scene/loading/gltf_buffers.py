@@ -10,6 +10,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_vocabulary import MESHOPT
+from satcheck.scene.loading.readers import NeedsChild
 from satcheck.scene.path_kind import followed, is_file
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
@@ -20,11 +21,6 @@ _BIN_CHUNK = 0x004E4942
 _MODES = ("ATTRIBUTES", "TRIANGLES", "INDICES")
 _FILTERS = ("NONE", "EXPONENTIAL", "QUATERNION")  # the others are for normals and colours
 _BYTES_OF_NUMBER = 8
-
-
-class NeedsChild(Exception):
-    """The file has to be read in a child process, because it needs a library that may crash, or
-    more work than this process does for a file."""
 
 
 class Work:

@@ -12,7 +12,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
-from satcheck.scene.loading.gltf_buffers import NeedsChild, Work, extension, integer, items, member
+from satcheck.scene.loading.gltf_buffers import Work, extension, integer, items, member
 from satcheck.scene.loading.gltf_vocabulary import DRACO
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
@@ -21,6 +21,7 @@ from satcheck.scene.loading.raw_mesh import (
     fan_triangles,
     strip_triangles,
 )
+from satcheck.scene.loading.readers import NeedsChild
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})

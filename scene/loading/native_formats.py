@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from satcheck._native import readers
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.loading.source import Source
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.loading.readers import File
 
 _READERS = {
     "obj": readers.read_obj,
@@ -14,15 +14,14 @@ _READERS = {
     "off": readers.read_off,
 }
 
-NATIVE_FORMATS = frozenset(_READERS)
 
-
-def read_native(source: Source) -> RawMesh:
-    """The mesh of a file in one of `NATIVE_FORMATS`; raises MeshFileError with line or byte."""
-    outcome = _read_in_pieces(source) if source.in_pieces else _READERS[source.format](source.data)
+def read_native(file: File) -> RawScene:
+    """Return the mesh of a file. Raises MeshFileError with line or byte."""
+    in_pieces = len(file.data) < file.size
+    outcome = _read_in_pieces(file) if in_pieces else _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
-        raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}", file=source.path)
-    return RawMesh(
+        raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}")
+    mesh = RawMesh(
         vertices=outcome.vertices,
         triangles=outcome.triangles,
         number_format=outcome.number_format,
@@ -31,15 +30,15 @@ def read_native(source: Source) -> RawMesh:
         rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
+    return alone(mesh)
 
 
-def _read_in_pieces(source: Source) -> readers.MeshData | readers.ReadError:
+def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:
     try:
-        with source.location.open("rb", buffering=0) as file:
-            return readers.read_binary_stl(file.fileno(), source.size)
+        with file.location.open("rb", buffering=0) as opened:
+            return readers.read_binary_stl(opened.fileno(), file.size)
     except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise MeshFileError("unreadable-file", reason, file=source.path) from None
+        raise MeshFileError("unreadable-file", f"cannot be read: {error.strerror}") from None
 
 
 def _place(error: readers.ReadError) -> str:

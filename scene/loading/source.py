@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import codecs
 import hashlib
-from collections.abc import Mapping
 from pathlib import Path
 
 from msgspec import Struct
 
-from satcheck._native import readers
+from satcheck._native.readers import read_file
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import Reader, mesh_reader, reader_of, readers
 from satcheck.scene.loading.regular_file import size_of
 
 # Relatives of the formats that are read, and what to do with them.
@@ -28,30 +27,27 @@ _WIDE_MARKS = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
-# Text formats, and formats with a text header, that may begin with a byte order mark. XML is not
-# listed, because its parser handles the mark and the declared encoding.
-_MARKED_FORMATS = frozenset({"obj", "stl", "ply", "off", "gltf"})
 
 LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
 _STL_HEADER_BYTES = 84
 _STL_FACET_BYTES = 50
 _STL_COUNT = slice(80, 84)
 
-# The first bytes of files that are often misnamed as meshes: (signature, name, our formats of
-# that kind).
+# The first bytes of files that are often misnamed as meshes, and what they are. The marks of a
+# reader say which of them its files may have.
 _SIGNATURES = (
-    (b"\x89PNG\r\n", "a PNG image", ()),
-    (b"\xff\xd8\xff", "a JPEG image", ()),
-    (b"GIF8", "a GIF image", ()),
-    (b"%PDF", "a PDF document", ()),
-    (b"\x1f\x8b", "gzip data", ()),
-    (b"\x7fELF", "an ELF program", ()),
-    (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file", ()),
-    (b"glTF", "a GLB file", ("glb",)),
-    (b"ISO-10303-21;", "a STEP file", ("step", "ifc")),
-    (b"PK\x03\x04", "a zip archive", ("3mf", "ifc", "usd")),
-    (b"ply\n", "a PLY file", ("ply",)),
-    (b"ply\r\n", "a PLY file", ("ply",)),
+    (b"\x89PNG\r\n", "a PNG image"),
+    (b"\xff\xd8\xff", "a JPEG image"),
+    (b"GIF8", "a GIF image"),
+    (b"%PDF", "a PDF document"),
+    (b"\x1f\x8b", "gzip data"),
+    (b"\x7fELF", "an ELF program"),
+    (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file"),
+    (b"glTF", "a GLB file"),
+    (b"ISO-10303-21;", "a STEP file"),
+    (b"PK\x03\x04", "a zip archive"),
+    (b"ply\n", "a PLY file"),
+    (b"ply\r\n", "a PLY file"),
 )
 
 # The words at the start of lines in a text format, without comments.
@@ -92,34 +88,33 @@ def read_source(
     location: Path,
     *,
     max_bytes: int,
-    formats: Mapping[str, str] = FORMATS,
     hashed: bool = True,
 ) -> Source:
     """Reads a mesh file, or raises MeshFileError.
 
-    Only a regular file whose suffix is one of the formats is opened.
+    Only a regular file whose suffix is that of a reader is opened.
     """
     size = _size(path, location)
-    file_format = formats.get(location.suffix.lower())
-    if file_format is None:
-        known = f"known are {', '.join(sorted(formats))}"
+    reader = reader_of(location.suffix)
+    if reader is None:
+        known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
         hint = _CONVERTIBLE.get(location.suffix.lower(), known)
         message = f"unsupported format {location.suffix!r}: {hint}"
         raise MeshFileError("unsupported-format", message, file=path)
     _refuse_large(path, size, max_bytes)
     try:
-        in_pieces = file_format == "stl" and not hashed
+        in_pieces = reader.name == "stl" and not hashed
         size, data = _read(location, size, max_bytes, in_pieces=in_pieces)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_large(path, size, max_bytes)
     digest = hashlib.sha256(data).hexdigest() if hashed else None
-    if file_format in _MARKED_FORMATS and not _is_binary_stl(size, data):
+    if reader.text and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
         size, data = size + len(unmarked) - len(data), unmarked
-    _refuse_other_content(path, file_format, size, data)
-    return Source(path, location, file_format, digest, size, data)
+    _refuse_other_content(path, reader, size, data)
+    return Source(path, location, reader.name, digest, size, data)
 
 
 def _refuse_large(path: str, size: int, max_bytes: int) -> None:
@@ -142,9 +137,9 @@ def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tupl
             if _is_binary_stl(size, head):
                 return size, head
             file.seek(0)
-        data = readers.read_file(file.fileno(), size)
+        data = read_file(file.fileno(), size)
         if more := file.read(1):
-            data += more + readers.read_file(file.fileno(), max_bytes - len(data))
+            data += more + read_file(file.fileno(), max_bytes - len(data))
     return len(data), data
 
 
@@ -170,26 +165,21 @@ def _size(path: str, location: Path) -> int:
         raise MeshFileError(error.code, error.message, file=path) from None
 
 
-def _refuse_other_content(path: str, file_format: str, size: int, data: bytes) -> None:
-    content, content_formats = _sniff(size, data)
-    if content is None and file_format == "stl":
+def _refuse_other_content(path: str, reader: Reader, size: int, data: bytes) -> None:
+    content = _other_content(reader, size, data)
+    if content is None and reader.name == "stl":
         content = _other_text(data)
-    if content is not None and file_format not in content_formats:
-        raise MeshFileError(
-            "format-mismatch",
-            f"not of format {file_format.upper()}: its content is {content}",
-            file=path,
-        )
+    if content is not None:
+        message = f"not of format {reader.title}: its content is {content}"
+        raise MeshFileError("format-mismatch", message, file=path)
 
 
-def _sniff(size: int, data: bytes) -> tuple[str | None, tuple[str, ...]]:
-    """(name of the content, our formats of that kind); (None, ()) if it is not certain."""
-    for signature, name, formats in _SIGNATURES:
+def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
+    """What the content is if it is certainly not of this format."""
+    for signature, name in _SIGNATURES:
         if data.startswith(signature):
-            return name, formats
-    if _is_binary_stl(size, data):
-        return "a binary STL file", ("stl",)
-    return None, ()
+            return None if signature in reader.marks else name
+    return "a binary STL file" if _is_binary_stl(size, data) and reader.name != "stl" else None
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:

@@ -22,6 +22,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.loading.slicer_config import BAMBU, PRUSA, Volume, volumes
 from satcheck.scene.loading.threemf_vocabulary import (
     ATTRIBUTES,
@@ -61,10 +62,10 @@ _OTHER_GEOMETRY = frozenset(
 )
 
 
-def read_3mf(data: memoryview) -> RawScene:
-    """The objects that the build of a 3MF package places. Raises MeshFileError without a file
-    name."""
-    with opened_zip(data, "a 3MF file") as package:
+def read_3mf(file: File) -> RawScene:
+    """Return the objects that the build of a 3MF package places. Raises MeshFileError without a
+    file name."""
+    with opened_zip(memoryview(file.data), "a 3MF file") as package:
         return _Package(package).read()
 
 

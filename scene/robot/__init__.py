@@ -22,7 +22,6 @@ from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.sampling import RandomPoses, joint_samples
 from satcheck.scene.robot.srdf import Srdf, read_srdf
-from satcheck.scene.robot.urdf import read_urdf
 
 __all__ = [
     "FilePlaces",
@@ -49,7 +48,6 @@ __all__ = [
     "read_poses",
     "read_robot",
     "read_srdf",
-    "read_urdf",
     "settle",
     "with_joint_path",
     "with_srdfs",

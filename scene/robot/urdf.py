@@ -17,6 +17,7 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
+from satcheck.scene.loading.readers import RobotFile
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy
@@ -36,7 +37,7 @@ from satcheck.scene.robot.model import (
 )
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
-from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
+from satcheck.scene.robot.xml_tree import Element, RefusedElement
 
 _KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
@@ -50,19 +51,10 @@ _SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
 }
 
 
-def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
-    """The robot, and warnings. Raises SceneFileError with the file, the line and the element.
-
-    path: of the file, for messages; location: where it lies. No mesh is opened.
-    """
-    return robot_of(read_tree(path, location, "robot"))
-
-
-def robot_of(
-    root: Element, geometry: GeometryKind = "collision"
-) -> tuple[Robot, tuple[Issue, ...]]:
-    """As `read_urdf`. root: the outermost element. geometry: which elements become bodies."""
-    return _Reader(root.file, geometry).read(root)
+def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+    """Return the robot, and warnings. Raises SceneFileError with the file, the line and the
+    element. root: the outermost element. No mesh is opened."""
+    return _Reader(root.file, file.geometry).read(root)
 
 
 class _Reader:

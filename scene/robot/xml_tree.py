@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -17,8 +17,6 @@ from satcheck.scene.loading import xml_tree
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
 
-SDF_ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
-MJCF_ROOT = "mujoco"
 _MAX_BYTES = 64 << 20
 # Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
@@ -118,16 +116,21 @@ class Element(xml_tree.Element):
 
 
 def read_tree(path: str, location: Path, *roots: str) -> Element:
-    """The outermost element, whose tag has to be one of `roots`.
+    """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
     Text between elements is ignored. Raises SceneFileError, with the line.
     """
     document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
-    if document.tag not in roots:
-        wanted = " or ".join(f"<{root}>" for root in roots)
-        document.refuse(f"the outermost element should be {wanted}", "not-this-format")
+    if roots and document.tag not in roots:
+        refuse_root(document, roots)
     _refuse_macros(document)
     return document
+
+
+def refuse_root(document: Element, wanted: Iterable[str]) -> NoReturn:
+    """Raise an error that names the tags of outermost elements that are read."""
+    said = " or ".join(f"<{root}>" for root in wanted)
+    document.refuse(f"the outermost element should be {said}", "not-this-format")
 
 
 def _refuse_macros(document: Element) -> None:

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from satcheck.scene.loading.formats import FORMATS
+from satcheck.scene.loading.readers import readers
 from tests.asset_repository import CONFIG, ON_TOP, commit, make, write_crate, write_shelf
 from tests.cli.process import Ran, satcheck
 
 TOP = Path(__file__).resolve().parents[2]
-NEED_EXTRAS = {"step", "usd", "ifc"}
+NEED_EXTRAS = {"step", "usd", "ifc", "mjcf"}
 GATED = f'{CONFIG}baseline = "known.json"\n'
 
 
@@ -104,6 +104,6 @@ def test_the_hook_is_about_every_format_that_needs_no_option_and_no_extra() -> N
     pattern = next(line for line in hooks.splitlines() if "files:" in line)
     endings = pattern[pattern.index(r"\.(") + 3 : pattern.rindex(")")].split("|")
     assert {f".{ending}" for ending in endings} == {
-        *(ending for ending, kind in FORMATS.items() if kind not in NEED_EXTRAS),
+        *(ending for ending, reader in readers().items() if reader.name not in NEED_EXTRAS),
         ".urdf",
     }

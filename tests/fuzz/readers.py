@@ -16,14 +16,14 @@ from satcheck.cli.formats.picture.html import render as page
 from satcheck.cli.report_file import read_report
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
-from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.report.assets import AssetsReport
-from satcheck.scene import MeshFileError, Scene, load_scene
+from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
 from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.robot import FilePlaces
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written
@@ -49,10 +49,9 @@ def refuse_errors(scene: Scene) -> None:
 
 def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
-    kind = path.suffix[1:]
-    request = Request(
-        kind, str(path.parent), path.name, False, False, ReadOptions(), path.read_bytes()
-    )
+    data = path.read_bytes()
+    file = File(path.suffix[1:], str(path.parent), path.name, data, len(data), isolated=True)
+    request = Request(file, flat=False)
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply).content
     if isinstance(content, Refusal):
@@ -72,8 +71,8 @@ _MODELS = MeshFiles()  # one child process for all files
 def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
-        robot_of_model(str(path), _MODELS.model(str(path), None))
-    except MeshFileError as error:
+        _MODELS.robot(str(path), path, FilePlaces(str(path)))
+    except SceneFileError as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error
         raise

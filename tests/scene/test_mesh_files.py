@@ -12,6 +12,7 @@ from satcheck.scene.loading import ReadLimits, limits, open_source
 from satcheck.scene.loading import source as loading_source
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.nodes import Node
+from satcheck.scene.loading.readers import File
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]
@@ -138,12 +139,14 @@ def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, mon
     path = tmp_path / "fan.stl"
     path.write_bytes(stl_of(300))
     source = open_source("fan.stl", path, ReadLimits(1, 100, hashed=False))
+    assert source.in_pieces
+    file = File("stl", str(tmp_path), path.name, source.data, source.size)
     path.write_bytes(stl_of(300)[:1000])
     with pytest.raises(MeshFileError, match="byte 1000: truncated while it was read"):
-        read_native(source)
+        read_native(file)
     path.unlink()
     with pytest.raises(MeshFileError, match="cannot be read: No such file"):
-        read_native(source)
+        read_native(file)
 
 
 def refused(_):

@@ -11,13 +11,14 @@ from satcheck.audit.batch.check_options import CheckOptions
 from satcheck.audit.batch.key import terms_of
 from satcheck.scene import load_scene
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.read_options import OPTIONS_OF, ReadOptions, as_stated
+from satcheck.scene.loading.readers import readers, stated_options
+from satcheck.scene.read_options import ReadOptions, as_stated
 
 
 def test_only_the_options_of_the_formats_that_occur_are_stated() -> None:
     options = ReadOptions(time=2.5)
-    assert options.stated(["obj", "glb"]) is None
-    assert options.stated(["obj", "usd"]) == {
+    assert stated_options(options, ["obj", "glb"]) is None
+    assert stated_options(options, ["obj", "usd"]) == {
         "time": 2.5,
         "geometry": None,
         "purpose": None,
@@ -25,12 +26,13 @@ def test_only_the_options_of_the_formats_that_occur_are_stated() -> None:
 
 
 def test_a_default_without_effect_is_not_stated() -> None:
-    assert ReadOptions().stated(["usd"]) is None
+    assert stated_options(ReadOptions(), ["usd"]) is None
 
 
 def test_the_options_of_a_report_are_those_of_its_check() -> None:
     options = ReadOptions(time=2.5)
-    assert as_stated(options.stated(OPTIONS_OF)) == options
+    formats = [reader.name for reader in readers().values()]
+    assert as_stated(stated_options(options, formats)) == options
     assert as_stated(None) == ReadOptions()
 
 

@@ -17,6 +17,7 @@ from satcheck.cli.formats.picture.packing import packed_points
 from satcheck.cli.formats.verdict import summary_line
 from satcheck.cli.formats.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -97,8 +98,7 @@ def can_be_drawn(scene: Scene) -> bool:
 
 def up_of(scene: Scene) -> Literal["y", "z"]:
     """The axis that points up: y in glTF (2.0, section 3.4), z in most other files."""
-    formats = {body.file.format for body in scene.bodies}
-    return "y" if formats and formats <= {"glb", "gltf"} else "z"
+    return "y" if up_axes(scene) == {"y"} else "z"
 
 
 def require_drawable(scene: Scene) -> None:

@@ -8,12 +8,13 @@ import pytest
 
 from satcheck.audit import check
 from satcheck.audit.request.settings import Settings
+from satcheck.plugins.ifc import CHORD
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.read_options import CHORD_TOLERANCES, ReadOptions
+from satcheck.scene.read_options import ReadOptions
 from tests.plugins.ifc.models import Model
 from tests.plugins.ifc.test_reading import codes
 
-OWN = CHORD_TOLERANCES["ifc"] / 1000  # metres
+OWN = CHORD / 1000  # metres
 
 
 def read(folder: Path, model: Model, **options: float) -> Scene:

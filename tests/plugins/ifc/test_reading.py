@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.plugins.ifc import read_ifc
+from satcheck.plugins.ifc.reader import read_ifc
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import extras
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.loading.readers import File
 from tests.plugins.ifc.models import METRES, MILLIMETRES, Model
 from tests.scene.loading import refusal
 
@@ -225,7 +225,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(extras, "import_module", missing)
     with pytest.raises(MeshFileError) as caught:
-        read_ifc(memoryview(good().encode()), ReadOptions())
+        read_ifc(File("ifc", "", "a.ifc", good().encode(), 0))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[ifc]'" in caught.value.message
 

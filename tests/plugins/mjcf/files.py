@@ -9,10 +9,9 @@ import pytest
 
 from satcheck.audit import Settings
 from satcheck.audit.check import check
-from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
-from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.robot import Robot, posed
+from tests.scene.robot.robots import read_robot
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
@@ -44,8 +43,7 @@ def load(folder: Path, text: str, **options: object) -> Scene:
 
 
 def read(folder: Path, text: str) -> Robot:
-    path = str(write(folder, text))
-    return robot_of_model(path, MeshFiles().model(path, None))[0]
+    return read_robot(write(folder, text))[0]
 
 
 def codes(scene: Scene) -> list[str]:

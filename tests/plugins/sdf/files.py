@@ -9,9 +9,10 @@ import pytest
 from satcheck.core.transform import Transform
 from satcheck.scene import Issue, SceneFileError, load_scene
 from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot import FilePlaces, Robot, read_robot
+from satcheck.scene.robot import Robot
 from satcheck.scene.robot.kinematics import link_poses
 from satcheck.scene.robot.poses import settle
+from tests.scene.robot.robots import read_robot
 
 Point = tuple[float, float, float]
 BOX = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
@@ -66,7 +67,7 @@ def read(
     folder: Path, text: str, geometry: GeometryKind = "collision"
 ) -> tuple[Robot, tuple[Issue, ...]]:
     path = write(folder, text)
-    return read_robot(str(path), path, FilePlaces(str(path)), geometry)
+    return read_robot(path, geometry=geometry)
 
 
 def codes(folder: Path, text: str) -> list[str]:
@@ -77,7 +78,7 @@ def refusal(folder: Path, text: str) -> tuple[str, str]:
     """(code, message) of a file that must be refused, its name in front."""
     path = write(folder, text)
     with pytest.raises(SceneFileError) as caught:
-        read_robot("w.sdf", path, FilePlaces("w.sdf"))
+        read_robot(path, "w.sdf")
     assert str(caught.value).startswith("w.sdf: line ")
     return caught.value.code, caught.value.message
 

@@ -236,7 +236,7 @@ def test_a_joint_through_a_link_without_geometry_needs_no_note(tmp_path: Path) -
     ("text", "code", "words"),
     [
         ("<gazebo version='1.0'/>", "unsupported-feature", "gz sdf"),
-        ("<html/>", "not-this-format", "<robot> or <sdf>"),
+        ("<html/>", "not-this-format", " or <sdf>"),
         ('<sdf version="1.0"/>', "unsupported-feature", "gz sdf"),
         ("<sdf/>", "bad-robot", "version"),
         (f'<sdf version="{"1" * 5000}"/>', "bad-robot", "is no version"),

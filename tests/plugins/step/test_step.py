@@ -8,16 +8,17 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.plugins.step import CHORD
 from satcheck.plugins.step.assembly import read_step
 from satcheck.plugins.step.exchange import read_exchange
 from satcheck.scene import MeshFile, MeshFileError, Scene, load_scene
-from satcheck.scene.read_options import CHORD_TOLERANCES, ReadOptions
+from satcheck.scene.loading.readers import File
+from satcheck.scene.read_options import ReadOptions
 from satcheck.verify import verify
 from tests.plugins.step.files import StepFile, rig
 from tests.scene.loading import refusal
 
 INCH = 25.4
-CHORD_TOLERANCE = CHORD_TOLERANCES["step"]
 
 
 def load(folder: Path, text: str, name: str = "a.step", **options: float) -> Scene:
@@ -38,8 +39,8 @@ def test_each_occurrence_of_a_product_is_a_body_with_the_path_of_its_names(tmp_p
     scene = load(tmp_path, rig())
     placed = boxes(scene)
     low, high = placed.pop("rig/pin 1")
-    assert low == pytest.approx((-4, -4, 3), abs=CHORD_TOLERANCE)
-    assert high == pytest.approx((4, 4, 33), abs=CHORD_TOLERANCE)
+    assert low == pytest.approx((-4, -4, 3), abs=CHORD)
+    assert high == pytest.approx((4, 4, 33), abs=CHORD)
     assert placed == {
         "rig/base": ((-20, -20, 0), (20, 20, 5)),
         "rig/plate": ((-20, -20, 40), (20, 20, 45)),
@@ -98,7 +99,7 @@ def touch_or_overlap(folder: Path, radius: float, **settings: float) -> tuple[st
 def test_an_overlap_that_facets_explain_is_a_touch_unless_the_user_says_otherwise(
     tmp_path: Path,
 ) -> None:
-    assert touch_or_overlap(tmp_path, 4) == ("touching", CHORD_TOLERANCE)
+    assert touch_or_overlap(tmp_path, 4) == ("touching", CHORD)
     assert touch_or_overlap(tmp_path, 4, surface_tolerance=0.0) == ("penetrating", None)
 
 
@@ -240,7 +241,7 @@ def test_numbers_that_are_not_finite_end_no_child(tmp_path: Path) -> None:
 def test_the_package_to_install_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cascadio", None)
     with pytest.raises(MeshFileError, match="pip install 'satcheck\\[step\\]'") as caught:
-        read_step(memoryview(GOOD.encode()), ReadOptions())
+        read_step(File("step", "", "a.step", GOOD.encode(), 0))
     assert caught.value.code == "missing-extra"
 
 

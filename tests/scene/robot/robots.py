@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Issue, SceneFileError
-from satcheck.scene.robot import Robot, read_urdf
+from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.robot import FilePlaces, Robot
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
@@ -24,6 +26,14 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
     )
 
 
+def read_robot(
+    location: Path, path: str | None = None, geometry: GeometryKind = "collision"
+) -> tuple[Robot, tuple[Issue, ...]]:
+    """The robot of a file of any format, and issues. path: its name in messages."""
+    name = path or str(location)
+    return MeshFiles().robot(name, location, FilePlaces(name), geometry=geometry)
+
+
 def robot_of(*elements: str) -> str:
     """One element a line, the first in line 2."""
     return "\n".join(['<robot name="r">', *elements, "</robot>"])
@@ -36,7 +46,7 @@ def read(folder: Path, text: str) -> Robot:
 def read_with_issues(folder: Path, text: str) -> tuple[Robot, tuple[Issue, ...]]:
     path = folder / "r.urdf"
     path.write_text(text)
-    return read_urdf("r.urdf", path)
+    return read_robot(path, "r.urdf")
 
 
 def refusal(folder: Path, text: str) -> tuple[str, str]:

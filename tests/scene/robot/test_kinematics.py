@@ -15,7 +15,7 @@ import pytest
 from satcheck.core import transform
 from satcheck.core.transform import Vector, compose
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot import read_urdf, settle
+from satcheck.scene.robot import settle
 from satcheck.scene.robot.kinematics import (
     from_quaternion,
     from_rpy,
@@ -23,7 +23,7 @@ from satcheck.scene.robot.kinematics import (
     motion,
     scaled,
 )
-from tests.scene.robot.robots import SAMPLES, joint, link, read, robot_of
+from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
 CLOSE = 1e-14
 Matrix = tuple[float, ...]
@@ -144,7 +144,7 @@ def test_a_planar_joint_stays_in_its_plane(tmp_path: Path, axis: str) -> None:
 
 
 def test_the_sample_arm_in_closed_form() -> None:
-    robot, _ = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
+    robot, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
     draw = random.Random(2)
     for _ in range(50):
         t, a, b, g = (draw.uniform(-2, 2) for _ in range(4))

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.robot import Pose, Posture, Robot, State, read_poses, read_urdf, settle
+from satcheck.scene.robot import Pose, Posture, Robot, State, read_poses, settle
 from satcheck.scene.robot.poses import state_named
-from tests.scene.robot.robots import SAMPLES, joint, link, read, robot_of
+from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
-ARM, _ = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
+ARM, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
 MIMIC = '<mimic joint="j" multiplier="-2" offset="0.5"/>'
 
 

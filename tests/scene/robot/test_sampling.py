@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene.robot import joint_samples, read_urdf
-from tests.scene.robot.robots import SAMPLES, joint, link, read, robot_of
+from satcheck.scene.robot import joint_samples
+from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
-ARM, _ = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
+ARM, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
 
 
 def test_the_first_poses_of_seed_0() -> None:

@@ -8,15 +8,13 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
 from satcheck.scene.robot.model import Limits, MeshReference, Mimic, RefusedShape
-from satcheck.scene.robot.urdf import read_urdf
-from satcheck.scene.robot.urdf import robot_of as parsed
-from satcheck.scene.robot.xml_tree import read_tree
 from tests.scene.robot.robots import (
     BOX,
     SAMPLES,
     joint,
     link,
     read,
+    read_robot,
     read_with_issues,
     refusal,
     robot_of,
@@ -30,7 +28,7 @@ def geometry(shape: str, beside: str = "") -> str:
 
 
 def test_the_sample() -> None:
-    robot, issues = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
+    robot, issues = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
     assert (robot.name, list(robot.roots), issues) == ("arm", ["base"], ())
     assert [j.name for j in robot.joints][:4] == ["turn", "shoulder", "elbow", "grip"]
     assert {j.name: j.kind for j in robot.joints if j.free} == {
@@ -77,7 +75,7 @@ def test_a_plane_is_a_half_space_along_its_normal(tmp_path: Path) -> None:
     assert (part.origin[2::4][:3], part.origin[3::4][:3]) == ((0, -1, 0), (0, 0, 2))
     path = tmp_path / "drawn.urdf"
     path.write_text(robot_of(link("floor", plane.replace("collision>", "visual>"))))
-    drawn, _ = parsed(read_tree("drawn.urdf", path, "robot"), "visual")
+    drawn, _ = read_robot(path, geometry="visual")
     assert isinstance(drawn.links["floor"].collisions[0].geometry, RefusedShape)
     for wrong in ('normal="0 0 0"', ""):
         text = robot_of(link("floor", plane.replace('normal="0 -3 0"', wrong)))

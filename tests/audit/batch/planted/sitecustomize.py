@@ -73,8 +73,8 @@ def _split(_: bytes) -> str:
 _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "satcheck.scene.loading": ("read_source", os.path.basename),
     "satcheck.scene.loading.child_formats": (
-        "_read",
-        lambda request: Path(request.directory).name,
+        "_content",
+        lambda request: Path(request.file.directory).name,
     ),
     "satcheck.decompose.coacd_server": ("serve", _split),
     "satcheck.audit.checked_pairs": ("examine", lambda pair: pair.a.id),

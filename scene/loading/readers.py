@@ -1,0 +1,248 @@
+"""The registry of readers: which files are read, and by what.
+
+Formats of this package are listed here. Plug-ins and other packages register theirs in the same
+way (`plugins.py`). A reader is imported when the first file of its format is read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
+
+from msgspec import Struct
+
+from satcheck.scene.loading import limits
+from satcheck.scene.loading.raw_mesh import Block, RawScene
+from satcheck.scene.plugins import function_at, others, own
+from satcheck.scene.read_options import GeometryKind, ReadOptions
+
+if TYPE_CHECKING:
+    from satcheck.scene.issue import Issue
+    from satcheck.scene.loading import ReadLimits
+    from satcheck.scene.loading.reading_children import ReadingChildren
+    from satcheck.scene.robot.model import Robot
+    from satcheck.scene.robot.packages import FilePlaces
+    from satcheck.scene.robot.xml_tree import Element
+
+T = TypeVar("T")
+_ZIP = b"PK\x03\x04"
+
+
+class File(Struct, frozen=True):
+    """A file to read. It can be sent to a child process.
+
+    directory: that its references are relative to. name: in the directory. data: its bytes; of a
+    large binary STL file and of a format that is `by_name`, less or none. size: in bytes.
+    allow_outside: what it names may lie outside of the directory. isolated: this process may crash.
+    """
+
+    format: str
+    directory: str
+    name: str
+    data: Block
+    size: int
+    options: ReadOptions = ReadOptions()
+    allow_outside: bool = False
+    isolated: bool = False
+
+    @property
+    def location(self) -> Path:
+        return Path(self.directory, self.name)
+
+
+class NeedsChild(Exception):
+    """Raised by a reader in this process that wants to be asked in a child process."""
+
+
+class Reader(Struct, frozen=True):
+    """A format of files with meshes.
+
+    name: in reports. title: for people. endings: of the names of its files, in small letters.
+    read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
+    MeshFileError without a file name. kind: "mesh": the meshes of a file are one body, or a body
+    each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
+    reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
+    may begin, of those in `loading/source.py`. text: it may begin with a byte order mark, which the
+    reader is not shown. here: files up to this size are read in this process, in bytes; larger ones
+    in a child process. by_name: it opens the file itself. chord: the chord tolerance, if facets are
+    made for it, in millimetres. up: the axis that points up, if the format says so. complete:
+    False: the reader may leave something out without a word, so that no pair is proven apart.
+    """
+
+    name: str
+    title: str
+    endings: tuple[str, ...]
+    read: str
+    kind: Literal["mesh", "document", "robot"] = "mesh"
+    options: tuple[str, ...] = ()
+    marks: tuple[bytes, ...] = ()
+    text: bool = False
+    here: float = 0
+    by_name: bool = False
+    chord: float | None = None
+    up: Literal["y", "z"] | None = None
+    complete: bool = True
+
+    def function(self) -> Callable[[File], RawScene]:
+        return cast("Callable[[File], RawScene]", function_at(self.read))
+
+
+class RobotFile(Struct, frozen=True):
+    """An XML file of a robot, and what its reader may ask for.
+
+    places: where the files that it names are looked for. packages: as given.
+    geometry: which elements of links become bodies. hulls: of its meshes are meant. allowed,
+    children: for readers that need a child process.
+    """
+
+    places: FilePlaces
+    packages: Mapping[str, str | Path]
+    geometry: GeometryKind
+    hulls: bool
+    allowed: ReadLimits
+    children: ReadingChildren
+
+
+class RobotReader(Struct, frozen=True):
+    """A format of robots in XML.
+
+    name, title, endings: as of a `Reader`. roots: tags of the outermost element. read: "module:
+    function". The function takes this element and a `RobotFile`, and returns the robot and issues;
+    it raises SceneFileError. marks: files of its endings in a folder are robots if they hold one of
+    these, or one of the roots; None: all of them are.
+    """
+
+    name: str
+    title: str
+    endings: tuple[str, ...]
+    roots: tuple[str, ...]
+    read: str
+    marks: tuple[bytes, ...] | None = None
+
+    def function(self) -> Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]:
+        return cast(
+            "Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]",
+            function_at(self.read),
+        )
+
+
+def _native(name: str, *more: str, marks: tuple[bytes, ...] = ()) -> Reader:
+    """The strict readers in C++."""
+    read = "satcheck.scene.loading.native_formats:read_native"
+    endings = (f".{name}", *more)
+    return Reader(name, name.upper(), endings, read, marks=marks, text=True, here=math.inf)
+
+
+def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
+    return Reader(
+        name,
+        title,
+        (f".{name}",),
+        "satcheck.scene.loading.gltf:read_gltf",
+        options=("geometry",),
+        marks=marks,
+        text=name == "gltf",
+        here=limits.IN_PROCESS_BYTES,
+        up="y",  # the glTF 2.0 specification, 3.4
+    )
+
+
+_BUILT_IN: tuple[Reader | RobotReader, ...] = (
+    _native("obj"),
+    _native("stl", ".stla", ".stlb"),
+    _native("ply", marks=(b"ply\n", b"ply\r\n")),
+    _native("off"),
+    _gltf("glb", "GLB", (b"glTF",)),
+    _gltf("gltf", "glTF"),
+    Reader("3mf", "3MF", (".3mf",), "satcheck.scene.loading.threemf:read_3mf", marks=(_ZIP,)),
+    Reader("dae", "DAE", (".dae",), "satcheck.scene.loading.collada:read_collada"),
+    RobotReader("urdf", "URDF", (".urdf",), ("robot",), "satcheck.scene.robot.urdf:robot_of"),
+)
+
+
+class _Registry(Struct):
+    """robots: by the tags of outermost elements."""
+
+    by_ending: dict[str, Reader] = {}
+    by_name: dict[str, Reader] = {}
+    robots: dict[str, RobotReader] = {}
+
+    def add(self, readers: Iterable[Reader | RobotReader]) -> None:
+        """A format that is there already stays."""
+        for reader in readers:
+            if isinstance(reader, RobotReader):
+                for root in reader.roots:
+                    self.robots.setdefault(root, reader)
+                continue
+            self.by_name.setdefault(reader.name, reader)
+            for ending in reader.endings:
+                self.by_ending.setdefault(ending, reader)
+
+
+@cache
+def _registry() -> _Registry:
+    registry = _Registry()
+    registry.add(_BUILT_IN)
+    registry.add(own("readers"))
+    return registry
+
+
+def readers() -> Mapping[str, Reader]:
+    """Return the readers of this package and its plug-ins, by the endings of their files."""
+    return _registry().by_ending
+
+
+def robots() -> Mapping[str, RobotReader]:
+    """Return the readers of robots, by the tags of outermost elements."""
+    return _registry().robots
+
+
+def reader_of(ending: str) -> Reader | None:
+    """Return the reader of files whose names end so; None: there is none."""
+    return _found(_registry().by_ending, ending.lower())
+
+
+def mesh_reader(suffix: str) -> Reader | None:
+    """Return the reader of files that are meshes or documents; None: there is none."""
+    reader = reader_of(suffix)
+    return None if reader is None or reader.kind == "robot" else reader
+
+
+def reader_named(name: str) -> Reader | None:
+    """Return the reader of a format by its name in reports; None: there is none, as of shapes."""
+    return _found(_registry().by_name, name)
+
+
+def robot_reader(root: str) -> RobotReader | None:
+    """Return the reader of robots whose outermost element has this tag; None: there is none."""
+    return _found(_registry().robots, root)
+
+
+def options_of(formats: Iterable[str]) -> set[str]:
+    """Return the names of the options that count for files of these formats."""
+    return {name for each in _known(formats) for name in each.options}
+
+
+def stated_options(options: ReadOptions, formats: Iterable[str]) -> dict[str, Any] | None:
+    """Return the options that count for files of these formats, by name; None: no option counts.
+    The chord tolerance is None if these formats have different ones."""
+    formats = set(formats)
+    values = options.named(options_of(formats))
+    chords = {options.chord(r.chord) for r in _known(formats) if r.chord is not None}
+    if len(chords) == 1:
+        values["chord_tolerance"] = chords.pop()
+    return values if any(value is not None for value in values.values()) else None
+
+
+def _known(formats: Iterable[str]) -> list[Reader]:
+    return [reader for name in formats if (reader := reader_named(name)) is not None]
+
+
+def _found(among: Mapping[str, T], key: str) -> T | None:
+    """Other packages are asked only for what this one does not have."""
+    if key and key not in among:
+        _registry().add(others("readers"))
+    return among.get(key)

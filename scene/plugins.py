@@ -1,0 +1,57 @@
+"""Finds plug-ins: the packages in satcheck/plugins, and entry points of other packages.
+
+Both register in the same way. A package in satcheck/plugins has a tuple `READERS`, `FORMATS` or
+`COMMANDS`; another package names each object of such a tuple by an entry point of the group
+`satcheck.readers`, `satcheck.formats` or `satcheck.commands`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from typing import Any, Literal
+
+from satcheck.core.errors import SatcheckError
+
+_PACKAGE = "satcheck.plugins"
+Group = Literal["readers", "formats", "commands"]
+
+
+def own(group: Group) -> Iterator[Any]:
+    """What the plug-ins of this package register. None of them imports its library for that."""
+    for name in _names():
+        yield from getattr(import_module(f"{_PACKAGE}.{name}"), group.upper(), ())
+
+
+@cache
+def others(group: Group) -> tuple[Any, ...]:
+    """What other packages register. Raises SatcheckError `bad-plugin`."""
+    from importlib.metadata import entry_points  # takes as long as a small check
+
+    return tuple(_loaded(point) for point in entry_points(group=f"satcheck.{group}"))
+
+
+def function_at(place: str) -> Any:
+    """The function at "module:name"."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
+
+
+@cache
+def _names() -> tuple[str, ...]:
+    try:
+        package = import_module(_PACKAGE)
+    except ModuleNotFoundError:
+        return ()  # they are taken away
+    entries = (entry for folder in package.__path__ for entry in os.scandir(folder))
+    return tuple(sorted(e.name for e in entries if e.is_dir() and not e.name.startswith("_")))
+
+
+def _loaded(point: Any) -> Any:
+    try:
+        return point.load()
+    except Exception as error:
+        message = f"the plug-in {point.value} cannot be loaded: {type(error).__name__}: {error}"
+        raise SatcheckError("bad-plugin", message) from error
