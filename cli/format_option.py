@@ -2,73 +2,92 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
 import click
 from click.core import ParameterSource
 
-from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
-from satcheck.cli.formats.picture import FORMATS as PICTURE_FORMATS
-from satcheck.scene.loading.readers import readers
+from satcheck.cli.formats.registry import (
+    PLAIN,
+    Kind,
+    format_named,
+    format_of,
+    formats,
+)
+from satcheck.scene.loading.readers import reader_of
 
-FORMATS = ("table", "json")
-# Formats of one report or of many.
-REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
-PICTURES = tuple(PICTURE_FORMATS)
-_ENDINGS = {
-    ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
-}
+Command = TypeVar("Command", bound=Callable[..., Any])
+
 _BCF_2 = ".bcfzip"
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2, *readers()} - _ENDINGS.keys()
-
-form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    metavar="FORMAT",
-    help="table or json.  [default: json if the file of -o ends in .json, otherwise table]",
-)
-reports_form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice(REPORT_FORMATS),
-    metavar="FORMAT",
-    help=f"{', '.join(REPORT_FORMATS)}.  [default: as the file of -o ends, otherwise table]",
-)
-report_form_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice((*REPORT_FORMATS, *PICTURES)),
-    metavar="FORMAT",
-    help=f"{', '.join((*REPORT_FORMATS, *PICTURES))}; html is a 3-D view, png an image of the "
-    "worst finding, glb a 3-D model, bcf topics (BCF 3.0).  [default: as the file of -o ends, "
-    "otherwise table]",
-)
+_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2}
 
 
-def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMATS) -> str:
-    """The format, one of `forms`: as given, else as the name of the output file says.
+class _FormatChoice(click.Choice[str]):
+    """A name of a format, also one that another package registers."""
 
-    Raises click.UsageError for a name that promises another kind of document.
+    def __init__(self, kinds: tuple[Kind, ...], also: Iterable[str]) -> None:
+        super().__init__([*formats(kinds), *also])
+        self._kinds = kinds
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        found = format_named(value)
+        if found is not None and found.kind in self._kinds:
+            return found.name
+        return super().convert(value, param, ctx)
+
+
+def format_option(
+    kinds: tuple[Kind, ...],
+    default: str = "as the file of -o ends, otherwise table",
+    also: Mapping[str, str] = {},
+) -> Callable[[Command], Command]:
+    """Return the option --format of a command that writes formats of these kinds. also: further
+    formats, and what each is."""
+    known = formats(kinds)
+    what = {name: each.about for name, each in known.items() if each.about} | dict(also)
+    about = ", ".join(f"{name} is {text}" for name, text in what.items())
+    names = ", ".join([*known, *also])
+    said = f"{names}{f'; {about}' if about else ''}.  [default: {default}]"
+    choice = _FormatChoice(kinds, also)
+    return click.option("--format", "form", type=choice, metavar="FORMAT", help=said)
+
+
+form_option = format_option(PLAIN, "json if the file of -o ends in .json, otherwise table")
+
+
+def form_of(
+    form: str | None,
+    output: Path | None,
+    kinds: tuple[Kind, ...] = PLAIN,
+    also: Sequence[str] = (),
+) -> str:
+    """Return the format: as given, else as the name of the output file says.
+
+    kinds: of formats that the command writes. also: further formats. Raises click.UsageError for a
+    name that promises another kind of document.
     """
     if output is not None and _is_overridden("form", "output"):
         form = None
-    if form is not None and form not in forms:
-        raise click.UsageError(f"--format {form}: this command writes {', '.join(forms)}")
+    ending = "" if output is None else output.suffix.lower()
+    named = format_of(ending)
+    known = (*formats(kinds), *also)
+    if form is not None and form not in known:
+        raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
     if form is not None or output is None:
         return form or "table"
-    ending = output.suffix.lower()
-    named = "json" if ending == ".json" else _ENDINGS.get(ending, "table")
-    if ending == _BCF_2 and "bcf" in forms:
+    if ending == _BCF_2 and "bcf" in known:
         raise click.UsageError(f"{output}: BCF 2.1 is not written: name the file .bcf for BCF 3.0")
-    if ending in _NO_REPORTS or named not in forms:
+    is_other = ending in _NO_REPORTS or (named is None and reader_of(ending) is not None)
+    chosen = "table" if named is None else named.name
+    if is_other or chosen not in known:
         raise click.UsageError(
-            f"{output}: this command writes {', '.join(forms)}: give one of them with --format, "
+            f"{output}: this command writes {', '.join(known)}: give one of them with --format, "
             "or name the file .json"
         )
-    return named
+    return chosen
 
 
 def _is_overridden(name: str, typed: str) -> bool:

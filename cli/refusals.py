@@ -6,8 +6,7 @@ from typing import Any
 
 import click
 
-from satcheck.cli.format_option import PICTURES
-from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
+from satcheck.cli.formats.registry import kind_of
 from satcheck.cli.inputs import Inputs
 
 
@@ -20,7 +19,7 @@ def refuse_certificate(form: str, *, wanted: bool) -> None:
 
 def refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
-    if form in (*CI_FORMATS, *PICTURES):
+    if kind_of(form) != "plain":
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
     for name in ("baseline", "certificate", "explain", "cross_check", "png", "glb"):
         if options.get(name):
@@ -30,7 +29,7 @@ def refuse_of_poses(form: str, **options: Any) -> None:
 
 def refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
     """What is about one world."""
-    refused = {f"--format {form}": form in PICTURES, "poses": inputs.has_poses}
+    refused = {f"--format {form}": kind_of(form) == "picture", "poses": inputs.has_poses}
     refused |= {f"--{name}": bool(options[name]) for name in ("certificate", "explain")}
     refused |= {f"--{name}": name in options for name in ("png", "glb")}
     for what in (what for what, given in refused.items() if given):

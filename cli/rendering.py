@@ -9,9 +9,7 @@ from msgspec import Struct
 
 from satcheck.audit import Report
 from satcheck.audit.sampled import Samples
-from satcheck.cli.format_option import PICTURES
-from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
-from satcheck.cli.formats.ci import pieces as pieces_for_ci
+from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.titles import in_one_line_each, with_titles
@@ -59,9 +57,10 @@ def rendered(
         result = in_one_line_each(with_titles(result))
     if form == "json":
         return render_json(result, timings=shown.timings)
-    if form in CI_FORMATS:
-        return pieces_for_ci({"satcheck": result}, form)
-    if form in PICTURES:
+    kind = kind_of(form)
+    if kind == "reports":
+        return pieces({"satcheck": result}, form)
+    if kind == "picture":
         from satcheck.cli.formats.picture import render as render_picture
 
         parts = result.settings.accuracy == "parts"

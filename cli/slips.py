@@ -234,9 +234,9 @@ def _listed(folder: Path) -> list[Path]:
 
 
 def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
-    from satcheck.cli.format_option import REPORT_FORMATS
+    from satcheck.cli.formats.registry import REPORTS, formats
 
-    if wrong in REPORT_FORMATS and "--format" in known:
+    if wrong in formats(REPORTS) and "--format" in known:
         return ("--format", wrong)
     alias = _ALIASES.get(wrong)
     if alias is not None and alias[0] in known:

@@ -18,9 +18,8 @@ from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.slot_server import Answer, Wanted
 from satcheck.cli import exit_codes
-from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
-from satcheck.cli.formats.ci import pieces as pieces_for_ci
 from satcheck.cli.formats.overview import Overview, overview
+from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
@@ -189,8 +188,8 @@ def _render(
     form = delivery.form
     if form == "json":
         return render_assets(seen.report(), assets, timings=timings)
-    if form in CI_FORMATS:
-        return pieces_for_ci({asset.file: asset.report for asset in assets}, form)
+    if kind_of(form) == "reports":
+        return pieces({asset.file: asset.report for asset in assets}, form)
     if not assets:
         return "PASS: 0 assets.\n"
     from satcheck.cli.formats.assets import render

@@ -1,16 +1,17 @@
 """Finds plug-ins: the packages in satcheck/plugins, and entry points of other packages.
 
-Both register in the same way. A package in satcheck/plugins has a tuple `READERS`, `FORMATS` or
-`COMMANDS`; another package names each object of such a tuple by an entry point of the group
-`satcheck.readers`, `satcheck.formats` or `satcheck.commands`.
+Both register in the same way. A package in satcheck/plugins has modules `readers`, `formats` or
+`commands` with a tuple `READERS`, `FORMATS` or `COMMANDS`; another package names each object of
+such a tuple by an entry point of the group `satcheck.readers`, `satcheck.formats` or
+`satcheck.commands`.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 from typing import Any, Literal
 
 from satcheck.core.errors import SatcheckError
@@ -21,8 +22,8 @@ Group = Literal["readers", "formats", "commands"]
 
 def own(group: Group) -> Iterator[Any]:
     """What the plug-ins of this package register. None of them imports its library for that."""
-    for name in _names():
-        yield from getattr(import_module(f"{_PACKAGE}.{name}"), group.upper(), ())
+    for name in _having(group):
+        yield from getattr(import_module(f"{_PACKAGE}.{name}.{group}"), group.upper())
 
 
 @cache
@@ -40,13 +41,14 @@ def function_at(place: str) -> Any:
 
 
 @cache
-def _names() -> tuple[str, ...]:
+def _having(group: Group) -> tuple[str, ...]:
+    """The names of the plug-ins of this package that have a module of this name."""
     try:
         package = import_module(_PACKAGE)
     except ModuleNotFoundError:
         return ()  # they are taken away
-    entries = (entry for folder in package.__path__ for entry in os.scandir(folder))
-    return tuple(sorted(e.name for e in entries if e.is_dir() and not e.name.startswith("_")))
+    places = (Path(folder).glob(f"*/{group}.py") for folder in package.__path__)
+    return tuple(sorted(place.parent.name for found in places for place in found))
 
 
 def _loaded(point: Any) -> Any:

@@ -21,7 +21,8 @@ from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.config.source import stated_config
-from satcheck.cli.format_option import PICTURES, REPORT_FORMATS, form_of, report_form_option
+from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.formats.registry import ALL, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.lengths import length, settings_of
 from satcheck.cli.options import (
@@ -134,7 +135,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 
 @click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True)
 @paths_argument("A B [C ...]")
-@report_form_option
+@format_option(ALL)
 @output_option
 @picture_options
 @click.option(
@@ -296,11 +297,11 @@ def command(
     """
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, output, baseline)
-    form = form_of(form, output, (*REPORT_FORMATS, *PICTURES))
+    form = form_of(form, output, ALL)
     refuse_certificate(form, wanted=options["certificate"])
     pictures = taken_pictures(options)
     refuse_pictures(pictures, inputs, output, baseline)
-    if pictures or form in PICTURES:
+    if pictures or kind_of(form) == "picture":
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     config = stated_config(click.get_current_context())

@@ -13,7 +13,8 @@ from satcheck.cli.asset_names import asset_names
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
-from satcheck.cli.format_option import REPORT_FORMATS, form_of, reports_form_option
+from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
@@ -44,7 +45,7 @@ _NOT_HERE = (
     metavar="REV",
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
-@reports_form_option
+@format_option(REPORTS)
 @limits_of_worlds("an asset")
 @options_of(check_command, but=(*_NOT_HERE, "version"))
 def command(
@@ -72,7 +73,7 @@ def command(
     `satcheck A B`.
     """
     inputs = Inputs.taken_from(options)
-    form = form_of(form, output, REPORT_FORMATS)
+    form = form_of(form, output, REPORTS)
     if not inputs.paths:
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)

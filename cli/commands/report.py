@@ -10,7 +10,8 @@ from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.stored import StoredResults
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import REPORT_FORMATS, form_of
+from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
     color_option,
@@ -23,7 +24,7 @@ from satcheck.cli.output import Document
 from satcheck.cli.results.report import TOP, Chosen, report
 from satcheck.cli.scene_options import outside_option
 
-FORMATS = (*REPORT_FORMATS, "html")
+_PAGE = {"html": "a page of the worst findings with their pictures"}
 
 
 @click.command("report", cls=Command, context_settings=HELP_NAMES)
@@ -39,14 +40,7 @@ FORMATS = (*REPORT_FORMATS, "html")
     metavar="FILE",
     help="Expect a result for each scene that FILE names, one per line, as satcheck batch does.",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    metavar="FORMAT",
-    help=f"{', '.join(FORMATS)}; html is a page of the worst findings with their pictures.  "
-    "[default: as the file of -o ends, otherwise table]",
-)
+@format_option(REPORTS, also=_PAGE)
 @output_option
 @click.option(
     "--top",
@@ -88,7 +82,7 @@ def command(
     The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked or the batch did not finish, else 0.
     """
-    form = form_of(form, output, FORMATS)
+    form = form_of(form, output, REPORTS, tuple(_PAGE))
     refuse_early(Inputs(paths=tuple(map(str, (*results, *filter(None, [manifest]))))), output)
     document = Document()
     expected = () if manifest is None else read_manifest(manifest)

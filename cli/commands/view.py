@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import PICTURES, form_of
+from satcheck.cli.format_option import form_of
 from satcheck.cli.formats.picture import render
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, refuse_early
@@ -75,7 +75,7 @@ def command(
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.
     """
-    form = form_of(None, output, PICTURES) if output else "html"
+    form = form_of(None, output, ("picture",)) if output else "html"
     pictures, inputs = taken_pictures(options), Inputs((str(report),))
     refuse_early(inputs, output)
     refuse_pictures(pictures, inputs, output)

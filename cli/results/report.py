@@ -9,9 +9,8 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.audit.batch.stored import StoredResults
-from satcheck.cli.formats.ci import FORMATS as CI_FORMATS
-from satcheck.cli.formats.ci import pieces as pieces_for_ci
 from satcheck.cli.formats.overview import Overview, overview
+from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.results.worst_findings import Illustrated, with_pictures, worst_findings
@@ -99,12 +98,12 @@ def _render(
 ) -> str | Iterable[str]:
     if form == "json":
         return render_assets(seen.report(), assets, timings=False)
-    if form in CI_FORMATS:
-        return pieces_for_ci(assets, form)
     if form == "html":
         from satcheck.cli.formats.worst_page import render as render_page
 
         return render_page(seen, illustrated)
+    if kind_of(form) == "reports":
+        return pieces(assets, form)
     from satcheck.cli.formats.assets import render
 
     return render(seen, page)

@@ -12,11 +12,11 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from satcheck.core.transform import Transform
-from satcheck.plugins.ifc import CHORD
 from satcheck.plugins.ifc.curved import curved_bodies
 from satcheck.plugins.ifc.elements import material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in
 from satcheck.plugins.ifc.kernel_log import logged
+from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal

@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from satcheck.plugins.ifc import CHORD
 from satcheck.plugins.ifc.elements import Elements
+from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import ReadOptions

@@ -6,23 +6,3 @@ reads the files that MuJoCo may open before it does. `reading` makes the robot o
 `joints` its joints, and `exemptions` says which pairs MuJoCo does not check. README.md says what is
 read.
 """
-
-from __future__ import annotations
-
-from satcheck.scene.loading.readers import Reader, RobotReader
-
-ENDING = ".xml"
-
-READERS = (
-    RobotReader(
-        "mjcf", "MJCF", (ENDING,), ("mujoco",), "satcheck.plugins.mjcf.asking:read_mjcf", marks=()
-    ),
-    Reader(
-        "mjcf",
-        "MJCF",
-        (ENDING,),
-        "satcheck.plugins.mjcf.child:own_meshes",
-        kind="robot",
-        by_name=True,
-    ),
-)

@@ -7,8 +7,8 @@ from pathlib import Path
 import msgspec
 
 from satcheck.core.worker import WorkerError
-from satcheck.plugins.mjcf import ENDING
 from satcheck.plugins.mjcf.messages import Answer, Model, Request
+from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_lost_reader

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from satcheck.core.errors import SatcheckError
-from satcheck.plugins.mjcf import ENDING
 from satcheck.plugins.mjcf.messages import Answer, Model, Request
+from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import files_read
 from satcheck.scene.input_kind import is_robot

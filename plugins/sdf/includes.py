@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.plugins.sdf import ROOTS
+from satcheck.plugins.sdf.readers import ROOTS
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.path_kind import is_file, is_folder
 from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces

@@ -16,8 +16,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
-from satcheck.plugins.step import CHORD
 from satcheck.plugins.step.exchange import Exchange, read_exchange
+from satcheck.plugins.step.readers import CHORD
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.gltf_accessors import Accessors

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from urllib.parse import quote
 
@@ -14,8 +15,8 @@ from junitparser import Failure, JUnitXml
 from msgspec.structs import replace
 from sarif_pydantic import Sarif
 
-from satcheck.cli.formats.ci import FORMATS, render
 from satcheck.cli.formats.ci.problems import problems, uri
+from satcheck.cli.formats.registry import formats, pieces
 from satcheck.report.report import BodyReport, Finding, Report
 from tests.cli.process import SAMPLES, satcheck
 from tests.cli.reports import (
@@ -33,6 +34,10 @@ from tests.cli.reports import (
 TOUCH = replace(TOUCHING, severity="note")
 DEEPER = replace(PENETRATING, id="block|deeper", b="deeper", depth=2.0, depth_bounds=(2.0, 2.0))
 NAMES = ("block", "block_pushed", "deeper", "far", "flush", "soup")
+
+
+def render(reports: Mapping[str, Report], form: str) -> str:
+    return "".join(pieces(reports, form))
 
 
 def scene_report(*findings: Finding) -> Report:
@@ -220,11 +225,11 @@ def test_a_file_outside_of_the_folder_has_a_file_uri(
     assert uri("../b.obj") == f"file://{quote(str(tmp_path.parent / 'b.obj'))}"
 
 
-@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("form", formats(("reports",)))
 def test_the_name_of_the_file_chooses_the_format(form: str, tmp_path: Path) -> None:
     printed = satcheck("box.obj", "box_pushed.stl", "--format", form, cwd=SAMPLES)
     assert (printed.code, printed.err) == (1, "")
-    for ending in FORMATS[form]:
+    for ending in formats()[form].endings:
         output = tmp_path / f"report{ending}"
         satcheck("box.obj", "box_pushed.stl", "-o", str(output), cwd=SAMPLES)
         assert output.read_bytes().decode() == printed.out

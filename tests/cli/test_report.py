@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.formats.ci import FORMATS
+from satcheck.cli.formats.registry import formats
 from satcheck.cli.formats.schema import text
 from satcheck.report.report import without_timings
 from tests.cli.process import SAMPLES, Ran, satcheck
@@ -77,7 +77,7 @@ def test_the_exit_code_is_that_of_each(names: str, code: int, folder: Path) -> N
     assert report(folder, "all.jsonl", "--exit-zero").code == (0 if code == 1 else code)
 
 
-@pytest.mark.parametrize("form", ["json", *FORMATS])
+@pytest.mark.parametrize("form", ["json", *formats(("reports",))])
 def test_every_format_is_that_of_each(form: str, folder: Path) -> None:
     scenes = [f"{name}.toml" for name in ["a", "b", "broken", "c"]]
     batch(folder, "a b broken c", "all.jsonl")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
-from satcheck.cli.formats.ci import render as render_for_ci
 from satcheck.cli.formats.picture.data import listed
+from satcheck.cli.formats.registry import pieces
 from satcheck.cli.formats.table import render as render_table
 from satcheck.cli.formats.verdict import verdict_line
 from satcheck.cli.output import PLAIN_PAGE
@@ -48,7 +48,7 @@ def test_the_depth_stands_for_a_thickness_that_is_unknown() -> None:
 
 @pytest.mark.parametrize("form", ["sarif", "github", "markdown"])
 def test_formats_of_ci(form: str) -> None:
-    assert order(render_for_ci({"all": REPORT}, form), "{} and {}") == ["deep", "thin", "known"]
+    assert order("".join(pieces({"all": REPORT}, form)), "{} and {}") == ["deep", "thin", "known"]
 
 
 def test_table_and_verdict() -> None:

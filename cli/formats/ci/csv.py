@@ -18,7 +18,7 @@ from satcheck.cli.output import harmless
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
     from satcheck.report.report import Finding, Issue, Report
 
 # Columns that are fields of a finding with one value.

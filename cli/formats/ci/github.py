@@ -11,7 +11,7 @@ from satcheck.cli.formats.verdict import summary_line
 from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
 
 _COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 

@@ -13,7 +13,7 @@ from satcheck.report.report import without_timings
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
 
 
 def render(reports: Reports) -> Iterator[str]:

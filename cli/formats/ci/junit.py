@@ -24,7 +24,7 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
     from satcheck.report.report import BodyAnswer, Finding, Report
 
 

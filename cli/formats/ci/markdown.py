@@ -15,7 +15,7 @@ from satcheck.report.assets import asset
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
 
 # GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
 MOST_ROWS = 200

@@ -21,7 +21,7 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
 

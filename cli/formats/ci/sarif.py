@@ -15,7 +15,7 @@ from satcheck.cli.formats.config import config_lines
 from satcheck.report.json import document
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.ci import Reports
+    from satcheck.cli.formats.registry import Reports
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"

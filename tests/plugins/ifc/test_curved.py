@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.audit import check
 from satcheck.audit.request.settings import Settings
-from satcheck.plugins.ifc import CHORD
+from satcheck.plugins.ifc.readers import CHORD
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.read_options import ReadOptions
 from tests.plugins.ifc.models import Model

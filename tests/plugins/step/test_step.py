@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.plugins.step import CHORD
 from satcheck.plugins.step.assembly import read_step
 from satcheck.plugins.step.exchange import read_exchange
+from satcheck.plugins.step.readers import CHORD
 from satcheck.scene import MeshFile, MeshFileError, Scene, load_scene
 from satcheck.scene.loading.readers import File
 from satcheck.scene.read_options import ReadOptions

@@ -1,0 +1,20 @@
+"""What the registry knows of IFC files."""
+
+from __future__ import annotations
+
+from satcheck.scene.loading.readers import Reader
+
+CHORD = 1.0  # millimetres: buildings are drawn to about that
+
+READERS = (
+    Reader(
+        "ifc",
+        "IFC",
+        (".ifc", ".ifczip", ".ifcxml"),
+        "satcheck.plugins.ifc.reader:read_ifc",
+        kind="document",
+        options=("chord_tolerance", "angular_tolerance"),
+        marks=(b"ISO-10303-21;", b"PK\x03\x04"),
+        chord=CHORD,
+    ),
+)
