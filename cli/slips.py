@@ -15,7 +15,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from satcheck.cli.commands import COMMANDS
+from satcheck.cli.commands import COMMANDS, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.loading.readers import mesh_reader
@@ -250,7 +250,7 @@ def _options(command: click.Command) -> list[str]:
 
 
 def _is_check() -> bool:
-    return sys.argv[1:2] != [] and sys.argv[1] not in COMMANDS
+    return sys.argv[1:2] != [] and not is_command(sys.argv[1])
 
 
 def _replacing(others: Mapping[str, Sequence[str]]) -> str:

@@ -14,10 +14,17 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Literal
 
-from satcheck.core.errors import SatcheckError
+from msgspec import Struct
 
 _PACKAGE = "satcheck.plugins"
 Group = Literal["readers", "formats", "commands"]
+
+
+class Failure(Struct, frozen=True):
+    """An entry point that cannot be loaded."""
+
+    name: str
+    reason: str
 
 
 def own(group: Group) -> Iterator[Any]:
@@ -26,12 +33,15 @@ def own(group: Group) -> Iterator[Any]:
         yield from getattr(import_module(f"{_PACKAGE}.{name}.{group}"), group.upper())
 
 
-@cache
 def others(group: Group) -> tuple[Any, ...]:
-    """What other packages register. Raises SatcheckError `bad-plugin`."""
-    from importlib.metadata import entry_points  # takes as long as a small check
+    """What other packages register. One that fails is left out, and `failures` names it."""
+    return tuple(found for found in _others(group) if not isinstance(found, Failure))
 
-    return tuple(_loaded(point) for point in entry_points(group=f"satcheck.{group}"))
+
+def failures(group: Group) -> str:
+    """Return a text to be put after an error about an unknown name: which plug-ins have failed."""
+    failed = [found for found in _others(group) if isinstance(found, Failure)]
+    return "".join(f"; the plug-in {each.name} cannot be loaded: {each.reason}" for each in failed)
 
 
 def function_at(place: str) -> Any:
@@ -51,9 +61,15 @@ def _having(group: Group) -> tuple[str, ...]:
     return tuple(sorted(place.parent.name for found in places for place in found))
 
 
+@cache
+def _others(group: Group) -> tuple[Any, ...]:
+    from importlib.metadata import entry_points  # takes as long as a small check
+
+    return tuple(_loaded(point) for point in entry_points(group=f"satcheck.{group}"))
+
+
 def _loaded(point: Any) -> Any:
     try:
         return point.load()
-    except Exception as error:
-        message = f"the plug-in {point.value} cannot be loaded: {type(error).__name__}: {error}"
-        raise SatcheckError("bad-plugin", message) from error
+    except Exception as error:  # noqa: BLE001  a package of others: anything may happen
+        return Failure(point.value, f"{type(error).__name__}: {error}")

@@ -17,6 +17,12 @@ from satcheck.report.assets import AssetVerdict
 
 # Gives the answers for worlds, in any order.
 Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
+# The registry of engines: "module:function", which takes the worlds, the options, the limits, and
+# slots or scheduler. An engine is imported when a batch goes through it.
+ENGINES = {
+    "local": "satcheck.audit.batch.local:check_locally",
+    "dask": "satcheck.audit.batch.dask_engine:check_with_dask",
+}
 # Digests that a resumed run keeps, as worlds share files.
 _DIGESTS = 100_000
 

@@ -1,6 +1,30 @@
-"""The sub-commands, a file each: `command` in the module of its name is the click command."""
+"""The registry of sub-commands. Those of this package are a file each: `command` in the module of
+its name is the click command. Plug-ins and other packages register theirs (`scene/plugins.py`)."""
 
 from __future__ import annotations
+
+import re
+from functools import cache
+from typing import TYPE_CHECKING, cast
+
+from msgspec import Struct
+
+from satcheck.scene.plugins import function_at, others, own
+
+if TYPE_CHECKING:
+    import click
+
+_WORD = re.compile(r"[a-z][a-z0-9-]*")  # what a name of a command looks like
+
+
+class Plugin(Struct, frozen=True):
+    """A sub-command of a plug-in. about: a line for the help. command: "module:name" of the click
+    command."""
+
+    name: str
+    about: str
+    command: str
+
 
 # What each does, for the help of satcheck: that must not import them all. The first sentence of the
 # help of each command says the same.
@@ -19,3 +43,37 @@ COMMANDS = {
     "verify": "Re-check the certificates of a report.",
     "view": "Show a report in 3-D, from its mesh files.",
 }
+
+
+@cache
+def _plugins() -> dict[str, Plugin]:
+    return {plugin.name: plugin for plugin in own("commands")}
+
+
+def is_command(word: str) -> bool:
+    """Return whether a word is the name of a command. Other packages are asked last, and only for a
+    word that may be one."""
+    return word in COMMANDS or word in _plugins() or _of_others(word) is not None
+
+
+def command_named(name: str) -> click.Command | None:
+    """Return the click command of this name; None: there is none."""
+    if name in COMMANDS:
+        place = f"{__name__}.{name}:command"
+    elif plugin := _plugins().get(name) or _of_others(name):
+        place = plugin.command
+    else:
+        return None
+    return cast("click.Command", function_at(place))
+
+
+def all_commands() -> dict[str, str]:
+    """Return what each command does, by name."""
+    plugins = (*_plugins().values(), *others("commands"))
+    return {**{plugin.name: plugin.about for plugin in plugins}, **COMMANDS}
+
+
+def _of_others(word: str) -> Plugin | None:
+    if not _WORD.fullmatch(word):
+        return None
+    return next((plugin for plugin in others("commands") if plugin.name == word), None)

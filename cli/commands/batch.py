@@ -16,11 +16,10 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.check_options import World
 from satcheck.audit.batch.limits import Limits
-from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.remote_world import is_remote
 from satcheck.audit.batch.results import ResultsFile
-from satcheck.audit.batch.run import Tally, run
+from satcheck.audit.batch.run import ENGINES, Tally, run
 from satcheck.audit.batch.shard import Shard, parse_shard
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.audit.batch.spool import Spool
@@ -38,6 +37,7 @@ from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.plugins import function_at
 
 # What is about one world, or about one report.
 _NOT_HERE = (
@@ -91,7 +91,7 @@ _PATTERN = frozenset("*?[")
 )
 @click.option(
     "--engine",
-    type=click.Choice(("local", "dask")),
+    type=click.Choice(tuple(ENGINES)),
     default="local",
     show_default=True,
     help="Check on this machine, or on a Dask cluster.",
@@ -225,13 +225,13 @@ def _meant_by(url: str) -> list[str]:
 def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Generator[list[Answer]]]:
     if (name == "dask") != (scheduler is not None):
         raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
-    if scheduler is None:
-        return partial(check_locally, slots=jobs or os.cpu_count() or 1)
     try:
-        from satcheck.audit.batch.dask_engine import check_with_dask
+        engine = function_at(ENGINES[name])
     except ImportError:
         raise click.UsageError("--engine dask needs Dask: pip install 'satcheck[dask]'") from None
-    return partial(check_with_dask, scheduler=scheduler)
+    if scheduler is None:
+        return partial(engine, slots=jobs or os.cpu_count() or 1)
+    return partial(engine, scheduler=scheduler)
 
 
 def _recorded(tally: Tally, place: str) -> str:

@@ -19,7 +19,7 @@ from satcheck.audit.sampled import Samples
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.commands import COMMANDS
+from satcheck.cli.commands import all_commands
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import ALL, kind_of
@@ -120,7 +120,9 @@ class _DefaultCommand(Command):
                 ]
             )
         with formatter.section("Other commands"):
-            formatter.write_dl([(f"satcheck {name}", text) for name, text in COMMANDS.items()])
+            formatter.write_dl(
+                [(f"satcheck {name}", text) for name, text in all_commands().items()]
+            )
         with formatter.section("Shell completion"):
             formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
             formatter.write_text('zsh:  eval "$(_SATCHECK_COMPLETE=zsh_source satcheck)"')

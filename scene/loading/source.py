@@ -13,6 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.readers import Reader, mesh_reader, reader_of, readers
 from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.plugins import failures
 
 # Relatives of the formats that are read, and what to do with them.
 _CONVERTIBLE = {
@@ -99,7 +100,7 @@ def read_source(
     if reader is None:
         known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
         hint = _CONVERTIBLE.get(location.suffix.lower(), known)
-        message = f"unsupported format {location.suffix!r}: {hint}"
+        message = f"unsupported format {location.suffix!r}: {hint}{failures('readers')}"
         raise MeshFileError("unsupported-format", message, file=path)
     _refuse_large(path, size, max_bytes)
     try:

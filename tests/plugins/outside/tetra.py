@@ -1,0 +1,46 @@
+"""A package outside of satcheck: it brings a format of meshes, one of reports, and a command."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+from pathlib import Path
+
+import click
+
+from satcheck.cli.commands import Plugin
+from satcheck.cli.formats.registry import Format, Reports
+from satcheck.scene import MeshFileError
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.loading.readers import File, Reader
+
+READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", text=True)
+FORMAT = Format("verdicts", (".verdicts",), "tetra:render")
+COMMAND = Plugin("corners", "Count the corners of a tetrahedron.", "tetra:command")
+
+_FACES = (0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
+
+
+def read(file: File) -> RawScene:
+    """Return the tetrahedron of a file: a line for each corner, three numbers each."""
+    try:
+        corners = [float(word) for word in bytes(file.data).split()]
+        points = struct.pack("<12d", *corners)
+    except (ValueError, struct.error) as error:
+        raise MeshFileError("bad-record", f"not four corners: {error}") from error
+    triangles = struct.pack("<12I", *_FACES)
+    return alone(RawMesh(points, triangles, "written-digits", units="mm"))
+
+
+def render(reports: Reports) -> Iterable[str]:
+    """Yield a line for each report."""
+    for name, report in reports.items():
+        yield f"{name}: {report.summary.verdict}\n"
+
+
+@click.command("corners")
+@click.argument("path")
+def command(path: str) -> int:
+    """Count the corners of a tetrahedron."""
+    click.echo(sum(1 for line in Path(path).read_text().splitlines() if line.strip()))
+    return 0

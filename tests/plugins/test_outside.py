@@ -1,0 +1,92 @@
+"""A package outside of this repository brings formats and a command, by entry points."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import satcheck
+
+PACKAGE = Path(__file__).parent / "outside" / "tetra.py"
+UNIT = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+FAR = "5 0 0\n6 0 0\n5 1 0\n5 0 1\n"
+
+
+def install(folder: Path, points: str) -> dict[str, str]:
+    """The environment in which the package is installed. points: the text of its entry points."""
+    folder.mkdir()
+    shutil.copy(PACKAGE, folder)
+    made = folder / "tetra-1.0.dist-info"
+    made.mkdir()
+    (made / "METADATA").write_text("Metadata-Version: 2.1\nName: tetra\nVersion: 1.0\n")
+    (made / "entry_points.txt").write_text(points)
+    return {"PYTHONPATH": str(folder)}
+
+
+@pytest.fixture
+def env(tmp_path: Path) -> dict[str, str]:
+    points = (
+        "[satcheck.readers]\ntetra = tetra:READER\n"
+        "[satcheck.formats]\nverdicts = tetra:FORMAT\n"
+        "[satcheck.commands]\ncorners = tetra:COMMAND\n"
+    )
+    (tmp_path / "a.tetra").write_text(UNIT)
+    (tmp_path / "b.tetra").write_text(UNIT.replace("1", "0.5"))
+    (tmp_path / "far.tetra").write_text(FAR)
+    return install(tmp_path / "installed", points)
+
+
+def test_its_files_are_meshes(tmp_path: Path, env: dict[str, str]) -> None:
+    ran = satcheck("a.tetra", "b.tetra", "--format", "json", cwd=tmp_path, env=env)
+    assert ran.code == 1
+    assert ran.document["findings"][0]["relation"] == "penetrating"
+    assert ran.document["bodies"][0]["file"] == "a.tetra"
+    assert satcheck("a.tetra", "far.tetra", cwd=tmp_path, env=env).code == 0
+    assert satcheck("a.tetra", "far.tetra", cwd=tmp_path).code == 2
+
+
+def test_a_folder_is_checked_for_its_files(tmp_path: Path, env: dict[str, str]) -> None:
+    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    assert [asset["file"] for asset in ran.document["assets"]] == [
+        "a.tetra",
+        "b.tetra",
+        "far.tetra",
+    ]
+
+
+def test_what_it_refuses_is_said_of_its_file(tmp_path: Path, env: dict[str, str]) -> None:
+    (tmp_path / "a.tetra").write_text("0 0\n")
+    ran = satcheck("a.tetra", "b.tetra", "far.tetra", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    assert "a.tetra: not four corners" in ran.err
+
+
+@pytest.mark.parametrize("words", [("--format", "verdicts"), ("-o", "x.verdicts")])
+def test_reports_are_written_in_its_format(
+    words: tuple[str, ...], tmp_path: Path, env: dict[str, str]
+) -> None:
+    ran = satcheck("a.tetra", "far.tetra", *words, cwd=tmp_path, env=env)
+    written = (tmp_path / "x.verdicts").read_text() if "-o" in words else ran.out
+    assert written == "satcheck: pass\n"
+    assert satcheck("a.tetra", "far.tetra", *words[:1], "verdicts", cwd=tmp_path).code == 2
+
+
+def test_its_command_is_one_of_satcheck(tmp_path: Path, env: dict[str, str]) -> None:
+    assert satcheck("corners", "a.tetra", cwd=tmp_path, env=env).out == "4\n"
+    assert "corners" in satcheck("--help", cwd=tmp_path, env=env).out
+    assert satcheck("corners", "a.tetra", cwd=tmp_path).code == 2
+
+
+def test_a_package_that_fails_is_named_and_harms_nobody(tmp_path: Path) -> None:
+    env = install(tmp_path / "broken", "[satcheck.readers]\nbad = tetra:NOTHING\n")
+    (tmp_path / "a.tetra").write_text(UNIT)
+    (tmp_path / "a.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    )
+    ran = satcheck("a.obj", "a.tetra", "a.obj", "--format", "json", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    relations = {finding["relation"] for finding in ran.document["findings"]}
+    assert relations == {"coincident", "indeterminate"}
+    assert "tetra:NOTHING cannot be loaded" in ran.err
