@@ -28,12 +28,14 @@ from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
+from satcheck.scene.loading.readers import is_complete
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.thickness_ahead import Ahead
     from satcheck.core import Climb
 
 ID_DIGITS = 12
+INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
 
 
@@ -71,6 +73,9 @@ def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
     judgement = judged(answer, pair, overlaps=verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
+    if answer.relation not in OVERLAPS and not _is_complete(pair):
+        # The issue of the file keeps the check from passing, until somebody accepts it.
+        answer = replace(answer, quality="estimate", reason=answer.reason or INCOMPLETE)
     return Examined(_finding(pair, answer, judgement, trace), verdict, answer)
 
 
@@ -102,6 +107,10 @@ def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
         reason=reason,
         plan=tuple(trace.stages),
     )
+
+
+def _is_complete(pair: Pair) -> bool:
+    return all(is_complete(placed.body.file.format) for placed in (pair.a, pair.b))
 
 
 def _why_open(pair: Pair, verdict: Verdict) -> str | None:

@@ -63,6 +63,7 @@ _ALL = (
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
     Code("unknown-statement", "warning", "A line without geometry is unknown to the format."),
     Code("unread", "warning", "What may hold, move or hide a body is not read.", blocks=True),
+    Code("incomplete", "warning", "Its reader may leave something out, unsaid.", blocks=True),
     Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
     Code("no-surface", "warning", "A mesh has only lines or points: its pairs are not checked."),
     Code("not-a-body", "note", "Hidden geometry, or geometry of another purpose, has no body."),

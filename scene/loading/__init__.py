@@ -17,7 +17,7 @@ from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
-from satcheck.scene.loading.readers import File, NeedsChild, reader_named
+from satcheck.scene.loading.readers import File, NeedsChild, Reader, reader_named
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.read_options import ReadOptions
@@ -87,8 +87,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
     )
     if source.size <= reader.here:
         with suppress(NeedsChild):
-            scene = reader.function()(file)
-            return as_one(scene) if flat else scene
+            return read_with(reader, file, flat=flat)
     from satcheck.scene.loading.child_formats import read_in_child
 
     if reader.by_name:
@@ -96,9 +95,16 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
     return read_in_child(source.path, file, children, allowed, flat=flat)
 
 
-def as_one(scene: RawScene) -> RawScene:
-    """Return the scene with all of its meshes in one."""
-    if len(scene.nodes) == 1 and scene.nodes[0].path is None:
+def read_with(reader: Reader, file: File, *, flat: bool) -> RawScene:
+    """Return the meshes of a file; flat: as one mesh. Raises MeshFileError and NeedsChild."""
+    scene = reader.function()(file)
+    if not reader.complete:
+        message = (
+            "the library that reads it may leave out what it does not know: overlaps count as it "
+            "places the bodies, and no pair is proven apart"
+        )
+        scene = replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
+    if not flat or (len(scene.nodes) == 1 and scene.nodes[0].path is None):
         return scene
     from satcheck.scene.loading.flatten import flattened
 

@@ -17,9 +17,9 @@ from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.loading import ReadLimits, as_one
+from satcheck.scene.loading import ReadLimits, read_with
 from satcheck.scene.loading.raw_mesh import RawScene, Refusal
-from satcheck.scene.loading.readers import File, reader_named
+from satcheck.scene.loading.readers import File, reader_of
 from satcheck.scene.loading.reading_children import ReadingChildren
 
 _LONGEST_MESSAGE = 200  # characters of what a library says
@@ -111,10 +111,9 @@ def serve(message: bytes) -> bytes:
 
 
 def _content(request: Request) -> RawScene | Refusal:
-    reader = reader_named(request.file.format)
-    assert reader is not None  # the parent has asked it for the ending
+    reader = reader_of(request.file.location.suffix)
+    assert reader is not None  # the parent has found it
     try:
-        scene = reader.function()(request.file)
-        return as_one(scene) if request.flat else scene
+        return read_with(reader, request.file, flat=request.flat)
     except SatcheckError as error:
         return Refusal(error.code, error.message)

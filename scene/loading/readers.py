@@ -212,13 +212,20 @@ def mesh_reader(suffix: str) -> Reader | None:
 
 
 def reader_named(name: str) -> Reader | None:
-    """Return the reader of a format by its name in reports; None: there is none, as of shapes."""
-    return _found(_registry().by_name, name)
+    """Return the reader of a format by its name in reports; None: this process has not looked for
+    it, or there is none, as of shapes."""
+    return _registry().by_name.get(name)
 
 
 def robot_reader(root: str) -> RobotReader | None:
     """Return the reader of robots whose outermost element has this tag; None: there is none."""
     return _found(_registry().robots, root)
+
+
+def is_complete(format_name: str) -> bool:
+    """Return whether the reader of a format leaves nothing out without a word."""
+    reader = reader_named(format_name)
+    return reader is None or reader.complete
 
 
 def options_of(formats: Iterable[str]) -> set[str]:
