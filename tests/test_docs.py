@@ -17,7 +17,11 @@ import pytest
 from tests.cli.process import satcheck
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+PAGES = (
+    ROOT / "README.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "plugins").glob("*/README.md")),
+)
 LINKING = (
     *PAGES,
     *(ROOT / name for name in ("ARCHITECTURE.md", "CHANGELOG.md", "bench/README.md")),
@@ -37,13 +41,13 @@ def commands(block: str) -> list[tuple[str, str]]:
 
 
 WITH_COMMANDS = [
-    pytest.param(block, id=f"{page.name}-{number}")
+    pytest.param(block, id=f"{page.relative_to(ROOT)}-{number}")
     for page in PAGES
     for number, block in enumerate(blocks(page, ""))
     if commands(block)
 ]
 PROGRAMS = [
-    pytest.param(block, id=f"{page.name}-{number}")
+    pytest.param(block, id=f"{page.relative_to(ROOT)}-{number}")
     for page in PAGES
     for number, block in enumerate(blocks(page, "python"))
 ]
