@@ -9,8 +9,9 @@ from msgspec.structs import replace
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.request.settings import Settings, require_settings
 from satcheck.core.errors import SatcheckError
+from satcheck.core.mesh_arrays import MeshLike
 from satcheck.report.report import Finding
-from satcheck.scene.meshes import MeshLike, scene_of_meshes
+from satcheck.scene.meshes import scene_of_meshes
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -10,6 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope
+from satcheck.core.mesh_arrays import MeshLike, arrays_of
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
 from satcheck.decompose.errors import DecompositionError
@@ -21,7 +22,7 @@ _SCHEMA: Final = b"satcheck-parts-3"
 
 
 def decompose(
-    mesh: Mesh,
+    mesh: Mesh | MeshLike,
     *,
     threshold: float = 0.05,
     seed: int = 0,
@@ -31,8 +32,9 @@ def decompose(
 ) -> Decomposition:
     """Splits a mesh into convex parts and measures their error.
 
-    mesh: it is welded; a closed manifold is also oriented. CoACD rebuilds other meshes from voxels
-        first, which is slow and thickens them; a note says so.
+    mesh: of the core, or any that `satcheck.check_meshes` takes. It is welded; a closed manifold is
+        also oriented. CoACD rebuilds other meshes from voxels first, which is slow and thickens
+        them; a note says so.
     threshold, seed: see DecompositionSettings.
     seconds: limit for CoACD and the measurement of its parts together, and for the wait for another
         process that computes the same parts. megabytes: limit of the child process of CoACD.
@@ -43,7 +45,7 @@ def decompose(
     """
     settings = DecompositionSettings(threshold=threshold, seed=seed)
     started = time.monotonic()
-    mesh = mesh.welded()
+    mesh = (mesh if isinstance(mesh, Mesh) else _mesh_of(mesh)).welded()
     if mesh.topology().manifold:
         mesh = mesh.oriented()
     hull = _checked_hull(mesh)
@@ -56,6 +58,11 @@ def decompose(
     if cache is None:
         return _compute(mesh, settings, seconds, megabytes)
     return _cached(mesh, settings, seconds, megabytes, cache)
+
+
+def _mesh_of(mesh: MeshLike) -> Mesh:
+    vertices, faces = arrays_of(mesh)
+    return Mesh(vertices.astype("<f8"), faces.astype("<u4"))
 
 
 def cache_key(mesh: Mesh, settings: DecompositionSettings) -> bytes:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import msgspec
 from msgspec import Struct
 
 from satcheck.core import Mesh, Polytope
 from satcheck.decompose.settings import DecompositionSettings
+
+if TYPE_CHECKING:
+    import trimesh
 
 NOT_SOLID: Final = "decomposition-not-solid"
 REMESHED: Final = "decomposition-remeshed"
@@ -47,6 +50,13 @@ class Decomposition(Struct, frozen=True):
     from_cache: bool
     settings: DecompositionSettings
     notes: tuple[Note, ...]
+
+    def to_trimesh(self) -> list[trimesh.Trimesh]:
+        """Return the parts as objects of trimesh, in the frame of the mesh."""
+        import trimesh
+
+        meshes = (part.to_mesh() for part in self.parts)
+        return [trimesh.Trimesh(m.vertices, m.triangles, process=False) for m in meshes]
 
 
 class _Entry(Struct, frozen=True):

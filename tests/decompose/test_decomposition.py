@@ -11,9 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
+from satcheck.core.errors import SatcheckError
 from satcheck.core.worker import run_isolated
 from satcheck.decompose import Cache, Decomposition, DecompositionError, computation, decompose
 from satcheck.decompose import errors as codes
@@ -343,3 +345,15 @@ def test_processes_at_once_compute_once(u_shape_on_disk: Path) -> None:
 def test_a_hit_imports_neither_coacd_nor_numpy(u_shape_on_disk: Path) -> None:
     assert start(u_shape_on_disk).communicate()[0].split()[0] == "False"
     assert start(u_shape_on_disk).communicate()[0].split() == ["True", "3"]
+
+
+def test_meshes_of_trimesh_go_in_and_come_out() -> None:
+    far = trimesh.creation.box((1, 1, 1))
+    far.apply_translation((4, 0, 0))
+    both: trimesh.Trimesh = trimesh.creation.box((2, 1, 1)) + far
+    result = decompose(both)
+    parts = result.to_trimesh()
+    assert sorted(part.volume for part in parts) == pytest.approx([1.0, 2.0])
+    assert all(part.is_watertight for part in parts)
+    with pytest.raises(SatcheckError, match="index 9"):
+        decompose(([[0, 0, 0]], [[0, 0, 9]]))

@@ -211,3 +211,14 @@ def test_a_long_chain_of_float32_rotations_is_rigid() -> None:
     pose = np.linalg.matrix_power(turn, 30)
     assert np.abs(pose[:3, :3].T.astype(float) @ pose[:3, :3] - np.eye(3)).max() > 0
     scene_of_meshes({"cube": CUBE}, {"cube": pose})
+
+
+def test_the_nodes_of_a_scene_of_trimesh_are_bodies_where_it_places_them() -> None:
+    made = trimesh.Scene()
+    made.add_geometry(CUBE, node_name="near", geom_name="cube")
+    away = trimesh.transformations.translation_matrix((5.0, 0.0, 0.0))
+    made.add_geometry(CUBE, node_name="far", geom_name="cube", transform=away)
+    bodies = {body.id: body.world_mesh().bounds for body in scene_of_meshes(made).bodies}
+    assert bodies == {"near": ((-1, -1, -1), (1, 1, 1)), "far": ((4, -1, -1), (6, 1, 1))}
+    with pytest.raises(SatcheckError, match=r"a mapping or a trimesh\.Scene"):
+        scene_of_meshes([CUBE])  # type: ignore[arg-type]
