@@ -38,8 +38,8 @@ def scene_of_meshes(
     """A scene of meshes in memory, for `satcheck.check`.
 
     meshes: id -> mesh, as in `satcheck.check_meshes`; or a trimesh.Scene, whose nodes are the
-    bodies where it places them. poses: id -> rigid 4x4 matrix for column vectors; without one the vertices
-    are world coordinates. Raises SatcheckError as `satcheck.check_meshes` does.
+    bodies where it places them. poses: id -> rigid 4x4 matrix for column vectors; without one the
+    vertices are world coordinates. Raises SatcheckError as `satcheck.check_meshes` does.
     """
     if not isinstance(meshes, Mapping):
         meshes, placed = _nodes_of(meshes)
