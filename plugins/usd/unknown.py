@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import Any
 
-from pxr import Sdf, Usd, UsdGeom
+from pxr import Sdf, Usd, UsdGeom, UsdShade
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.choice import Choice
@@ -39,6 +39,8 @@ def look_at_stage(stage: Any, choice: Choice, said: Remarks) -> None:
     for prim in prims:
         if prim.IsPseudoRoot():
             continue
+        if type_of(prim) == "Material" and prim.IsActive():
+            look.at_material(prim)
         if not prim.IsActive() or prim.IsAbstract() or type_of(prim) in _OF_LOOKS:
             prims.PruneChildren()
         else:
@@ -69,6 +71,18 @@ class _Look:
         self._at_variants(prim, path)
         if self._choice.collides(prim):
             self._at_collider(prim, path)
+
+    def at_material(self, prim: Any) -> None:
+        """A preview surface may displace the surface. Connections for single renderers are written
+        by habit, and say nothing."""
+        if self._choice.colliders:
+            return
+        source, _, _ = UsdShade.Material(prim).ComputeDisplacementSource()
+        shader = UsdShade.Shader(source.GetPrim()) if source else None
+        given = shader.GetInput("displacement") if shader else None
+        if given and (given.HasConnectedSource() or given.Get(self._choice.time)):
+            words = "the material displaces surfaces; they are checked without"
+            self._said.add("unread", words, str(prim.GetPath()))
 
     def _unread(self, known: Names, found: Iterable[str], path: str, prim: Any) -> None:
         """Says which of these names nobody knows. Raises SatcheckError for one that is misspelt."""

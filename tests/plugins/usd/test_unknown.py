@@ -188,3 +188,24 @@ def test_a_type_of_a_program_that_takes_up_space_is_no_setting(tmp_path: Path, k
     found = load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n{points}\n}}'))
     assert [code for code, _ in refusals(found)] == ["unsupported-feature"]
     assert not refusals(load(tmp_path, stage(cube("A"), f'def {kind} "C" {{\n}}')))
+
+
+@pytest.mark.parametrize(("amount", "found"), [("0", []), ("0.5", ["unread"])])
+def test_a_material_that_displaces_blocks_a_pass(
+    tmp_path: Path, amount: str, found: list[str]
+) -> None:
+    material = f"""def Material "M" {{
+        token outputs:displacement.connect = </M/S.outputs:displacement>
+        def Shader "S" {{
+            uniform token info:id = "UsdPreviewSurface"
+            float inputs:displacement = {amount}
+            token outputs:displacement
+        }}
+    }}"""
+    scene = load(tmp_path, stage(cube("A"), material))
+    assert [issue.code for issue in scene.issues if issue.code == "unread"] == found
+
+
+def test_an_api_that_is_only_like_one_of_a_renderer(tmp_path: Path) -> None:
+    assert "unread" in said(load(tmp_path, stage(cube("A", api='"RibbonAPI"'))))
+    assert "unread" not in said(load(tmp_path, stage(cube("A", api='"RiMaterialAPI"'))))
