@@ -73,7 +73,7 @@ def read_scene(
 
 def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: bool) -> RawScene:
     if source.format in NATIVE_FORMATS:
-        return alone(read_native(source))
+        return read_native(source, flat=flat)
     is_gltf = source.format in ("glb", "gltf")
     if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
         from satcheck.scene.loading.gltf import read_gltf

@@ -145,7 +145,7 @@ def _read(request: Request) -> RawScene:
         case "dae":
             from satcheck.scene.loading.collada import read_collada
 
-            return alone(read_collada(data))
+            return read_collada(data)
         case "ifc":
             from satcheck.scene.loading.ifc import read_ifc
 

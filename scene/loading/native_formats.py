@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck._native import readers
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.placing import tidy_name
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
 from satcheck.scene.loading.source import Source
+from satcheck.scene.plain_ids import UniqueNames
 
 _READERS = {
     "obj": readers.read_obj,
@@ -17,12 +21,13 @@ _READERS = {
 NATIVE_FORMATS = frozenset(_READERS)
 
 
-def read_native(source: Source) -> RawMesh:
-    """The mesh of a file in one of `NATIVE_FORMATS`; raises MeshFileError with line or byte."""
+def read_native(source: Source, *, flat: bool = True) -> RawScene:
+    """The meshes of a file in one of `NATIVE_FORMATS`; flat: as one mesh. Only OBJ has several: an
+    object (`o`) is a node. Raises MeshFileError with line or byte."""
     outcome = _read_in_pieces(source) if source.in_pieces else _READERS[source.format](source.data)
     if isinstance(outcome, readers.ReadError):
         raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}", file=source.path)
-    return RawMesh(
+    whole = RawMesh(
         vertices=outcome.vertices,
         triangles=outcome.triangles,
         number_format=outcome.number_format,
@@ -31,6 +36,19 @@ def read_native(source: Source) -> RawMesh:
         rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
+    objects = [] if flat else outcome.objects()
+    return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
+
+
+def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
+    names = UniqueNames()
+    parts = []
+    for number, (name, mesh) in enumerate(objects, 1):
+        path = names.unique(tidy_name(name.decode(errors="replace"), f"object{number}"))
+        own = replace(whole, vertices=mesh.vertices, triangles=mesh.triangles, warnings=())
+        parts.append(RawPart(path, own))
+    nodes = (RawNode(part.name, number) for number, part in enumerate(parts))
+    return RawScene(tuple(parts), tuple(nodes), whole.warnings)
 
 
 def _read_in_pieces(source: Source) -> readers.MeshData | readers.ReadError:

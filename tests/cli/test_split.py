@@ -34,6 +34,24 @@ def test_one_file_alone_is_its_nodes() -> None:
     assert ran.document["units"] == "meter"
 
 
+def test_objects_of_obj_are_bodies_where_the_file_is_alone(tmp_path: Path) -> None:
+    """Two cubes that overlap in `two.obj`; the cube in the other file is away."""
+    middle = [(x + 0.5, y, z) for x, y, z in files.CUBE_POINTS]
+    faces = [tuple(i + 8 for i in face) for face in files.CUBE]
+    one = files.obj(), files.obj(middle, []), files.obj([], faces)
+    (tmp_path / "two.obj").write_bytes(b"o one\n%bo two\n%b%b" % one)
+    far = [(x + 9, y, z) for x, y, z in files.CUBE_POINTS]
+    (tmp_path / "far.obj").write_bytes(b"o away\n" + files.obj(far))
+    alone = satcheck("--format", "json", "two.obj", cwd=tmp_path)
+    assert [body["id"] for body in alone.document["bodies"]] == ["one", "two"]
+    assert [body["path"] for body in alone.document["bodies"]] == ["one", "two"]
+    assert [each["relation"] for each in alone.document["findings"]] == ["penetrating"]
+    together = satcheck("--format", "json", "two.obj", "far.obj", cwd=tmp_path)
+    assert [body["id"] for body in together.document["bodies"]] == ["two", "far"]
+    assert together.code == 0
+    assert satcheck("each", "two.obj", "far.obj", cwd=tmp_path).code == 1
+
+
 def test_units_of_a_file_are_those_of_lengths() -> None:
     """In metres the payload is 0.5 under the palm: 600 mm is more, 400 mm is not."""
     for clearance, relation in (("600mm", "near"), ("400mm", "separated")):

@@ -296,7 +296,82 @@ def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
     assert counts == {"read": 2, "examined": 2}
 
 
-def test_collada_and_plain_formats_have_no_nodes(tmp_path):
-    for name, content in (("a.dae", files.collada()), ("b.stl", files.binary_stl())):
+def test_plain_formats_and_files_of_one_object_have_no_nodes(tmp_path):
+    named = b"o cube\n" + files.obj() + b"o nothing\n"
+    for name, content in (
+        ("a.dae", files.collada()),
+        ("b.stl", files.binary_stl()),
+        ("c.obj", named),
+    ):
         (body,) = scene_of(tmp_path, name, content, "nodes").bodies
         assert (body.id, body.path, body.file.part) == (name[0], None, None)
+
+
+def cubes_of_objects(*heads: str) -> bytes:
+    """A cube after each of these lines, 3 beside the one before."""
+    text = []
+    for k, head in enumerate(heads):
+        points = [(x + 3 * k, y, z) for x, y, z in files.CUBE_POINTS]
+        faces = [tuple(i + 8 * k for i in face) for face in files.CUBE]
+        vertices, corners = (files.obj(points, []), files.obj([], faces))
+        text.append(vertices + head.encode() + b"\n" + corners)
+    return b"".join(text)
+
+
+def test_an_object_of_obj_is_a_body_and_a_group_is_none(tmp_path):
+    content = cubes_of_objects("g first", "o crate", "g side", "o crate", "o", "o a/b #1")
+    scene = scene_of(tmp_path, "a.obj", content)
+    assert bounds(scene) == {
+        "object1": ((0, 0, 0), (1, 1, 1)),
+        "crate": ((3, 0, 0), (7, 1, 1)),
+        "crate-2": ((9, 0, 0), (10, 1, 1)),
+        "object4": ((12, 0, 0), (13, 1, 1)),
+        "a/b": ((15, 0, 0), (16, 1, 1)),
+    }
+    assert [body.path for body in scene.bodies] == [body.id for body in scene.bodies]
+    assert [body.file.health.volume for body in scene.bodies] == [1.0, 2.0, 1.0, 1.0, 1.0]
+    assert [body.file.mesh.vertex_count for body in scene.bodies] == [8, 16, 8, 8, 8]
+    (whole,) = scene_of(tmp_path, "a.obj", content, "none").bodies
+    assert (whole.id, whole.path, whole.file.health.volume) == ("a", None, 6.0)
+    pieces = scene_of(tmp_path, "a.obj", content, "components")
+    assert [body.id for body in pieces.bodies][:3] == ["object1", "crate#1", "crate#2"]
+
+
+def test_an_object_keeps_a_polygon_whose_vertices_come_later(tmp_path):
+    square, below = "f 1 2 3 4\n", "f 5 6 7\n"
+    late = "".join(f"v {x} {y} 0\n" for x, y in ((0, 0), (4, 0), (4, 4), (0, 4)))
+    content = "o one\n" + square + "o two\n" + late + "v 0 0 9\nv 1 0 9\nv 0 1 9\n" + below
+    scene = scene_of(tmp_path, "a.obj", content.encode())
+    assert bounds(scene) == {"one": ((0, 0, 0), (4, 4, 0)), "two": ((0, 0, 9), (1, 1, 9))}
+
+
+def test_an_object_that_cannot_be_used_is_lost_alone(tmp_path):
+    content = cubes_of_objects("o a", "o b") + b"o flat\nf 1 1 2\no lines\nl 1 2\nf 1 2\n"
+    scene = scene_of(tmp_path, "a.obj", content)
+    assert [body.id for body in scene.bodies] == ["a", "b"]
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.path, lost.issue.code) == ("flat", "flat", "only-degenerate")
+    assert {"ignored-geometry", "short-face"} < {issue.code for issue in scene.issues}
+
+
+def test_a_node_of_collada_is_a_body_where_the_hierarchy_places_it(tmp_path):
+    shown = '<instance_geometry url="#g"/>'
+    moved = "<translate>10 0 0</translate>"
+    lamp = f'<node id="lamp"><translate>0 5 0</translate>{shown}</node>'
+    hung = '<instance_node url="#lamp"/>'
+    nodes = (
+        f'<node id="n1" name="base">{shown}<node name="arm">{moved}{hung}</node></node>'
+        f'<node id="n2" name="base">{moved}{shown}{shown}</node>'
+    )
+    content = files.collada(nodes=nodes, library_nodes=lamp)
+    scene = scene_of(tmp_path, "a.dae", content)
+    assert bounds(scene) == {
+        "base": ((0, 0, 0), (1, 1, 1)),
+        "base/arm/lamp": ((10, 5, 0), (11, 6, 1)),
+        "base-2": ((10, 0, 0), (11, 1, 1)),
+    }
+    assert [body.path for body in scene.bodies] == [body.id for body in scene.bodies]
+    assert scene.bodies[0].file is scene.bodies[1].file
+    assert scene.units == "meters"
+    (whole,) = scene_of(tmp_path, "a.dae", content, "none").bodies
+    assert (whole.id, whole.path, whole.file.health.triangles) == ("a", None, 48)
