@@ -84,6 +84,23 @@ def test_components_of_a_plain_mesh(tmp_path: Path) -> None:
     assert [body["path"] for body in ran.document["bodies"]] == ["#1", "#2"]
 
 
+@pytest.mark.parametrize(("shift", "code"), [(0.0, 0), (0.5, 1)])
+def test_a_ball_in_a_cavity_is_free_until_it_meets_the_wall(
+    tmp_path: Path, shift: float, code: int
+) -> None:
+    """A box of 3 with a cavity of 2 around a cube of 1, which has 0.5 on each side."""
+    points, faces = [], []
+    for k, (low, side) in enumerate(((-1.0, 3), (-0.5, 2), (shift, 1))):
+        points += [tuple(low + side * c for c in point) for point in files.CUBE_POINTS]
+        own = [face[::-1] for face in files.CUBE] if side == 2 else files.CUBE
+        faces += [tuple(i + 8 * k for i in face) for face in own]
+    (tmp_path / "box.obj").write_bytes(files.obj(points, faces))
+    nearly = "--clearance", "0.1"
+    ran = satcheck("--split", "components", *nearly, "--format", "json", "box.obj", cwd=tmp_path)
+    assert ran.code == code
+    assert [body["id"] for body in ran.document["bodies"]] == ["box#1", "box#2"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "told", "hinted"),
     [

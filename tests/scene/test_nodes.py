@@ -133,13 +133,39 @@ def test_loose_pieces_without_area_are_left_out_with_a_warning(tmp_path):
     assert [(issue.code, issue.body) for issue in scene.issues] == [("degenerate-triangles", None)]
 
 
-def test_a_component_that_faces_inward_is_a_solid_of_its_own(tmp_path):
-    """The wall of a cavity, taken for itself, is the boundary of what fills it."""
-    big = [(4 * x - 1.5, 4 * y - 1.5, 4 * z - 1.5) for x, y, z in files.CUBE_POINTS]
-    faces = [*files.CUBE, *(tuple(i + 8 for i in reversed(face)) for face in files.CUBE)]
-    scene = scene_of(tmp_path, "a.obj", files.obj([*big, *files.CUBE_POINTS], faces), "components")
-    assert [body.file.health.solid for body in scene.bodies] == [True, True]
-    assert [(issue.code, issue.body) for issue in scene.issues] == [("inside-out", "a#2")]
+def nested_boxes(*sides: float) -> bytes:
+    """Cubes about the origin with these sides; of a negative side: its wall faces inward."""
+    points, faces = [], []
+    for k, side in enumerate(sides):
+        points += [tuple(abs(side) * (c - 0.5) for c in point) for point in files.CUBE_POINTS]
+        own = files.CUBE if side > 0 else [face[::-1] for face in files.CUBE]
+        faces += [tuple(i + 8 * k for i in face) for face in own]
+    return files.obj(points, faces)
+
+
+@pytest.mark.parametrize(
+    ("sides", "volumes"),
+    [
+        ((8, -4), [448.0]),
+        ((8, -4, 2), [448.0, 8.0]),
+        ((-4, 2, 8), [448.0, 8.0]),
+        ((8, -6, 4, -2), [296.0, 56.0]),
+    ],
+)
+def test_the_wall_of_a_cavity_belongs_to_the_solid_around_it(tmp_path, sides, volumes):
+    scene = scene_of(tmp_path, "a.obj", nested_boxes(*sides), "components")
+    assert [body.file.health.volume for body in scene.bodies] == volumes
+    assert scene.issues == ()
+
+
+@pytest.mark.parametrize(
+    ("sides", "volumes"),
+    [((-8, 4), [512.0, 64.0]), ((4, -8), [512.0, 64.0]), ((8, -6, -4), [296.0, 64.0])],
+)
+def test_a_component_that_bounds_no_cavity_is_a_solid_of_its_own(tmp_path, sides, volumes):
+    scene = scene_of(tmp_path, "a.obj", nested_boxes(*sides), "components")
+    assert [body.file.mesh.topology().volume for body in scene.bodies] == volumes
+    assert [issue.code for issue in scene.issues] == ["inside-out"]
 
 
 def test_a_broken_mesh_loses_its_own_nodes_alone(tmp_path):
