@@ -13,7 +13,7 @@ from satcheck._native import readers
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.formats import FORMATS
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import size_of, without_padding
 
 # Relatives of the formats that are read, and what to do with them.
 _CONVERTIBLE = {
@@ -31,6 +31,7 @@ _WIDE_MARKS = (
 # Text formats, and formats with a text header, that may begin with a byte order mark. XML is not
 # listed, because its parser handles the mark and the declared encoding.
 _MARKED_FORMATS = frozenset({"obj", "stl", "ply", "off", "gltf"})
+_TEXT_FORMATS = _MARKED_FORMATS | {"dae", "step", "ifc"}  # or some files of the format
 
 LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
 _STL_HEADER_BYTES = 84
@@ -63,16 +64,17 @@ _FIRST_WORDS = (
     ((b"{",), "a JSON file"),
 )
 _TEXT_HEAD_BYTES = 4096
+_BINARY_PLY = b"\nformat binary"
 
 
 class Source(Struct, frozen=True):
     """A mesh file as it lies on disk.
 
     path: as given, for messages. location: on disk. sha256: of the file, hex; None: not requested.
-    data: its bytes; a byte order mark is removed, and its text is converted to UTF-8. Of a large
-    binary STL file, if its SHA-256 is not needed, data holds only the first bytes, because its
-    reader reads it in pieces. size: bytes of the data, or of the whole file if data holds only its
-    start.
+    data: its bytes; a byte order mark is removed, its text is converted to UTF-8, and NUL bytes
+    after the end of a text, which some programs write, are removed. Of a large binary STL file, if
+    its SHA-256 is not needed, data holds only the first bytes, because its reader reads it in
+    pieces. size: bytes of the data, or of the whole file if data holds only its start.
     """
 
     path: str
@@ -118,6 +120,9 @@ def read_source(
     if file_format in _MARKED_FORMATS and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
         size, data = size + len(unmarked) - len(data), unmarked
+    if file_format in _TEXT_FORMATS and _BINARY_PLY not in data[:_TEXT_HEAD_BYTES]:
+        text = without_padding(data)
+        size, data = size + len(text) - len(data), text
     _refuse_other_content(path, file_format, size, data)
     return Source(path, location, file_format, digest, size, data)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import get_args
 
@@ -89,9 +90,12 @@ def test_a_ball_in_a_cavity_is_free_until_it_meets_the_wall(
     tmp_path: Path, shift: float, code: int
 ) -> None:
     """A box of 3 with a cavity of 2 around a cube of 1, which has 0.5 on each side."""
-    points, faces = [], []
+    points: list[tuple[float, float, float]] = []
+    faces: list[Sequence[int]] = []
     for k, (low, side) in enumerate(((-1.0, 3), (-0.5, 2), (shift, 1))):
-        points += [tuple(low + side * c for c in point) for point in files.CUBE_POINTS]
+        points += [
+            (low + side * x, low + side * y, low + side * z) for x, y, z in files.CUBE_POINTS
+        ]
         own = [face[::-1] for face in files.CUBE] if side == 2 else files.CUBE
         faces += [tuple(i + 8 * k for i in face) for face in own]
     (tmp_path / "box.obj").write_bytes(files.obj(points, faces))
