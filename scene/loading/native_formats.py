@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from satcheck._native import readers
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import limits
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
 from satcheck.scene.loading.source import Source
@@ -41,6 +42,9 @@ def read_native(source: Source, *, flat: bool = True) -> RawScene:
 
 
 def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
+    if len(objects) > limits.MAX_PLACEMENTS:
+        message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
+        raise MeshFileError("too-large", message)
     names = UniqueNames()
     parts = []
     for number, (name, mesh) in enumerate(objects, 1):

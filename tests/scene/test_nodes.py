@@ -299,6 +299,8 @@ def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
         tmp_path, "a.obj", files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES), "components"
     )
     assert [issue.code for issue in scene.issues] == ["too-large"]
+    scene = scene_of(tmp_path, "b.obj", cubes_of_objects("o a", "o b"))
+    assert "more than 1 objects" in scene.issues[0].message
 
 
 def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
