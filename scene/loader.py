@@ -63,7 +63,8 @@ def load_scene(
     their file if there are several files). Repeated ids get the suffix -2, -3, ...
 
     split: how a mesh file is split into bodies. "none": the whole file is one body. "nodes": each
-    node with a mesh in a GLB, glTF, 3MF or STEP file is a body; other formats have none.
+    node with a mesh in a GLB, glTF, 3MF or STEP file is a body, and so are several nodes of DAE and
+    objects (`o`) of OBJ; other formats have none.
     "components": each edge-connected component of these is a body. None: "nodes" for a single file,
     else "none".
     packages: folders of the packages and models that a robot names, see `robot.MeshPlaces`.

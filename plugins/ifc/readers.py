@@ -15,6 +15,7 @@ READERS = (
         kind="document",
         options=("chord_tolerance", "angular_tolerance"),
         marks=(b"ISO-10303-21;", b"PK\x03\x04"),
+        text="own",
         chord=CHORD,
     ),
 )

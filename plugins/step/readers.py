@@ -16,6 +16,7 @@ READERS = (
         "satcheck.plugins.step.assembly:read_step",
         options=("chord_tolerance", "angular_tolerance"),
         marks=(b"ISO-10303-21;",),
+        text="own",
         chord=CHORD,
     ),
 )

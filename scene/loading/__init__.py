@@ -83,20 +83,21 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
         source.data,
         source.size,
         allowed.options,
+        flat,
         allowed.allow_outside,
     )
     if source.size <= reader.here:
         with suppress(NeedsChild):
-            return read_with(reader, file, flat=flat)
+            return read_with(reader, file)
     from satcheck.scene.loading.child_formats import read_in_child
 
     if reader.by_name:
         file = replace(file, data=b"")
-    return read_in_child(source.path, file, children, allowed, flat=flat)
+    return read_in_child(source.path, file, children, allowed)
 
 
-def read_with(reader: Reader, file: File, *, flat: bool) -> RawScene:
-    """Return the meshes of a file; flat: as one mesh. Raises MeshFileError and NeedsChild."""
+def read_with(reader: Reader, file: File) -> RawScene:
+    """Return the meshes of a file; one if it is to be flat. Raises MeshFileError and NeedsChild."""
     scene = reader.function()(file)
     if not reader.complete:
         message = (
@@ -104,7 +105,7 @@ def read_with(reader: Reader, file: File, *, flat: bool) -> RawScene:
             "places the bodies, and no pair is proven apart"
         )
         scene = replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
-    if not flat or (len(scene.nodes) == 1 and scene.nodes[0].path is None):
+    if not file.flat or (len(scene.nodes) == 1 and scene.nodes[0].path is None):
         return scene
     from satcheck.scene.loading.flatten import flattened
 

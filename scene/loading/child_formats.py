@@ -29,13 +29,6 @@ _CODE_OF_WORKER = {
 }
 
 
-class Request(msgspec.Struct, frozen=True):
-    """flat: one mesh for the whole file is wanted."""
-
-    file: File
-    flat: bool
-
-
 class Reply(msgspec.Struct, frozen=True):
     """files: those that the file refers to, read or looked for."""
 
@@ -44,14 +37,13 @@ class Reply(msgspec.Struct, frozen=True):
 
 
 def read_in_child(
-    path: str, file: File, children: ReadingChildren, allowed: ReadLimits, *, flat: bool
+    path: str, file: File, children: ReadingChildren, allowed: ReadLimits
 ) -> RawScene:
-    """Return the meshes of a file; flat: as one mesh. path: its name in messages. Raises
-    MeshFileError."""
+    """Return the meshes of a file. path: its name in messages. Raises MeshFileError."""
     folder = Path(file.directory)
     directory = str(folder.absolute())
     file = replace(file, directory=directory, isolated=True)
-    request = msgspec.msgpack.encode(Request(file, flat))
+    request = msgspec.msgpack.encode(file)
     try:
         reply = children.ask(__name__, request, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
@@ -104,16 +96,16 @@ def _one_line(text: str) -> str:
 
 def serve(message: bytes) -> bytes:
     """Runs in the child process. The answer may be a Refusal."""
-    request = msgspec.msgpack.decode(message, type=Request)
+    file = msgspec.msgpack.decode(message, type=File)
     with files_read() as files:
-        content = _content(request)
+        content = _content(file)
     return msgspec.msgpack.encode(Reply(content, tuple(files)))
 
 
-def _content(request: Request) -> RawScene | Refusal:
-    reader = reader_of(request.file.location.suffix)
+def _content(file: File) -> RawScene | Refusal:
+    reader = reader_of(file.location.suffix)
     assert reader is not None  # the parent has found it
     try:
-        return read_with(reader, request.file, flat=request.flat)
+        return read_with(reader, file)
     except SatcheckError as error:
         return Refusal(error.code, error.message)

@@ -1,4 +1,4 @@
-"""COLLADA 1.4: the triangles of the visual scene, placed by its nodes, as the file stores them.
+"""COLLADA 1.4: the meshes of the visual scene, placed by its nodes, as the file stores them.
 
 Khronos, "COLLADA 1.4.1 specification" (2008). This reader is our own, because pycollada silently
 skips elements that it does not know. To find out whether it skipped geometry takes as much code as
@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from satcheck._native.readers import ReadError, cut_polygons
@@ -18,11 +19,9 @@ from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.placing import instances
+from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     RawMesh,
-    RawNode,
-    RawPart,
     RawScene,
     alone,
     fan_triangles,
@@ -40,7 +39,16 @@ _BENDS = frozenset({"lookat", "skew"})
 _MESH = "instance_geometry"
 _SHAPED = "instance_controller"  # by a skin or by morph targets
 _BESIDE = frozenset(  # elements of a node or a visual scene that place nothing
-    ("asset", "extra", "evaluate_scene", "instance_camera", "instance_light", *_MOVES, *_BENDS)
+    (
+        "asset",
+        "extra",
+        "evaluate_scene",
+        "instance_camera",
+        "instance_light",
+        _MESH,
+        *_MOVES,
+        *_BENDS,
+    )
 )
 _LINES = frozenset({"lines", "linestrips"})
 _ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
@@ -50,15 +58,16 @@ _AXES = (["X", "Y", "Z"], ["", "", ""])
 
 
 def read_collada(file: File) -> RawScene:
-    """Return the visual scene of a COLLADA file, flattened. Raises MeshFileError without a file
-    name.
+    """Return the visual scene of a COLLADA file; one mesh without a placement if it has one node.
+    Raises MeshFileError without a file name.
 
     The precision is that of float32, because the programs that write COLLADA store coordinates so.
     """
     root = read_elements(file.data)
     if root.tag != "COLLADA":
         raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
-    return alone(flattened(_Document(root).read()))
+    scene = _Document(root).read()
+    return scene if len(scene.nodes) > 1 else alone(flattened(scene))
 
 
 class _Document:
@@ -77,27 +86,31 @@ class _Document:
         units = self._units()
         scene = self._visual_scene()
         nodes = instances(
-            [(scene, None)],
+            [(scene, None)] if self._geometries_of(scene) else self._children(scene),
             children=self._children,
-            has_mesh=lambda element: element.tag == _MESH and self._carries(element),
-            name=lambda element: element.attributes.get("id", element.tag),
+            has_mesh=lambda node: bool(self._geometries_of(node)),
+            name=_name,
             kind="node",
         )
         if not nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-        parts, placements = [], []
-        for number, node in enumerate(nodes):
-            points, triangles = self._mesh_of(node.key)
-            mesh = RawMesh(
-                vertices=points.astype("<f8").tobytes(),
-                triangles=triangles.astype("<u4").tobytes(),
-                number_format="float32",
-                units=units,
-                warnings=tuple(self._warnings.items()),
-            )
-            parts.append(RawPart(str(number), mesh))
-            placements.append(RawNode(node.path, number, node.matrix))
-        return RawScene(tuple(parts), tuple(placements), self._beside())
+        read = raw_scene(
+            [Instance(self._geometries_of(node.key), node.matrix, node.path) for node in nodes],
+            lambda geometries: _name(geometries[0]),
+            lambda geometries: self._joined(geometries, units),
+        )
+        return replace(read, warnings=(*self._warnings.items(), *self._beside()))
+
+    def _joined(self, geometries: tuple[Element, ...], units: str) -> RawMesh:
+        meshes = [self._mesh_of(geometry) for geometry in geometries]
+        starts = np.cumsum([0, *(len(points) for points, _ in meshes)])
+        moved = [each + start for (_, each), start in zip(meshes, starts, strict=False)]
+        return RawMesh(
+            vertices=np.concatenate([points for points, _ in meshes]).astype("<f8").tobytes(),
+            triangles=np.concatenate(moved).astype("<u4").tobytes(),
+            number_format="float32",
+            units=units,
+        )
 
     def _beside(self) -> tuple[tuple[str, str], ...]:
         """What stands beside the visual scene and is not read."""
@@ -143,17 +156,15 @@ class _Document:
         return targets[0]
 
     def _children(self, element: Element) -> list[tuple[Element, Transform | None]]:
-        """The elements placed in a node. Transforms of elements without triangles are not read."""
+        """The nodes placed in a node. Transforms of nodes without triangles are not read."""
         return [
             (child, _matrix_of(child) if self._carries(child) else None)
             for child in self._placed_in(element)
         ]
 
     def _placed_in(self, element: Element) -> Iterator[Element]:
-        if element.tag == _MESH:
-            return
         for child in element.children:
-            if child.tag in ("node", _MESH):
+            if child.tag == "node":
                 yield child
             elif child.tag == "instance_node":
                 yield self._target(child, "node")
@@ -166,18 +177,19 @@ class _Document:
                 child.refuse("could be geometry, and is not read", "unsupported-feature")
 
     def _carries(self, element: Element) -> bool:
-        """Whether the element or one of its descendants has triangles."""
+        """Whether the node or one of its descendants has triangles."""
         if element not in self._carriers:
             self._carriers[element] = False  # for cycles, which are refused later
-            self._carriers[element] = (
-                len(self._mesh_of(element)[1]) > 0
-                if element.tag == _MESH
-                else any(map(self._carries, self._placed_in(element)))
-            )
+            below = [self._carries(child) for child in self._placed_in(element)]
+            self._carriers[element] = bool(self._geometries_of(element)) or any(below)
         return self._carriers[element]
 
-    def _mesh_of(self, instance: Element) -> Geometry:
-        geometry = self._target(instance, "geometry")
+    def _geometries_of(self, node: Element) -> tuple[Element, ...]:
+        """Those with triangles. A node with several is one body."""
+        targets = (self._target(instance, "geometry") for instance in node.all(_MESH))
+        return tuple(each for each in targets if len(self._mesh_of(each)[1]))
+
+    def _mesh_of(self, geometry: Element) -> Geometry:
         if geometry not in self._geometries:
             self._geometries[geometry] = self._read_geometry(geometry)
         return self._geometries[geometry]
@@ -199,6 +211,11 @@ class _Document:
             elif group.tag not in _WITHOUT_SURFACE:
                 group.refuse("could be geometry, and is not read", "unsupported-feature")
         return points, np.concatenate([*triangles, np.empty((0, 3), np.int64)])
+
+
+def _name(element: Element) -> str:
+    given = element.attributes
+    return tidy_name(given.get("name"), "") or tidy_name(given.get("id"), element.tag)
 
 
 def _without_extras(root: Element) -> Iterator[Element]:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck._native import readers
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.loading import limits
+from satcheck.scene.loading.placing import tidy_name
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
 from satcheck.scene.loading.readers import File
+from satcheck.scene.plain_ids import UniqueNames
 
 _READERS = {
     "obj": readers.read_obj,
@@ -16,12 +21,13 @@ _READERS = {
 
 
 def read_native(file: File) -> RawScene:
-    """Return the mesh of a file. Raises MeshFileError with line or byte."""
+    """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
+    MeshFileError with line or byte."""
     in_pieces = len(file.data) < file.size
     outcome = _read_in_pieces(file) if in_pieces else _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
         raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}")
-    mesh = RawMesh(
+    whole = RawMesh(
         vertices=outcome.vertices,
         triangles=outcome.triangles,
         number_format=outcome.number_format,
@@ -30,7 +36,22 @@ def read_native(file: File) -> RawScene:
         rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
-    return alone(mesh)
+    objects = [] if file.flat else outcome.objects()
+    return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
+
+
+def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
+    if len(objects) > limits.MAX_PLACEMENTS:
+        message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
+        raise MeshFileError("too-large", message)
+    names = UniqueNames()
+    parts = []
+    for number, (name, mesh) in enumerate(objects, 1):
+        path = names.unique(tidy_name(name.decode(errors="replace"), f"object{number}"))
+        own = replace(whole, vertices=mesh.vertices, triangles=mesh.triangles, warnings=())
+        parts.append(RawPart(path, own))
+    nodes = (RawNode(part.name, number) for number, part in enumerate(parts))
+    return RawScene(tuple(parts), tuple(nodes), whole.warnings)
 
 
 def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:

@@ -36,7 +36,8 @@ class File(Struct, frozen=True):
 
     directory: that its references are relative to. name: in the directory. data: its bytes; of a
     large binary STL file and of a format that is `by_name`, less or none. size: in bytes.
-    allow_outside: what it names may lie outside of the directory. isolated: this process may crash.
+    flat: one mesh for the whole file is wanted. allow_outside: what it names may lie outside of the
+    directory. isolated: this process may crash.
     """
 
     format: str
@@ -45,6 +46,7 @@ class File(Struct, frozen=True):
     data: Block
     size: int
     options: ReadOptions = ReadOptions()
+    flat: bool = False
     allow_outside: bool = False
     isolated: bool = False
 
@@ -65,8 +67,8 @@ class Reader(Struct, frozen=True):
     MeshFileError without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
     reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
-    may begin, of those in `loading/source.py`. text: it may begin with a byte order mark, which the
-    reader is not shown. here: files up to this size are read in this process, in bytes; larger ones
+    may begin, of those in `loading/source.py`. text: "plain": the reader is shown UTF-8
+    without a byte order mark; "own": its parser decodes the text. here: files up to this size are read in this process, in bytes; larger ones
     in a child process. by_name: it opens the file itself. chord: the chord tolerance, if facets are
     made for it, in millimetres. up: the axis that points up, if the format says so. complete:
     False: the reader may leave something out without a word, so that no pair is proven apart.
@@ -79,7 +81,7 @@ class Reader(Struct, frozen=True):
     kind: Literal["mesh", "document", "robot"] = "mesh"
     options: tuple[str, ...] = ()
     marks: tuple[bytes, ...] = ()
-    text: bool = False
+    text: Literal["none", "plain", "own"] = "none"
     here: float = 0
     by_name: bool = False
     chord: float | None = None
@@ -133,7 +135,7 @@ def _native(name: str, *more: str, marks: tuple[bytes, ...] = ()) -> Reader:
     """The strict readers in C++."""
     read = "satcheck.scene.loading.native_formats:read_native"
     endings = (f".{name}", *more)
-    return Reader(name, name.upper(), endings, read, marks=marks, text=True, here=math.inf)
+    return Reader(name, name.upper(), endings, read, marks=marks, text="plain", here=math.inf)
 
 
 def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
@@ -144,7 +146,7 @@ def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
         "satcheck.scene.loading.gltf:read_gltf",
         options=("geometry",),
         marks=marks,
-        text=name == "gltf",
+        text="plain" if name == "gltf" else "none",
         here=limits.IN_PROCESS_BYTES,
         up="y",  # the glTF 2.0 specification, 3.4
     )
@@ -158,7 +160,7 @@ _BUILT_IN: tuple[Reader | RobotReader, ...] = (
     _gltf("glb", "GLB", (b"glTF",)),
     _gltf("gltf", "glTF"),
     Reader("3mf", "3MF", (".3mf",), "satcheck.scene.loading.threemf:read_3mf", marks=(_ZIP,)),
-    Reader("dae", "DAE", (".dae",), "satcheck.scene.loading.collada:read_collada"),
+    Reader("dae", "DAE", (".dae",), "satcheck.scene.loading.collada:read_collada", text="own"),
     RobotReader("urdf", "URDF", (".urdf",), ("robot",), "satcheck.scene.robot.urdf:robot_of"),
 )
 

@@ -10,6 +10,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.files_read import note
 
 STANDARD_INPUT = "-"
+_ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
 E = TypeVar("E", bound=SatcheckError)
 
 # Opening one of these may block, or reading it may never end.
@@ -44,8 +45,8 @@ def size_of(location: Path) -> int:
 
 
 def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
-    """All bytes of a file. Raises an error of this kind, with the path, if it is not a regular
-    file, has more than `most` bytes, or cannot be read."""
+    """The bytes of a text file, without padding. Raises an error of this kind, with the path, if it
+    is not a regular file, has more than `most` bytes, or cannot be read."""
     try:
         if size_of(location) > most:
             raise _too_large(most)
@@ -53,11 +54,21 @@ def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
             data = file.read(most + 1)  # a system file states no size
         if len(data) > most:
             raise _too_large(most)
-        return data
+        return without_padding(data)
     except SatcheckError as error:
         raise kind(error.code, error.message, file=path) from None
     except OSError as error:
         raise kind("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None
+
+
+def without_padding(data: bytes) -> bytes:
+    """Return a text without the NUL bytes that some programs write after its last line; data that
+    are no text as they are. NUL bytes within a line may stand where others were lost."""
+    if not data.endswith(b"\0"):
+        return data
+    end = data.index(b"\0")
+    is_text = data.endswith(_ENDS, 0, end) and data.count(b"\0", end) == len(data) - end
+    return data[:end] if is_text else data
 
 
 def _too_large(most: int) -> SatcheckError:

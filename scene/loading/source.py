@@ -12,7 +12,7 @@ from satcheck._native.readers import read_file
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.readers import Reader, mesh_reader, reader_of, readers
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import size_of, without_padding
 from satcheck.scene.plugins import failures
 
 # Relatives of the formats that are read, and what to do with them.
@@ -60,16 +60,17 @@ _FIRST_WORDS = (
     ((b"{",), "a JSON file"),
 )
 _TEXT_HEAD_BYTES = 4096
+_BINARY_PLY = b"\nformat binary"
 
 
 class Source(Struct, frozen=True):
     """A mesh file as it lies on disk.
 
     path: as given, for messages. location: on disk. sha256: of the file, hex; None: not requested.
-    data: its bytes; a byte order mark is removed, and its text is converted to UTF-8. Of a large
-    binary STL file, if its SHA-256 is not needed, data holds only the first bytes, because its
-    reader reads it in pieces. size: bytes of the data, or of the whole file if data holds only its
-    start.
+    data: its bytes; a byte order mark is removed, its text is converted to UTF-8, and NUL bytes
+    after the end of a text, which some programs write, are removed. Of a large binary STL file, if
+    its SHA-256 is not needed, data holds only the first bytes, because its reader reads it in
+    pieces. size: bytes of the data, or of the whole file if data holds only its start.
     """
 
     path: str
@@ -111,9 +112,12 @@ def read_source(
         raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_large(path, size, max_bytes)
     digest = hashlib.sha256(data).hexdigest() if hashed else None
-    if reader.text and not _is_binary_stl(size, data):
+    if reader.text == "plain" and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
         size, data = size + len(unmarked) - len(data), unmarked
+    if reader.text != "none" and not _is_binary(size, data):
+        text = without_padding(data)
+        size, data = size + len(text) - len(data), text
     _refuse_other_content(path, reader, size, data)
     return Source(path, location, reader.name, digest, size, data)
 
@@ -181,6 +185,11 @@ def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
         if data.startswith(signature):
             return None if signature in reader.marks else name
     return "a binary STL file" if _is_binary_stl(size, data) and reader.name != "stl" else None
+
+
+def _is_binary(size: int, data: bytes) -> bool:
+    """Return whether a file of a format that may be text is not."""
+    return _BINARY_PLY in data[:_TEXT_HEAD_BYTES] or _is_binary_stl(size, data)
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:

@@ -183,7 +183,20 @@ void satcheck::bind_readers(nb::module_& m) {
               "Most significant digits in a coordinate written with an exponent.")
       .def_ro("rounding", &MeshData::rounding,
               "How far a coordinate may be off that the file stores as an integer: half a unit; else 0.")
-      .def_ro("warnings", &MeshData::warnings);
+      .def_ro("warnings", &MeshData::warnings)
+      .def("objects", [](const MeshData& mesh) {
+        std::vector<Object> objects;
+        {
+          const nb::gil_scoped_release release;
+          objects = split_objects(mesh);
+        }
+        nb::list named;
+        for (Object& object : objects) {
+          const nb::bytes name(object.name.data(), object.name.size());
+          named.append(nb::make_tuple(name, nb::cast(std::move(object.mesh))));
+        }
+        return named;
+      }, "The objects of an OBJ file, each with its name and its mesh: vertices and triangles alone. None if only one has faces.");
 
   nb::class_<ReadError>(m, "ReadError", "Why and where a file cannot be used; returned, not raised.")
       .def_ro("code", &ReadError::code)

@@ -162,14 +162,17 @@ void Polygons::add_other(const std::vector<std::uint32_t>& corners, std::int64_t
   if (corners.size() < 3) {
     if (too_short_++ == 0) first_short_ = place;
   } else if (*std::max_element(corners.begin(), corners.end()) >= mesh.vertices.size() / 3) {
-    waiting_.push_back(corners);
+    waiting_.emplace_back(corners, mesh.objects.size());
   } else {
     cut(corners, mesh, budget_);
   }
 }
 
 void Polygons::finish(const char* unit, MeshData& mesh) {
-  for (const auto& corners : waiting_) cut(corners, mesh, budget_);
+  for (const auto& [corners, objects] : waiting_) {
+    if (objects > 0) mesh.spans.push_back({static_cast<std::uint32_t>(objects - 1), mesh.triangles.size() / 3});
+    cut(corners, mesh, budget_);
+  }
   if (too_short_ == 0) return;
   mesh.warnings.push_back({code::short_face, std::to_string(too_short_) + (too_short_ == 1 ? " face has" : " faces have") +
                                                  " fewer than 3 vertices and was ignored (first: " + unit + " " +

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/budget.hpp"
@@ -31,7 +32,7 @@ class Polygons {
 
   std::int64_t too_short_ = 0;
   std::int64_t first_short_ = 0;
-  std::vector<std::vector<std::uint32_t>> waiting_;
+  std::vector<std::pair<std::vector<std::uint32_t>, std::size_t>> waiting_;  // with the number of their objects
   Budget budget_;  // of cutting, all polygons of the file together
 };
 

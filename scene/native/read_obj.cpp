@@ -12,18 +12,22 @@ namespace {
 
 // The meaning of each statement. Any other word is an error, because it could be misspelt geometry.
 //   v, f, fo                 vertices and faces: read
+//   o                        the faces that follow belong to another object: read
 //   names and appearance     no geometry: accepted
 //   lines, points, curves    no area, so they cannot collide: accepted with a warning
 //   surfaces, other files    geometry that is not read: an error
 //   a whole number alone     a count that some exporters write: accepted with a warning
-constexpr std::array<std::string_view, 20> no_geometry = {
-    "vt",     "vn",     "vp",    "vw",       "o",        "g",   "s",          "t",         "mg", "usemtl", "mtllib",
+constexpr std::array<std::string_view, 19> no_geometry = {
+    "vt",     "vn",     "vp",    "vw",       "g",        "s",   "t",          "mg",        "usemtl", "mtllib",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "res"};
 constexpr std::array<std::string_view, 18> no_area = {"p",    "l",    "cdc",  "cstype", "deg", "bmat", "step",  "curv",  "curv2", "parm",
                                                       "trim", "hole", "scrv", "sp",     "end", "con",  "ctech", "stech"};
 constexpr std::array<std::string_view, 4> surfaces = {"surf", "bsp", "bzp", "cdp"};
 constexpr std::array<std::string_view, 2> other_files = {"call", "csh"};
 constexpr std::array<std::string_view, 3> shapes = {"v", "f", "fo"};
+
+// More bodies than this are refused later; the last one has the other faces. So names take little memory.
+constexpr std::size_t most_objects = 1'000'001;
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
@@ -60,6 +64,9 @@ class ObjReader {
       vertex(words, line);
     } else if (keyword == "f" || keyword == "fo") {
       face(words, line);
+    } else if (keyword == "o") {
+      if (joined) check_swallowed(words, line);
+      object(words);
     } else if (contains(no_geometry, keyword)) {
       if (joined) check_swallowed(words, line);
     } else if (contains(no_area, keyword)) {
@@ -95,7 +102,7 @@ class ObjReader {
   }
 
   // A name that ends with a backslash, such as a Windows folder, joins the next line to its statement.
-  void check_swallowed(Words& words, std::int64_t line) const {
+  void check_swallowed(Words words, std::int64_t line) const {
     std::string_view word;
     while (words.next(word)) {
       if (!contains(shapes, word)) continue;
@@ -103,7 +110,19 @@ class ObjReader {
     }
   }
 
+  // Takes the name. The object begins with its first face.
+  void object(Words& words) {
+    name_.clear();
+    for (std::string_view word; words.next(word);) name_.append(name_.empty() ? "" : " ").append(word);
+    in_object_ = false;
+  }
+
   void face(Words& words, std::int64_t line) {
+    if (!in_object_ && mesh_.objects.size() < most_objects) {
+      mesh_.spans.push_back({static_cast<std::uint32_t>(mesh_.objects.size()), mesh_.triangles.size() / 3});
+      mesh_.objects.push_back(name_);
+    }
+    in_object_ = true;
     corners_.clear();
     std::string_view word;
     while (words.next(word)) corners_.push_back(corner(word, line));
@@ -164,12 +183,46 @@ class ObjReader {
   std::vector<Reference> forward_;
   std::int64_t without_area_ = 0, counts_ = 0;
   std::string first_without_area_, first_count_;
+  std::string name_;  // of the object
+  bool in_object_ = false;
 };
 
 }  // namespace
 
 ReadOutcome read_obj(std::string_view bytes) {
   return run_reader([&] { return ObjReader(bytes).read(); });
+}
+
+std::vector<Object> split_objects(const MeshData& mesh) {
+  std::vector<Object> objects;
+  if (mesh.objects.size() < 2) return objects;
+  struct Range {
+    std::uint32_t object;
+    std::size_t first, last;  // corners
+  };
+  std::vector<Range> ranges;
+  for (std::size_t k = 0; k < mesh.spans.size(); ++k) {
+    const std::size_t last = k + 1 < mesh.spans.size() ? 3 * mesh.spans[k + 1].first : mesh.triangles.size();
+    if (3 * mesh.spans[k].first < last) ranges.push_back({mesh.spans[k].object, 3 * mesh.spans[k].first, last});
+  }
+  std::stable_sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.object < b.object; });
+  const std::size_t count = mesh.vertices.size() / 3;
+  std::vector<std::uint32_t> place(count), user(count);  // user: the last object that has the vertex, counted from 1
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const auto [object, first, last] = ranges[k];
+    if (k == 0 || ranges[k - 1].object != object) objects.push_back({mesh.objects[object], {}});
+    MeshData& part = objects.back().mesh;
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t v = mesh.triangles[i];
+      if (user[v] != object + 1) {
+        user[v] = object + 1;
+        place[v] = static_cast<std::uint32_t>(part.vertices.size() / 3);
+        part.vertices.insert(part.vertices.end(), &mesh.vertices[3 * std::size_t{v}], &mesh.vertices[3 * std::size_t{v}] + 3);
+      }
+      part.triangles.push_back(place[v]);
+    }
+  }
+  return objects;
 }
 
 }  // namespace satcheck::scene

@@ -17,6 +17,12 @@ struct Warning {
   std::string message;
 };
 
+// The triangles from number `first` on, up to the next span, belong to an object.
+struct Span {
+  std::uint32_t object;
+  std::size_t first;
+};
+
 struct MeshData {
   std::vector<double> vertices;          // x, y, z of vertex 0, of vertex 1, ...: file units, all finite
   std::vector<std::uint32_t> triangles;  // three vertex numbers each, all below vertices.size() / 3
@@ -25,6 +31,8 @@ struct MeshData {
   int significant = 0;  // most significant digits in a coordinate written with an exponent
   double rounding = 0;  // how far a coordinate may be off that is stored as an integer
   std::vector<Warning> warnings;
+  std::vector<std::string> objects;  // of an OBJ file: the names of those with faces
+  std::vector<Span> spans;           // of these objects; all triangles
 };
 
 constexpr std::int64_t nowhere = -1;

@@ -13,6 +13,14 @@ namespace satcheck::scene {
 // Wavefront OBJ: every `f` of the file. Colours, texture coordinates, normals, lines and points are ignored.
 ReadOutcome read_obj(std::string_view bytes);
 
+struct Object {
+  std::string name;
+  MeshData mesh;  // vertices and triangles alone
+};
+
+// The objects of an OBJ file that have triangles, in their order; none if only one has faces.
+std::vector<Object> split_objects(const MeshData& mesh);
+
 // Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.
 ReadOutcome read_stl(std::string_view bytes);
 

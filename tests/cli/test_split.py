@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import get_args
 
@@ -34,6 +35,24 @@ def test_one_file_alone_is_its_nodes() -> None:
     assert ran.document["units"] == "meter"
 
 
+def test_objects_of_obj_are_bodies_where_the_file_is_alone(tmp_path: Path) -> None:
+    """Two cubes that overlap in `two.obj`; the cube in the other file is away."""
+    middle = [(x + 0.5, y, z) for x, y, z in files.CUBE_POINTS]
+    faces = [tuple(i + 8 for i in face) for face in files.CUBE]
+    one = files.obj(), files.obj(middle, []), files.obj([], faces)
+    (tmp_path / "two.obj").write_bytes(b"o one\n%bo two\n%b%b" % one)
+    far = [(x + 9, y, z) for x, y, z in files.CUBE_POINTS]
+    (tmp_path / "far.obj").write_bytes(b"o away\n" + files.obj(far))
+    alone = satcheck("--format", "json", "two.obj", cwd=tmp_path)
+    assert [body["id"] for body in alone.document["bodies"]] == ["one", "two"]
+    assert [body["path"] for body in alone.document["bodies"]] == ["one", "two"]
+    assert [each["relation"] for each in alone.document["findings"]] == ["penetrating"]
+    together = satcheck("--format", "json", "two.obj", "far.obj", cwd=tmp_path)
+    assert [body["id"] for body in together.document["bodies"]] == ["two", "far"]
+    assert together.code == 0
+    assert satcheck("each", "two.obj", "far.obj", cwd=tmp_path).code == 1
+
+
 def test_units_of_a_file_are_those_of_lengths() -> None:
     """In metres the payload is 0.5 under the palm: 600 mm is more, 400 mm is not."""
     for clearance, relation in (("600mm", "near"), ("400mm", "separated")):
@@ -64,6 +83,26 @@ def test_components_of_a_plain_mesh(tmp_path: Path) -> None:
     assert ran.code == 0
     assert [body["id"] for body in ran.document["bodies"]] == ["two#1", "two#2"]
     assert [body["path"] for body in ran.document["bodies"]] == ["#1", "#2"]
+
+
+@pytest.mark.parametrize(("shift", "code"), [(0.0, 0), (0.5, 1)])
+def test_a_ball_in_a_cavity_is_free_until_it_meets_the_wall(
+    tmp_path: Path, shift: float, code: int
+) -> None:
+    """A box of 3 with a cavity of 2 around a cube of 1, which has 0.5 on each side."""
+    points: list[tuple[float, float, float]] = []
+    faces: list[Sequence[int]] = []
+    for k, (low, side) in enumerate(((-1.0, 3), (-0.5, 2), (shift, 1))):
+        points += [
+            (low + side * x, low + side * y, low + side * z) for x, y, z in files.CUBE_POINTS
+        ]
+        own = [face[::-1] for face in files.CUBE] if side == 2 else files.CUBE
+        faces += [tuple(i + 8 * k for i in face) for face in own]
+    (tmp_path / "box.obj").write_bytes(files.obj(points, faces))
+    nearly = "--clearance", "0.1"
+    ran = satcheck("--split", "components", *nearly, "--format", "json", "box.obj", cwd=tmp_path)
+    assert ran.code == code
+    assert [body["id"] for body in ran.document["bodies"]] == ["box#1", "box#2"]
 
 
 @pytest.mark.parametrize(

@@ -114,7 +114,7 @@ REFUSED = {
     "few.ply": (ASCII_PLY.replace(b"0 0 0\n", b"0 0\n"), "bad-record", "line 11"),
     "not.off": (b"OF\n1 1 1\n", "not-this-format", "'OF'"),
     "four.off": (b"4OFF\n1 1 1\n", "unsupported-feature", "three-dimensional"),
-    "binary.off": (OFF + b"\0", "unsupported-feature", "binary"),
+    "binary.off": (OFF[:-1] + b"\0", "unsupported-feature", "binary"),
     "huge.off": (b"OFF\n4000000000 1 0\n", "count-mismatch", "4000000000"),
     "cut.off": (OFF[:-20], "truncated", "face 5 of 6"),
     "more.off": (OFF + b"3 0 1 2\n", "trailing-data", "line 18"),

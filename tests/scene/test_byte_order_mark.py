@@ -1,9 +1,11 @@
-"""Text reads the same with a byte order mark, and in the encoding that the mark tells of."""
+"""Text reads the same with a byte order mark, in the encoding that the mark tells of, and with NUL
+bytes after its end."""
 
 from __future__ import annotations
 
 import codecs
 import json
+import struct
 
 import pytest
 
@@ -109,3 +111,53 @@ def test_what_goes_with_a_robot(tmp_path):
     path = tmp_path / "arm.srdf"
     path.write_bytes(codecs.BOM_UTF8 + b'<robot name="r"/>')
     assert read_srdf(str(path), path).robot == "r"
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_nul_bytes_after_the_end_of_a_text_are_no_text(tmp_path, name):
+    (tmp_path / "cube.bin").write_bytes(BUFFER)
+    file = loaded(tmp_path, name, TEXTS[name] + b"\0\0\0")
+    assert warnings(file) == {}
+    assert file.health.volume == 1.0
+
+
+@pytest.mark.parametrize("name", ["cube.obj", "cube.stl", "cube.ply", "cube.off", "cube.gltf"])
+def test_a_nul_byte_within_a_text_is_an_error(tmp_path, name):
+    (tmp_path / "cube.bin").write_bytes(BUFFER)
+    text = TEXTS[name]
+    assert refusal(tmp_path, name, text[:-2] + b"\0" + text[-2:])
+
+
+def test_the_last_byte_of_binary_data_may_be_the_only_nul(tmp_path):
+    """It is the number of a vertex, after that of vertex 10, a line feed."""
+    header = files.ply_header("binary_little_endian", 11, 1).replace(b"uchar int", b"uchar uchar")
+    points = [(1.1 + k, 1.1, 1.1 + k * k) for k in range(11)]
+    rows = b"".join(struct.pack("<3f", *point) for point in points) + bytes((3, 1, 10, 0))
+    content = header + rows
+    assert content.index(b"\0") == len(content) - 1
+    assert loaded(tmp_path, "a.ply", content).mesh.triangle_count == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        (
+            "a.toml",
+            'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\n'
+            'shape = {type = "box", size = [1, 1, 1]}\n',
+        ),
+        (
+            "a.json",
+            '{"schema": "satcheck.scene/1", "bodies": '
+            '[{"id": "a", "shape": {"type": "box", "size": [1, 1, 1]}}]}',
+        ),
+        (
+            "a.urdf",
+            '<robot name="r"><link name="a"><collision><geometry><box size="1 1 1"/></geometry>'
+            "</collision></link></robot>",
+        ),
+    ],
+)
+def test_nul_bytes_after_a_scene_or_a_robot_are_no_text(tmp_path, name, text):
+    (tmp_path / name).write_bytes(text.encode() + b"\0")
+    assert [body.id for body in load_scene([tmp_path / name]).bodies] == ["a"]

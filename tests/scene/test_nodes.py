@@ -133,13 +133,39 @@ def test_loose_pieces_without_area_are_left_out_with_a_warning(tmp_path):
     assert [(issue.code, issue.body) for issue in scene.issues] == [("degenerate-triangles", None)]
 
 
-def test_a_component_that_faces_inward_is_a_solid_of_its_own(tmp_path):
-    """The wall of a cavity, taken for itself, is the boundary of what fills it."""
-    big = [(4 * x - 1.5, 4 * y - 1.5, 4 * z - 1.5) for x, y, z in files.CUBE_POINTS]
-    faces = [*files.CUBE, *(tuple(i + 8 for i in reversed(face)) for face in files.CUBE)]
-    scene = scene_of(tmp_path, "a.obj", files.obj([*big, *files.CUBE_POINTS], faces), "components")
-    assert [body.file.health.solid for body in scene.bodies] == [True, True]
-    assert [(issue.code, issue.body) for issue in scene.issues] == [("inside-out", "a#2")]
+def nested_boxes(*sides: float) -> bytes:
+    """Cubes about the origin with these sides; of a negative side: its wall faces inward."""
+    points, faces = [], []
+    for k, side in enumerate(sides):
+        points += [tuple(abs(side) * (c - 0.5) for c in point) for point in files.CUBE_POINTS]
+        own = files.CUBE if side > 0 else [face[::-1] for face in files.CUBE]
+        faces += [tuple(i + 8 * k for i in face) for face in own]
+    return files.obj(points, faces)
+
+
+@pytest.mark.parametrize(
+    ("sides", "volumes"),
+    [
+        ((8, -4), [448.0]),
+        ((8, -4, 2), [448.0, 8.0]),
+        ((-4, 2, 8), [448.0, 8.0]),
+        ((8, -6, 4, -2), [296.0, 56.0]),
+    ],
+)
+def test_the_wall_of_a_cavity_belongs_to_the_solid_around_it(tmp_path, sides, volumes):
+    scene = scene_of(tmp_path, "a.obj", nested_boxes(*sides), "components")
+    assert [body.file.health.volume for body in scene.bodies] == volumes
+    assert scene.issues == ()
+
+
+@pytest.mark.parametrize(
+    ("sides", "volumes"),
+    [((-8, 4), [512.0, 64.0]), ((4, -8), [512.0, 64.0]), ((8, -6, -4), [296.0, 64.0])],
+)
+def test_a_component_that_bounds_no_cavity_is_a_solid_of_its_own(tmp_path, sides, volumes):
+    scene = scene_of(tmp_path, "a.obj", nested_boxes(*sides), "components")
+    assert [body.file.mesh.topology().volume for body in scene.bodies] == volumes
+    assert [issue.code for issue in scene.issues] == ["inside-out"]
 
 
 def test_a_broken_mesh_loses_its_own_nodes_alone(tmp_path):
@@ -273,6 +299,8 @@ def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
         tmp_path, "a.obj", files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES), "components"
     )
     assert [issue.code for issue in scene.issues] == ["too-large"]
+    scene = scene_of(tmp_path, "b.obj", cubes_of_objects("o a", "o b"))
+    assert "more than 1 objects" in scene.issues[0].message
 
 
 def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
@@ -296,7 +324,82 @@ def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
     assert counts == {"read": 2, "examined": 2}
 
 
-def test_collada_and_plain_formats_have_no_nodes(tmp_path):
-    for name, content in (("a.dae", files.collada()), ("b.stl", files.binary_stl())):
+def test_plain_formats_and_files_of_one_object_have_no_nodes(tmp_path):
+    named = b"o cube\n" + files.obj() + b"o nothing\n"
+    for name, content in (
+        ("a.dae", files.collada()),
+        ("b.stl", files.binary_stl()),
+        ("c.obj", named),
+    ):
         (body,) = scene_of(tmp_path, name, content, "nodes").bodies
         assert (body.id, body.path, body.file.part) == (name[0], None, None)
+
+
+def cubes_of_objects(*heads: str) -> bytes:
+    """A cube after each of these lines, 3 beside the one before."""
+    text = []
+    for k, head in enumerate(heads):
+        points = [(x + 3 * k, y, z) for x, y, z in files.CUBE_POINTS]
+        faces = [tuple(i + 8 * k for i in face) for face in files.CUBE]
+        vertices, corners = (files.obj(points, []), files.obj([], faces))
+        text.append(vertices + head.encode() + b"\n" + corners)
+    return b"".join(text)
+
+
+def test_an_object_of_obj_is_a_body_and_a_group_is_none(tmp_path):
+    content = cubes_of_objects("g first", "o crate", "g side", "o crate", "o", "o a/b #1")
+    scene = scene_of(tmp_path, "a.obj", content)
+    assert bounds(scene) == {
+        "object1": ((0, 0, 0), (1, 1, 1)),
+        "crate": ((3, 0, 0), (7, 1, 1)),
+        "crate-2": ((9, 0, 0), (10, 1, 1)),
+        "object4": ((12, 0, 0), (13, 1, 1)),
+        "a/b": ((15, 0, 0), (16, 1, 1)),
+    }
+    assert [body.path for body in scene.bodies] == [body.id for body in scene.bodies]
+    assert [body.file.health.volume for body in scene.bodies] == [1.0, 2.0, 1.0, 1.0, 1.0]
+    assert [body.file.mesh.vertex_count for body in scene.bodies] == [8, 16, 8, 8, 8]
+    (whole,) = scene_of(tmp_path, "a.obj", content, "none").bodies
+    assert (whole.id, whole.path, whole.file.health.volume) == ("a", None, 6.0)
+    pieces = scene_of(tmp_path, "a.obj", content, "components")
+    assert [body.id for body in pieces.bodies][:3] == ["object1", "crate#1", "crate#2"]
+
+
+def test_an_object_keeps_a_polygon_whose_vertices_come_later(tmp_path):
+    square, below = "f 1 2 3 4\n", "f 5 6 7\n"
+    late = "".join(f"v {x} {y} 0\n" for x, y in ((0, 0), (4, 0), (4, 4), (0, 4)))
+    content = "o one\n" + square + "o two\n" + late + "v 0 0 9\nv 1 0 9\nv 0 1 9\n" + below
+    scene = scene_of(tmp_path, "a.obj", content.encode())
+    assert bounds(scene) == {"one": ((0, 0, 0), (4, 4, 0)), "two": ((0, 0, 9), (1, 1, 9))}
+
+
+def test_an_object_that_cannot_be_used_is_lost_alone(tmp_path):
+    content = cubes_of_objects("o a", "o b") + b"o flat\nf 1 1 2\no lines\nl 1 2\nf 1 2\n"
+    scene = scene_of(tmp_path, "a.obj", content)
+    assert [body.id for body in scene.bodies] == ["a", "b"]
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.path, lost.issue.code) == ("flat", "flat", "only-degenerate")
+    assert {"ignored-geometry", "short-face"} < {issue.code for issue in scene.issues}
+
+
+def test_a_node_of_collada_is_a_body_where_the_hierarchy_places_it(tmp_path):
+    shown = '<instance_geometry url="#g"/>'
+    moved = "<translate>10 0 0</translate>"
+    lamp = f'<node id="lamp"><translate>0 5 0</translate>{shown}</node>'
+    hung = '<instance_node url="#lamp"/>'
+    nodes = (
+        f'<node id="n1" name="base">{shown}<node name="arm">{moved}{hung}</node></node>'
+        f'<node id="n2" name="base">{moved}{shown}{shown}</node>'
+    )
+    content = files.collada(nodes=nodes, library_nodes=lamp)
+    scene = scene_of(tmp_path, "a.dae", content)
+    assert bounds(scene) == {
+        "base": ((0, 0, 0), (1, 1, 1)),
+        "base/arm/lamp": ((10, 5, 0), (11, 6, 1)),
+        "base-2": ((10, 0, 0), (11, 1, 1)),
+    }
+    assert [body.path for body in scene.bodies] == [body.id for body in scene.bodies]
+    assert scene.bodies[0].file is scene.bodies[1].file
+    assert scene.units == "meters"
+    (whole,) = scene_of(tmp_path, "a.dae", content, "none").bodies
+    assert (whole.id, whole.path, whole.file.health.triangles) == ("a", None, 48)

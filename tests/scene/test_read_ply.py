@@ -154,3 +154,13 @@ def test_blanks_behind_the_first_word(tmp_path):
 def test_a_list_of_another_name_blocks_a_pass(tmp_path, element, record):
     content = files.ascii_ply().replace(b"end_header\n", element.encode() + b"end_header\n")
     assert set(warnings(loaded(tmp_path, "a.ply", content + record.encode()))) == {"unread"}
+
+
+@pytest.mark.parametrize(("name", "codes"), [("radius", set()), ("scale_0", {"unread"})])
+def test_the_radius_of_a_scan_is_no_geometry_and_the_scale_of_a_splat_is(tmp_path, name, codes):
+    points = [(*point, 0.5) for point in files.CUBE_POINTS]
+    content = files.ascii_ply(points).replace(
+        b"element face", f"property float {name}\nelement face".encode()
+    )
+    file = loaded(tmp_path, "a.ply", content)
+    assert set(warnings(file)) == codes

@@ -181,7 +181,8 @@ the winding. ValueError when the matrix is not affine or singular, OverflowError
       .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
 dropped if that closes the surface.)")
       .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
-first triangle. crack_width: points this close may be the same point; edges along such a crack count as shared.)")
+first triangle. The wall of a cavity belongs to the solid around it. crack_width: points this close may be the same point;
+edges along such a crack count as shared.)")
       .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly. True if no triangle has an area.")
       .def("far_vertex",
            [](const Mesh& mesh) {

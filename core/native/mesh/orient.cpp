@@ -9,6 +9,7 @@
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
+#include "mesh/cavities.hpp"
 #include "mesh/cracks.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/orient.hpp"
@@ -299,7 +300,11 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width) {
   std::vector<Mesh> result;
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
-  for (const auto& members : label_components(sealed, edges).members()) {
+  Labels labels = label_components(sealed, edges);
+  const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels);
+  for (std::uint32_t& label : labels.of_triangle) label = solids[label];
+  for (const auto& members : labels.members()) {
+    if (members.empty()) continue;  // they bound a cavity
     const auto part_number = static_cast<std::uint32_t>(result.size());
     Mesh& part = result.emplace_back();
     for (const std::uint32_t t : members) {

@@ -50,7 +50,8 @@ Mesh sort(const Mesh& mesh);
 Mesh weld_and_sort(MeshView mesh);
 
 // The parts connected through shared edges of the welded mesh, in order of their first triangle. Edges on
-// the two sides of a crack of this width (mesh/cracks.hpp) count as shared.
+// the two sides of a crack of this width (mesh/cracks.hpp) count as shared. The wall of a cavity (mesh/cavities.hpp)
+// belongs to the part around it.
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width = 0);
 
 }  // namespace satcheck

@@ -14,7 +14,7 @@ from satcheck.scene import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
 from satcheck.scene.loading.readers import File, Reader
 
-READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", text=True)
+READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", text="plain")
 FORMAT = Format("verdicts", (".verdicts",), "tetra:render")
 COMMAND = Plugin("corners", "Count the corners of a tetrahedron.", "tetra:command")
 

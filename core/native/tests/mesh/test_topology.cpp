@@ -128,6 +128,28 @@ void components_and_transforms() {
   const auto parts = split_components(two);
   CHECK(parts.size() == 2 && parts[1].vertices.size() == 8 && parts[1].triangles.size() == 12);
 
+  // A wall of a cavity, and what is none: it crosses, touches the box, or lies outside.
+  const auto count_with = [](const Mesh& inner) {
+    Mesh boxes = box({0, 0, 0}, {8, 8, 8});
+    append(boxes, reversed(inner));
+    return split_components(boxes).size();
+  };
+  CHECK(count_with(box({2, 2, 2}, {6, 6, 6})) == 1);
+  CHECK(count_with(box({2, 2, 2}, {6, 6, 9})) == 2);
+  CHECK(count_with(box({2, 2, 2}, {6, 6, 8})) == 2);
+  CHECK(count_with(box({9, 2, 2}, {12, 6, 6})) == 2);
+  // What touches the wall from within does not matter; what crosses it does.
+  Mesh held = box({2, 2, 2}, {6, 6, 6});
+  append(held, reversed(box({3, 3, 2}, {4, 4, 4})));
+  CHECK(count_with(held) == 2);
+  append(held, reversed(box({5, 5, 5}, {7, 5.5, 5.5})));
+  CHECK(count_with(held) == 4);
+  // A wall in two solids that cross belongs to one of them.
+  Mesh crossing = box({0, 0, 0}, {8, 8, 8});
+  append(crossing, box({1, 1, 1}, {7, 7, 9}));
+  append(crossing, reversed(box({3, 3, 3}, {4, 4, 4})));
+  CHECK(split_components(crossing).size() == 2);
+
   const Mesh mirrored = transform(unit, {-2, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
   CHECK(measure_topology(mirrored).volume == 2);
   const Mesh moved = translate(unit, {0.1, 0, 0});

@@ -74,7 +74,7 @@ _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "satcheck.scene.loading": ("read_source", os.path.basename),
     "satcheck.scene.loading.child_formats": (
         "_content",
-        lambda request: Path(request.file.directory).name,
+        lambda file: Path(file.directory).name,
     ),
     "satcheck.decompose.coacd_server": ("serve", _split),
     "satcheck.audit.checked_pairs": ("examine", lambda pair: pair.a.id),

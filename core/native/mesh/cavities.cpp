@@ -1,0 +1,134 @@
+#include "mesh/cavities.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/bvh.hpp"
+#include "mesh/mesh_checks.hpp"
+#include "mesh/winding.hpp"
+
+namespace satcheck {
+namespace {
+
+using Around = std::optional<std::vector<std::uint32_t>>;  // components, ascending; empty: undecided
+
+class Cavities {
+ public:
+  Cavities(const Mesh& mesh, const EdgeTable& edges, const Labels& components)
+      : mesh_(mesh), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
+    for (std::size_t c = 0; c < members_.size(); ++c) volumes_.push_back(open_[c] ? 0 : volume(members_[c]));
+  }
+
+  std::vector<std::uint32_t> solids() {
+    std::vector<std::uint32_t> solids(members_.size());
+    std::iota(solids.begin(), solids.end(), 0);
+    const auto [least, most] = std::minmax_element(volumes_.begin(), volumes_.end());
+    if (volumes_.empty() || *least >= 0 || *most <= 0) return solids;
+    bvh_ = build_bvh(mesh_);
+    for (std::uint32_t c = 0; c < solids.size(); ++c) {
+      if (volumes_[c] < 0) solids[c] = solid_around(c).value_or(c);
+    }
+    return solids;
+  }
+
+ private:
+  double volume(const std::vector<std::uint32_t>& members) const {
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t t : members) triangles.push_back(mesh_.triangles[t]);
+    return signed_volume(mesh_.vertices, triangles);
+  }
+
+  // The innermost component around the wall has the others around it too.
+  std::optional<std::uint32_t> solid_around(std::uint32_t wall) {
+    const Around around = around_of(wall);
+    if (!around) return std::nullopt;
+    for (const std::uint32_t c : *around) {
+      std::vector<std::uint32_t> others = *around;
+      std::erase(others, c);
+      if (around_of(c) != others) continue;
+      if (volumes_[c] > 0 && is_free(wall, c)) return c;
+      return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  bool is_free(std::uint32_t wall, std::uint32_t solid) const {
+    const std::vector<std::uint32_t>& triangles = members_[wall];
+    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+      const Corners mine = corners(t);
+      return visit_box(bvh_, mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
+        if (of_triangle_[u] == wall) return true;
+        const TriangleContact contact = classify(mine, corners(u));
+        return contact == TriangleContact::disjoint ||
+               (contact == TriangleContact::touching && of_triangle_[u] != solid);
+      });
+    });
+  }
+
+  // The closed components around a corner of this one.
+  const Around& around_of(std::uint32_t component) {
+    const auto [at, is_new] = around_.try_emplace(component);
+    if (is_new) at->second = find_around(component);
+    return at->second;
+  }
+
+  Around find_around(std::uint32_t component) const {
+    for (const std::uint32_t t : members_[component]) {
+      const Vec3 corner = mesh_.vertices[mesh_.triangles[t][0]];
+      const auto here = triangles_at(mesh_, bvh_, corner);
+      if (!std::all_of(here.begin(), here.end(), [&](std::uint32_t u) { return of_triangle_[u] == component; })) continue;
+      const Heading first = nearest_wall(bvh_.nodes[0].box, corner);
+      for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
+        const Vec3 far = outside_point(bvh_.nodes[0].box, corner, first, attempt);
+        if (Around around = crossed(component, corner, far)) return around;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // The closed components that the segment crosses more often one way than the other. Empty if it meets an edge.
+  Around crossed(std::uint32_t besides, Vec3 from, Vec3 far) const {
+    std::map<std::uint32_t, int> windings;
+    Aabb path{from, from};
+    path.include(far);
+    const bool generic = visit_box(bvh_, mesh_, path, [&](std::uint32_t t) {
+      const std::uint32_t c = of_triangle_[t];
+      if (c == besides || open_[c]) return true;
+      const auto [p, q, r] = corners(t);
+      const auto crossing = segment_crossing(from, far, p, q, r);
+      if (crossing) windings[c] += *crossing;
+      return crossing.has_value();
+    });
+    if (!generic) return std::nullopt;
+    std::vector<std::uint32_t> around;
+    for (const auto& [c, winding] : windings) {
+      if (winding != 0) around.push_back(c);
+    }
+    return around;
+  }
+
+  Corners corners(std::uint32_t t) const {
+    const Triangle& v = mesh_.triangles[t];
+    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
+  }
+
+  const Mesh& mesh_;
+  const std::vector<std::uint32_t>& of_triangle_;
+  std::vector<std::vector<std::uint32_t>> members_;
+  std::vector<bool> open_;
+  std::vector<double> volumes_;  // 0: open
+  Bvh bvh_;
+  std::map<std::uint32_t, Around> around_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components) {
+  return Cavities(welded, edges, components).solids();
+}
+
+}  // namespace satcheck
