@@ -124,6 +124,7 @@ def test_what_is_apart_is_an_estimate_until_it_is_accepted(tmp_path: Path) -> No
         ("a.xaml", b"<Viewport3D/>", "bad-record"),
         ("a.3dxml", zipped(a_txt="x"), "bad-record"),
     ],
+    ids=["cut off", "without normals", "empty", "no manifest"],
 )
 def test_what_trimesh_cannot_read_is_refused(
     tmp_path: Path, name: str, content: bytes, code: str
