@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
+from itertools import takewhile
 from pathlib import Path
+from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.input_kind import ROBOT_SUFFIXES, SCENE_SUFFIXES, SDF_SUFFIXES, is_model
@@ -22,21 +24,37 @@ _MARKS = {
     **dict.fromkeys(SDF_SUFFIXES, _SDF_MARKS),
 }
 _PATTERN = frozenset("*?[")
+_DEEP = "**"
 
 
-def asset_files(given: Iterable[str]) -> list[str]:
-    """Expands the given names into a list of asset files, each once. A file stands for itself. A
-    folder stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`)
-    stands for its matches.
+class Assets(NamedTuple):
+    """folders: those that were given, and those that the ** of a pattern stands in."""
+
+    files: list[str]
+    folders: list[str]
+
+
+NO_ASSETS = Assets([], [])
+
+
+def asset_files(given: Iterable[str]) -> Assets:
+    """Expands the given names into asset files, each once. A file stands for itself. A folder
+    stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`) stands
+    for its matches.
 
     In folders, names that begin with a dot are left out, and links to folders are followed. A
     folder that cannot be listed stays in the list, and its reader reports why. Raises
     SatcheckError: `no-assets` if a folder or a pattern has no asset, `bad-pattern`.
     """
     files: dict[str, None] = {}
+    folders: dict[str, None] = {}
     for name in given:
         files |= dict.fromkeys(_meant_by(name))
-    return list(files)
+        if is_folder(name):
+            folders[name] = None
+        elif _is_pattern(name) and _DEEP in Path(name).parts:
+            folders[str(Path(*takewhile(_DEEP.__ne__, Path(name).parts)))] = None
+    return Assets(list(files), list(folders))
 
 
 def content_of(path: Path) -> bytes | None:
@@ -51,7 +69,7 @@ def content_of(path: Path) -> bytes | None:
 def _meant_by(name: str) -> list[str]:
     if is_folder(name):
         assets = sorted(_below(name))
-    elif _PATTERN.intersection(name) and not exists(name):
+    elif _is_pattern(name):
         _refuse_pattern(name)
         root = Path(name).anchor
         matches = Path(root).glob(str(Path(name).relative_to(root)))
@@ -65,6 +83,10 @@ def _meant_by(name: str) -> list[str]:
     return assets
 
 
+def _is_pattern(name: str) -> bool:
+    return bool(_PATTERN.intersection(name)) and not exists(name)
+
+
 def _no_match(pattern: str) -> SatcheckError:
     """To be raised."""
     deeper = (Path(pattern).parent / "**" / Path(pattern).name).as_posix()
@@ -74,7 +96,7 @@ def _no_match(pattern: str) -> SatcheckError:
 
 def _refuse_pattern(name: str) -> None:
     for part in Path(name).parts:
-        if "**" in part and part != "**":
+        if _DEEP in part and part != _DEEP:
             better = name.replace(part, part.replace("**", "**/*", 1), 1)
             raise SatcheckError(
                 "bad-pattern", f"{name}: ** stands for folders, between slashes: write {better}"

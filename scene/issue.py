@@ -50,7 +50,11 @@ _ALL = (
     Code("misspelt", "error", "A name resembles one that is read, and is none."),
     Code("reference-cycle", "error", "Nodes or components refer to each other in a cycle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
-    Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
+    Code(
+        "outside-path",
+        "error",
+        "A file that this file refers to lies outside of the permitted folders.",
+    ),
     Code("unknown-part", "error", "The file has no part of this name."),
     Code("missing-extra", "error", "The library that reads the format is not installed."),
     Code("entity-declaration", "error", "XML entity declarations are refused."),

@@ -38,6 +38,7 @@ from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import NO_ASSETS
 
 # What is about one world, or about one report.
 _NOT_HERE = (
@@ -129,7 +130,10 @@ def command(
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
-    worlds = _worlds(inputs, manifest, shard)
+    near = tuple(name for name in inputs.paths if not is_url(name))
+    assets = asset_names(replace(inputs, paths=near)) if near else NO_ASSETS
+    worlds = _worlds(assets.files, inputs, manifest, shard)
+    inputs = replace(inputs, folders=tuple(assets.folders))
     _refuse(worlds, inputs, output, baseline)
     config = stated_config(click.get_current_context())
     terms = check_options(inputs, options, baseline, config)
@@ -196,12 +200,14 @@ def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
         yield spool.path, spool.upload_part
 
 
-def _worlds(inputs: Inputs, manifest: str | None, shard: Shard) -> Sequence[World]:
-    """Those of the shard, each once. click.UsageError if there is none in any shard."""
+def _worlds(
+    files: Sequence[str], inputs: Inputs, manifest: str | None, shard: Shard
+) -> Sequence[World]:
+    """Those of the shard, each once. files: on this machine. click.UsageError if there is none in
+    any shard."""
     remote = [name for name in inputs.paths if is_url(name)]
-    near = replace(inputs, paths=tuple(name for name in inputs.paths if not is_url(name)))
     named: Iterator[World] = chain(
-        ((name,) for name in (asset_names(near) if near.paths else ())),
+        ((name,) for name in files),
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )

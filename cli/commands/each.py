@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
 from satcheck.batch.limits import Limits
 from satcheck.cli.asset_names import asset_names
@@ -77,7 +78,8 @@ def command(
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
     config = stated_config(click.get_current_context())
-    files = asset_names(inputs)
+    assets = asset_names(inputs)
+    files, inputs = assets.files, replace(inputs, folders=tuple(assets.folders))
     refuse_early(Inputs(paths=tuple(files)), output)
     if changed_since is not None:
         shared = [*inputs.rules, *filter(None, [baseline])]

@@ -19,6 +19,7 @@ from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.read_options import ReadOptions
 
 _OPENED_BY_NAME = frozenset(("usd",))
@@ -31,14 +32,14 @@ _CODE_OF_WORKER = {
 
 class Request(msgspec.Struct, frozen=True):
     """A file to read: its format, the directory that its references are relative to, its name
-    there, whether references may leave that directory, whether to return one mesh for the whole
+    there, where else these may lead, whether to return one mesh for the whole
     file, the options of the user, and its bytes (none for a reader that opens it by name)."""
 
     format: str
     directory: str
     name: str
     flat: bool
-    allow_outside: bool
+    permitted: Permitted
     options: ReadOptions
     data: Block
 
@@ -55,7 +56,7 @@ def read_in_child(
     children: ReadingChildren,
     *,
     flat: bool,
-    allow_outside: bool,
+    permitted: Permitted,
     options: ReadOptions,
     seconds: float,
     megabytes: int,
@@ -64,7 +65,7 @@ def read_in_child(
     directory = str(source.location.absolute().parent)
     data = b"" if source.format in _OPENED_BY_NAME else source.data
     name = source.location.name
-    request = Request(source.format, directory, name, flat, allow_outside, options, data)
+    request = Request(source.format, directory, name, flat, permitted, options, data)
     try:
         reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
@@ -84,7 +85,7 @@ def read_in_child(
 
 
 def _as_given(file: Path, directory: str, folder: Path) -> Path:
-    """The file by the path of its folder as given; with allow_outside it may lie elsewhere."""
+    """The file by the path of its folder as given; it may lie elsewhere."""
     return folder / file.relative_to(directory) if file.is_relative_to(directory) else file
 
 
@@ -154,7 +155,7 @@ def _read(request: Request) -> RawScene:
             from satcheck.scene.loading.usd import read_usd
 
             place = Path(request.directory, request.name)
-            return read_usd(place, request.options, allow_outside=request.allow_outside)
+            return read_usd(place, request.options, request.permitted)
         case "step":
             from satcheck.scene.loading.step.assembly import read_step
 
@@ -165,7 +166,7 @@ def _read(request: Request) -> RawScene:
         data,
         request.directory,
         binary=request.format == "glb",
-        allow_outside=request.allow_outside,
+        permitted=request.permitted,
         isolated=True,
         geometry=request.options.geometry,
     )

@@ -43,6 +43,7 @@ from satcheck.scene.loading.raw_mesh import (
     Refusal,
 )
 from satcheck.scene.loading.unknown_names import UnknownNames
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import listed
@@ -57,7 +58,7 @@ def read_gltf(
     directory: str,
     *,
     binary: bool,
-    allow_outside: bool = False,
+    permitted: Permitted = NOTHING_ELSE,
     isolated: bool = False,
     geometry: GeometryKind | None = None,
 ) -> RawScene:
@@ -65,7 +66,7 @@ def read_gltf(
 
     geometry: `collision`: its colliders, and the nodes that have one.
 
-    directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
+    directory: the base of relative buffer URIs; permitted: where else they may lead.
     binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
     file name, and NeedsChild if the data need an isolated process and this one is not.
     """
@@ -75,7 +76,7 @@ def read_gltf(
     _check_extensions(document)
     look_at(document, unknown)
     work = Work(isolated=isolated)
-    views = BufferViews(document, chunk, directory, work, allow_outside=allow_outside)
+    views = BufferViews(document, chunk, directory, work, permitted)
     accessors = Accessors(document, views, work)
     meshes = Meshes(document, accessors, work)
     graph = NodeGraph(document, work)

@@ -63,6 +63,20 @@ def test_patterns_and_names_from_standard_input(assets: Path) -> None:
     assert verdicts(named.out) == {"gripper.glb": "fail"}
 
 
+@pytest.mark.parametrize("given", ["kit", "kit/**/*.toml", "-"])
+def test_assets_may_name_what_lies_in_the_folder_that_is_given(given: str, tmp_path: Path) -> None:
+    (tmp_path / "kit" / "sets").mkdir(parents=True)
+    shutil.copy(SAMPLES / "box.obj", tmp_path / "kit")
+    body = '[[bodies]]\nid = "a"\nmesh = "../box.obj"\n'
+    (tmp_path / "kit" / "sets" / "s.toml").write_text(f'schema = "satcheck.scene/1"\n{body}')
+    ran = satcheck("each", given, "--format", "json", stdin="kit\n", cwd=tmp_path)
+    assert verdicts(ran.out)["s.toml"] == "pass"
+    alone = satcheck("each", "kit/sets/s.toml", "--format", "json", cwd=tmp_path)
+    assert verdicts(alone.out) == {"s.toml": "error"}
+    batch = satcheck("batch", given, "-o", "out.jsonl", stdin="kit\n", cwd=tmp_path)
+    assert batch.code == 0
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [

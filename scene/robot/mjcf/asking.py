@@ -33,7 +33,7 @@ def read_model(
         message = "MuJoCo reads files that end in .xml: rename it"
         raise MeshFileError("unsupported-format", message, file=path)
     given = {name: str(place) for name, place in (packages or {}).items()}
-    request = Request(path, given, allowed.allow_outside)
+    request = Request(path, given, allowed.permitted)
     content = _asked(request, allowed, children)
     assert isinstance(content, Model)
     return content
@@ -50,7 +50,7 @@ def read_own_meshes(
         formats=MODEL_FORMATS,
         hashed=allowed.hashed,
     )
-    request = Request(str(location), {}, allowed.allow_outside, only_meshes=True)
+    request = Request(str(location), {}, allowed.permitted, only_meshes=True)
     content = _asked(request, allowed, children)
     assert isinstance(content, RawScene)
     return source, content

@@ -13,17 +13,18 @@ from msgspec import Struct
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.scene.loading.raw_mesh import RawScene, Refusal
+from satcheck.scene.permitted import Permitted
 
 Quaternion = tuple[float, float, float, float]
 
 
 class Request(Struct, frozen=True):
-    """path: of the file, as given. packages, allow_outside: as for `FilePlaces`. only_meshes: the
+    """path: of the file, as given. packages, permitted: as for `FilePlaces`. only_meshes: the
     answer is the meshes that only MuJoCo reads."""
 
     path: str
     packages: dict[str, str]
-    allow_outside: bool
+    permitted: Permitted
     only_meshes: bool = False
 
 
