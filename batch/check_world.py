@@ -49,17 +49,29 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
 
 
 # Why a file that is as it should be has no body that can collide.
-_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out")
+_NO_BODY = "no-body"
+_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out", _NO_BODY)
 
 
 def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:
     _refuse_folder(world[0])
-    scene = options.load(world, hashed=hashed, known=known)
+    scene = _without_libraries(world[0], options.load(world, hashed=hashed, known=known))
     is_explained = any(issue.code in _WITHOUT_BODIES for issue in scene.issues)
     if not scene.bodies and not scene.unreadable and not is_explained:
         reason = "there is no body: give a file of rules as --rules FILE"
         raise SatcheckError("too-few-bodies", reason, file=world[0])
     return scene
+
+
+def _without_libraries(file: str, scene: Scene) -> Scene:
+    """A file of materials or other things without geometry is no fault among other assets."""
+    lost = scene.unreadable
+    if scene.bodies or any(each.issue.code != _NO_BODY or each.file != file for each in lost):
+        return scene
+    issues = (
+        replace(each, severity="note") if each.code == _NO_BODY else each for each in scene.issues
+    )
+    return replace(scene, unreadable=(), order=(), issues=tuple(issues))
 
 
 def _refuse_folder(name: str) -> None:

@@ -62,6 +62,7 @@ _ALL = (
     Code("non-finite", "error", "A coordinate is infinite or not a number."),
     Code("out-of-range", "error", "The coordinates are too large or too small to be exact."),
     Code("empty-mesh", "error", "The mesh has no triangles."),
+    Code("no-body", "error", "The file has no geometry that is checked."),
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),

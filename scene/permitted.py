@@ -35,7 +35,7 @@ class Permitted(Struct, frozen=True):
         places = [followed(Path(path).parent) for path in paths]
         folders = dict.fromkeys(followed(Path(folder)) for folder in given)
         around = [each for each in folders if any(place.is_relative_to(each) for place in places)]
-        return cls(tuple(map(str, around)))
+        return cls(tuple(sorted(map(str, around))))
 
     def has(self, place: Path, own: Path) -> bool:
         """own: the folder of the file that names it, without links."""

@@ -63,6 +63,26 @@ def test_patterns_and_names_from_standard_input(assets: Path) -> None:
     assert verdicts(named.out) == {"gripper.glb": "fail"}
 
 
+def test_a_file_of_materials_is_no_fault_among_assets(assets: Path) -> None:
+    pytest.importorskip("pxr")
+    head = '#usda 1.0\n(\n metersPerUnit = 1\n upAxis = "Z"\n)\n'
+    paint = assets / "props" / "paint.usda"
+    paint.write_text(f'{head}def Material "Paint" {{}}\n')
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert (ran.code, verdicts(ran.out)) == (0, {"box.obj": "pass", "paint.usda": "pass"})
+    (asset,) = (each for each in json.loads(ran.out)["assets"] if "paint" in each["file"])
+    stated = {issue["code"]: issue["severity"] for issue in asset["report"]["issues"]}
+    assert stated["no-body"] == "note"
+    assert satcheck(str(paint), str(assets / "props" / "box.obj")).code == 2
+    scene = f'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\nmesh = "{paint.name}"\n'
+    (assets / "props" / "s.toml").write_text(scene)
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert verdicts(ran.out)["s.toml"] == "error"
+    paint.write_text(f'{head}def Mterial "Paint" {{ double radius = 1 }}\n')
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert verdicts(ran.out)["paint.usda"] == "error"
+
+
 @pytest.mark.parametrize("given", ["kit", "kit/**/*.toml", "-"])
 def test_assets_may_name_what_lies_in_the_folder_that_is_given(given: str, tmp_path: Path) -> None:
     (tmp_path / "kit" / "sets").mkdir(parents=True)
