@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterable
 
 import click
 
+from satcheck.batch.check_options import World
+from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import talk
 from satcheck.core.errors import SatcheckError
@@ -14,6 +17,7 @@ from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules
 
 STANDARD_INPUT = "-"
+_NAMED = 6
 
 
 def asset_names(inputs: Inputs) -> Assets:
@@ -22,7 +26,9 @@ def asset_names(inputs: Inputs) -> Assets:
     names: list[str] = []
     for name in inputs.paths:
         names += _standard_input() if name == STANDARD_INPUT else [name]
-    assets = asset_files(filter(None, names))
+    assets = asset_files(filter(None, names), inputs.exclude)
+    if inputs.exclude:
+        talk(f"satcheck: --exclude leaves out {counted(assets.excluded, 'file')}")
     rules = {os.path.realpath(path) for path in inputs.rules}
     files = [
         file
@@ -32,6 +38,13 @@ def asset_names(inputs: Inputs) -> Assets:
     if not files:
         raise click.UsageError("no file is named: give a folder or files")
     return assets._replace(files=files)
+
+
+def tell_foreign(worlds: Iterable[World]) -> None:
+    """`kit: no reader knows 2 files: kit/a.fbx, kit/b.blend`. worlds: of `foreign_worlds`."""
+    for folder, *files in worlds:
+        named = ", ".join(files[:_NAMED]) + (", ..." if len(files) > _NAMED else "")
+        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {named}")
 
 
 def _is_skipped(file: str) -> bool:

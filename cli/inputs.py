@@ -51,6 +51,7 @@ class Inputs(Struct, frozen=True):
     split: Split | None = None
     units: str | None = None
     folders: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
     allow_outside: bool = False
     pose: tuple[str, ...] = ()
     state: tuple[str, ...] = ()

@@ -39,6 +39,7 @@ _ALL = (
     Code("worker-crashed", "warning", "The process that worked on it died, time and again."),
     Code("worker-timeout", "warning", "Work on it took longer than the time limit of a scene."),
     Code("worker-out-of-memory", "warning", "Work on it took more memory than the limit."),
+    Code("unread-file", "warning", "No reader knows the format of a file.", blocks=True),
     # Its records.
     Code("truncated", "error", "The file ends before its declared end."),
     Code("trailing-data", "error", "The file continues after its declared end."),

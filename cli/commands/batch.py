@@ -15,6 +15,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.batch.check_options import World
+from satcheck.batch.check_world import foreign_worlds
 from satcheck.batch.limits import Limits
 from satcheck.batch.local import check_locally
 from satcheck.batch.manifest import read_manifest
@@ -26,14 +27,14 @@ from satcheck.batch.slot_server import Answer
 from satcheck.batch.spool import Spool
 from satcheck.batch.urls import is_url, matches
 from satcheck.cli import exit_codes
-from satcheck.cli.asset_names import asset_names
+from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
+from satcheck.cli.options import exclude_option, limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
@@ -102,6 +103,7 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
+@exclude_option
 @limits_of_worlds("a scene")
 @options_of(check_command, but=_NOT_HERE)
 def command(
@@ -130,9 +132,11 @@ def command(
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
-    near = tuple(name for name in inputs.paths if not is_url(name))
-    assets = asset_names(replace(inputs, paths=near)) if near else NO_ASSETS
-    worlds = _worlds(assets.files, inputs, manifest, shard)
+    local = tuple(name for name in inputs.paths if not is_url(name))
+    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
+    foreign = foreign_worlds(assets.foreign)
+    worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
+    tell_foreign(set(worlds).intersection(foreign))
     inputs = replace(inputs, folders=tuple(assets.folders))
     _refuse(worlds, inputs, output, baseline)
     config = stated_config(click.get_current_context())
@@ -201,13 +205,13 @@ def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
 
 
 def _worlds(
-    files: Sequence[str], inputs: Inputs, manifest: str | None, shard: Shard
+    near: Sequence[World], inputs: Inputs, manifest: str | None, shard: Shard
 ) -> Sequence[World]:
-    """Those of the shard, each once. files: on this machine. click.UsageError if there is none in
+    """Those of the shard, each once. near: on this machine. click.UsageError if there is none in
     any shard."""
     remote = [name for name in inputs.paths if is_url(name)]
     named: Iterator[World] = chain(
-        ((name,) for name in files),
+        near,
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )
