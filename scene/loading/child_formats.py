@@ -7,6 +7,7 @@ and msgspec checks their types.
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import msgspec
@@ -19,7 +20,7 @@ from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.permitted import ANYWHERE, Permitted
 from satcheck.scene.read_options import ReadOptions
 
 _OPENED_BY_NAME = frozenset(("usd",))
@@ -32,14 +33,16 @@ _CODE_OF_WORKER = {
 
 class Request(msgspec.Struct, frozen=True):
     """A file to read: its format, the directory that its references are relative to, its name
-    there, where else these may lead, whether to return one mesh for the whole
-    file, the options of the user, and its bytes (none for a reader that opens it by name)."""
+    there, the folders beside it in which they may lie (None: all), whether to return one mesh for
+    the whole file, the options of the user, and its bytes (none for a reader that opens it by
+    name). Names are bytes, as those of some files are no UTF-8.
+    """
 
     format: str
-    directory: str
-    name: str
+    directory: bytes
+    name: bytes
     flat: bool
-    permitted: Permitted
+    permitted: tuple[bytes, ...] | None
     options: ReadOptions
     data: Block
 
@@ -48,7 +51,7 @@ class Reply(msgspec.Struct, frozen=True):
     """files: those that the file refers to, read or looked for."""
 
     content: RawScene | Refusal
-    files: tuple[str, ...]
+    files: tuple[bytes, ...]
 
 
 def read_in_child(
@@ -64,8 +67,15 @@ def read_in_child(
     """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
     data = b"" if source.format in _OPENED_BY_NAME else source.data
-    name = source.location.name
-    request = Request(source.format, directory, name, flat, permitted, options, data)
+    request = Request(
+        source.format,
+        os.fsencode(directory),
+        os.fsencode(source.location.name),
+        flat,
+        None if permitted.anywhere else tuple(map(os.fsencode, permitted.folders)),
+        options,
+        data,
+    )
     try:
         reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
@@ -76,7 +86,7 @@ def read_in_child(
         message = "the reader's answer is damaged"
         raise MeshFileError("reader-failed", message, file=source.path) from None
     for file in answer.files:
-        note(_as_given(Path(file), directory, source.location.parent))
+        note(_as_given(Path(os.fsdecode(file)), directory, source.location.parent))
     content = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
@@ -121,7 +131,7 @@ def serve(message: bytes) -> bytes:
     request = msgspec.msgpack.decode(message, type=Request)
     with files_read() as files:
         content = _content(request)
-    return msgspec.msgpack.encode(Reply(content, tuple(files)))
+    return msgspec.msgpack.encode(Reply(content, tuple(map(os.fsencode, files))))
 
 
 def _content(request: Request) -> RawScene | Refusal:
@@ -138,6 +148,8 @@ def _content(request: Request) -> RawScene | Refusal:
 
 def _read(request: Request) -> RawScene:
     data = memoryview(request.data)
+    directory, folders = os.fsdecode(request.directory), request.permitted
+    permitted = ANYWHERE if folders is None else Permitted(tuple(map(os.fsdecode, folders)))
     match request.format:
         case "3mf":
             from satcheck.scene.loading.threemf import read_3mf
@@ -154,8 +166,8 @@ def _read(request: Request) -> RawScene:
         case "usd":
             from satcheck.scene.loading.usd import read_usd
 
-            place = Path(request.directory, request.name)
-            return read_usd(place, request.options, request.permitted)
+            place = Path(directory, os.fsdecode(request.name))
+            return read_usd(place, request.options, permitted)
         case "step":
             from satcheck.scene.loading.step.assembly import read_step
 
@@ -164,9 +176,9 @@ def _read(request: Request) -> RawScene:
 
     return read_gltf(
         data,
-        request.directory,
+        directory,
         binary=request.format == "glb",
-        permitted=request.permitted,
+        permitted=permitted,
         isolated=True,
         geometry=request.options.geometry,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -22,7 +23,6 @@ from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.robot.mjcf.reading import robot_of_model
 from satcheck.scene.robot.poses import read_poses
@@ -52,7 +52,13 @@ def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     kind = path.suffix[1:]
     request = Request(
-        kind, str(path.parent), path.name, False, NOTHING_ELSE, ReadOptions(), path.read_bytes()
+        kind,
+        bytes(path.parent),
+        os.fsencode(path.name),
+        False,
+        (),
+        ReadOptions(),
+        path.read_bytes(),
     )
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply).content

@@ -10,6 +10,7 @@ from typing import Any
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
+from satcheck.scene.loading.ifc.attributes import refuse_other_kinds
 from satcheck.scene.loading.ifc.kernel_log import Message, logged, start_log
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
@@ -48,6 +49,7 @@ def open_model(data: memoryview) -> Any:
     except RuntimeError as error:
         raise _unopened(list(logged()), str(error)) from None
     _refuse_damage(model, logged())
+    refuse_other_kinds(model)
     _refuse_without_unit(model)
     _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):
