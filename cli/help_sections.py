@@ -14,7 +14,7 @@ OTHER = "Other options"
 _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
-    "What to check": "bodies pairs manifest shard changed_since split merge planar units "
+    "What to check": "bodies pairs manifest shard exclude changed_since split merge planar units "
     "allow_open package packages geometry purpose time mesh_hulls pose state "
     "joint_path sample seed root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",

@@ -26,6 +26,7 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.path_kind import is_folder
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,
     GeometryKind,
@@ -41,13 +42,16 @@ _OF_NO_BODY = frozenset(
 
 
 class Inputs(Struct, frozen=True):
-    """The values of options, each under the name of its option."""
+    """The values of options, each under the name of its option. folders: among the paths, or meant
+    by them."""
 
     paths: tuple[str, ...]
     packages: Mapping[str, Path] | None = None
     geometry: GeometryKind | None = None
     split: Split | None = None
     units: str | None = None
+    folders: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
     allow_outside: bool = False
     pose: tuple[str, ...] = ()
     state: tuple[str, ...] = ()
@@ -95,6 +99,7 @@ class Inputs(Struct, frozen=True):
             split=self.split,
             packages={name: str(folder) for name, folder in (self.packages or {}).items()},
             geometry=self.geometry,
+            folders=self.folders,
             allow_outside=self.allow_outside,
             units=self.units,
             rules=tuple(map(str, self.rules)),
@@ -110,7 +115,7 @@ class Inputs(Struct, frozen=True):
         return MeshFiles(
             self.seconds_per_file,
             self.megabytes_per_file,
-            allow_outside=True,
+            permitted=ANYWHERE,
             hashed=False,
             options=reading,
         )

@@ -179,6 +179,12 @@ accept_option = click.option(
     help="Issues that may stay: what blocks a pass, by its code and the name of its file or body "
     "(`*` for any part). Repeatable.",
 )
+exclude_option = click.option(
+    "--exclude",
+    multiple=True,
+    metavar="PATTERN",
+    help="Files of folders to leave out, or folders, by name or path. Repeatable.",
+)
 jobs_option = click.option(
     "-j",
     "--jobs",

@@ -192,7 +192,7 @@ def _about_pattern(path: str) -> Iterator[Advice]:
 
 def _matches(pattern: str) -> list[str]:
     try:
-        return asset_files([pattern])
+        return asset_files([pattern]).files
     except SatcheckError:  # there is none
         return []
 

@@ -12,6 +12,7 @@ from satcheck.report.report import Issue
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.nodes import CORNER
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.shape_file import shape_file
@@ -29,7 +30,8 @@ def stated_scene(
     """The bodies that can be read, and what is not as it was when the report was made: a body
     whose file has changed is there as it is now. root: where the paths in the report start."""
     reading = as_stated(to_builtins(report.reading))
-    files = MeshFiles(allow_outside=allow_outside, options=reading)
+    permitted = Permitted(anywhere=allow_outside)
+    files = MeshFiles(permitted=permitted, options=reading)
     bodies: list[Body] = []
     issues: list[Issue] = []
     for entry in report.bodies:

@@ -2,7 +2,8 @@
 
 An entry is one file, `<key>.parts`: magic, the key, the SHA-256 of the payload, the payload. A
 complete file is renamed to this name, so a reader sees all of it or nothing. A damaged entry counts
-as missing, and the next writer replaces it. If two processes need the same entry, it is computed
+as missing, and the next writer replaces it. A whole one need not be right, as anybody may have
+written it: `computation.held_against` looks. If two processes need the same entry, it is computed
 once: the second process waits for the file lock of the first.
 
 To clear the cache, delete the folder. If the cache cannot be read or written, the parts are

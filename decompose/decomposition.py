@@ -18,7 +18,7 @@ from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, de
 from satcheck.decompose.settings import DecompositionSettings
 
 # Increase it if the content or the layout of cache entries changes.
-_SCHEMA: Final = b"satcheck-parts-3"
+_SCHEMA: Final = b"satcheck-parts-4"
 
 
 def decompose(
@@ -101,13 +101,14 @@ def _cached(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int, cache: Cache
 ) -> Decomposition:
     key = cache_key(mesh, settings)
-    cached = _load(cache, key, settings)
+    cached = _load(cache, key, mesh, settings, seconds)
     if cached is not None:
         return cached
     result = None
     try:
         with cache.single_flight(key, seconds):
-            cached = _load(cache, key, settings)  # written by the process that held the lock
+            # Written by the process that held the lock.
+            cached = _load(cache, key, mesh, settings, seconds)
             if cached is not None:
                 return cached
             result = _compute(mesh, settings, seconds, megabytes)
@@ -120,19 +121,25 @@ def _cached(
     return replace(result, notes=(*result.notes, note))
 
 
-def _load(cache: Cache, key: bytes, settings: DecompositionSettings) -> Decomposition | None:
+def _load(
+    cache: Cache, key: bytes, mesh: Mesh, settings: DecompositionSettings, seconds: float
+) -> Decomposition | None:
+    """None: there is no entry, or one that is not of this mesh, which is replaced."""
     payload = cache.load(key)
     if payload is None:
         return None
     try:
-        return decode(payload, settings)
-    except ValueError:  # not written by satcheck: counts as missing and is replaced
+        stored = decode(payload)
+    except (ValueError, OverflowError):  # not written by satcheck
         return None
+    from satcheck.decompose.computation import held_against
+
+    return held_against(mesh, stored, settings, seconds)
 
 
 def _compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
-    from satcheck.decompose.computation import compute  # needs numpy; not for cache hits
+    from satcheck.decompose.computation import compute  # needs numpy
 
     return compute(mesh, settings, seconds, megabytes)

@@ -50,10 +50,11 @@ def _inner_part(part: Polytope, solid: Surface, deadline: Deadline) -> Polytope 
 def _largest_inside(region: Mesh, solid: Surface) -> Polytope | None:
     centre = _vertex_mean(region)
     copies = (_scaled(region, centre, factor) for factor in _FACTORS)
-    return next((copy for copy in copies if _is_inside(copy, solid)), None)
+    return next((copy for copy in copies if is_inside(copy, solid)), None)
 
 
-def _is_inside(copy: Polytope, solid: Surface) -> bool:
+def is_inside(copy: Polytope, solid: Surface) -> bool:
+    """Return whether the body is proven to lie strictly inside the solid mesh."""
     if copy.dimension < 3:
         return False
     relation = mesh_relation(solid, Surface(copy.to_mesh(), True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, Final
 
 import msgspec
@@ -59,14 +60,19 @@ class Decomposition(Struct, frozen=True):
         return [trimesh.Trimesh(m.vertices, m.triangles, process=False) for m in meshes]
 
 
-class _Entry(Struct, frozen=True):
-    """The content of a cache entry: everything except `from_cache` and `settings`, which the reader
-    knows."""
+class Stored(Struct, frozen=True):
+    """The content of a cache entry. As anybody may have written it, its reader measures the errors,
+    and checks that the inner parts lie inside."""
 
+    parts: tuple[Polytope, ...]
+    inner: tuple[Polytope | None, ...]
+    seconds: float
+    notes: tuple[Note, ...]
+
+
+class _Entry(Struct, frozen=True):
     parts: tuple[MeshBytes, ...]
     inner: tuple[MeshBytes | None, ...]
-    outside: float
-    missing: float
     seconds: float
     notes: tuple[Note, ...]
 
@@ -75,26 +81,29 @@ def encode(result: Decomposition) -> bytes:
     entry = _Entry(
         parts=tuple(part.to_mesh().to_bytes() for part in result.parts),
         inner=tuple(part.to_mesh().to_bytes() if part else None for part in result.inner),
-        outside=result.outside,
-        missing=result.missing,
         seconds=result.seconds,
         notes=result.notes,
     )
     return msgspec.msgpack.encode(entry)
 
 
-def decode(data: bytes, settings: DecompositionSettings) -> Decomposition:
-    """The inverse of encode(). Raises ValueError for other data."""
+def decode(data: bytes) -> Stored:
+    """Read what encode() wrote: the parts are the hulls of their vertices, whatever these are.
+    Raises ValueError for other data."""
     entry = msgspec.msgpack.decode(data, type=_Entry)
-    if len(entry.inner) != len(entry.parts) or any(not vertices for vertices, _ in entry.parts):
-        raise ValueError("a part is empty, or its inner part is missing")
-    return Decomposition(
-        parts=tuple(Mesh.from_bytes(*part).convex_hull() for part in entry.parts),
-        inner=tuple(part and Mesh.from_bytes(*part).convex_hull() for part in entry.inner),
-        outside=entry.outside,
-        missing=entry.missing,
-        seconds=entry.seconds,
-        from_cache=True,
-        settings=settings,
-        notes=entry.notes,
-    )
+    if not entry.parts or len(entry.inner) != len(entry.parts):
+        raise ValueError("there is no part, or its inner part is missing")
+    if not 0.0 <= entry.seconds < inf:
+        raise ValueError("no such time")
+    parts = tuple(_hull(part) for part in entry.parts)
+    inner = tuple(part and _hull(part) for part in entry.inner)
+    return Stored(parts, inner, entry.seconds, entry.notes)
+
+
+def _hull(part: MeshBytes) -> Polytope:
+    if not part[0]:
+        raise ValueError("a part has no vertex")
+    hull = Mesh.from_bytes(*part).convex_hull()
+    if hull.dimension < 3:
+        raise ValueError("a part is flat")
+    return hull

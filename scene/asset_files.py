@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from fnmatch import fnmatchcase
+from itertools import takewhile
 from pathlib import Path
+from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
 from satcheck.scene.loading.readers import mesh_reader, robots
 from satcheck.scene.loading.regular_file import size_of
@@ -15,21 +19,77 @@ from satcheck.scene.path_kind import exists, is_folder
 # Most JSON and TOML is something else, unless it holds one of these texts.
 _SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
 _PATTERN = frozenset("*?[")
+_DEEP = "**"
 
 
-def asset_files(given: Iterable[str]) -> list[str]:
-    """Expands the given names into a list of asset files, each once. A file stands for itself. A
-    folder stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`)
-    stands for its matches.
+class Assets(NamedTuple):
+    """folders: those that were given, and those that the ** of a pattern stands in. foreign: folder
+    -> its files with geometry that no reader knows. excluded: their number."""
+
+    files: list[str]
+    folders: list[str]
+    foreign: dict[str, list[str]]
+    excluded: int = 0
+
+
+NO_ASSETS = Assets([], [], {})
+
+
+def asset_files(given: Iterable[str], exclude: Sequence[str] = ()) -> Assets:
+    """Expands the given names into asset files, each once. A file stands for itself. A folder
+    stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`) stands
+    for its matches. exclude: patterns of names, or of paths from a folder, that are left out of
+    folders and matches.
 
     In folders, names that begin with a dot are left out, and links to folders are followed. A
     folder that cannot be listed stays in the list, and its reader reports why. Raises
     SatcheckError: `no-assets` if a folder or a pattern has no asset, `bad-pattern`.
     """
     files: dict[str, None] = {}
+    folders: dict[str, None] = {}
+    foreign: dict[str, list[str]] = {}
+    left_out = _LeftOut(exclude)
     for name in given:
-        files |= dict.fromkeys(_meant_by(name))
-    return list(files)
+        if is_folder(name):
+            folders[name] = None
+            unlisted: list[str] = []
+            below = list(left_out.others(_below(name, unlisted), name))
+            assets = sorted([*unlisted, *(path for path in below if _is_asset(Path(path)))])
+            unread = sorted(filter(is_foreign, below))
+            if not assets:
+                raise _no_asset(name, unread)
+            if unread:
+                foreign[name] = unread
+        elif _is_pattern(name):
+            if _DEEP in Path(name).parts:
+                folders[str(Path(*takewhile(_DEEP.__ne__, Path(name).parts)))] = None
+            assets = sorted(left_out.others(_matches(name), ""))
+            if not assets:
+                raise _no_match(name)
+        else:
+            assets = [name]
+        files |= dict.fromkeys(assets)
+    return Assets(list(files), list(folders), foreign, left_out.count)
+
+
+class _LeftOut:
+    """Leaves out the files that match a pattern, or lie in a folder that does, and counts them."""
+
+    def __init__(self, patterns: Sequence[str]) -> None:
+        self._patterns = patterns
+        self.count = 0
+
+    def others(self, paths: Iterable[str], folder: str) -> Iterator[str]:
+        """folder: where paths start; "": they are as they are."""
+        for path in paths:
+            if self._patterns and self._has(Path(path).relative_to(folder)):
+                self.count += 1
+            else:
+                yield path
+
+    def _has(self, path: Path) -> bool:
+        names = {name for each in (path, *path.parents) for name in (each.name, each.as_posix())}
+        return any(fnmatchcase(name, pattern) for pattern in self._patterns for name in names)
 
 
 def content_of(path: Path) -> bytes | None:
@@ -41,21 +101,21 @@ def content_of(path: Path) -> bytes | None:
         return None
 
 
-def _meant_by(name: str) -> list[str]:
-    if is_folder(name):
-        assets = sorted(_below(name))
-    elif _PATTERN.intersection(name) and not exists(name):
-        _refuse_pattern(name)
-        root = Path(name).anchor
-        matches = Path(root).glob(str(Path(name).relative_to(root)))
-        assets = sorted(path.as_posix() for path in matches if path.is_file())
-        if not assets:
-            raise _no_match(name)
-    else:
-        return [name]
-    if not assets:
-        raise SatcheckError("no-assets", f"{name}: it has no mesh, scene or robot")
-    return assets
+def _matches(pattern: str) -> Iterator[str]:
+    _refuse_pattern(pattern)
+    root = Path(pattern).anchor
+    matches = Path(root).glob(str(Path(pattern).relative_to(root)))
+    return (path.as_posix() for path in matches if path.is_file())
+
+
+def _no_asset(folder: str, foreign: Sequence[str]) -> SatcheckError:
+    """To be raised."""
+    others = f", but {len(foreign):,} that no reader knows, as {foreign[0]}" if foreign else ""
+    return SatcheckError("no-assets", f"{folder}: it has no mesh, scene or robot{others}")
+
+
+def _is_pattern(name: str) -> bool:
+    return bool(_PATTERN.intersection(name)) and not exists(name)
 
 
 def _no_match(pattern: str) -> SatcheckError:
@@ -67,18 +127,22 @@ def _no_match(pattern: str) -> SatcheckError:
 
 def _refuse_pattern(name: str) -> None:
     for part in Path(name).parts:
-        if "**" in part and part != "**":
+        if _DEEP in part and part != _DEEP:
             better = name.replace(part, part.replace("**", "**/*", 1), 1)
             raise SatcheckError(
                 "bad-pattern", f"{name}: ** stands for folders, between slashes: write {better}"
             )
 
 
-def _below(folder: str) -> Iterator[str]:
-    """Each folder once, even if links form a cycle."""
-    unlisted: list[str] = []
+def _below(folder: str, unlisted: list[str]) -> Iterator[str]:
+    """All files. Each folder counts once, even if links form a cycle. Those that cannot be listed
+    are added to `unlisted`."""
     visited = set()
-    walk = os.walk(folder, onerror=lambda error: unlisted.append(error.filename), followlinks=True)
+
+    def add(error: OSError) -> None:
+        unlisted.append(Path(error.filename).as_posix())
+
+    walk = os.walk(folder, onerror=add, followlinks=True)
     for parent, folders, names in walk:
         status = Path(parent).stat()
         place = status.st_dev, status.st_ino
@@ -86,8 +150,7 @@ def _below(folder: str) -> Iterator[str]:
         if place not in visited:
             visited.add(place)
             paths = (Path(parent) / name for name in names if not name.startswith("."))
-            yield from (path.as_posix() for path in paths if _is_asset(path))
-    yield from (Path(name).as_posix() for name in unlisted)
+            yield from (path.as_posix() for path in paths)
 
 
 def _is_asset(path: Path) -> bool:

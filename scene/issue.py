@@ -39,6 +39,7 @@ _ALL = (
     Code("worker-crashed", "warning", "The process that worked on it died, time and again."),
     Code("worker-timeout", "warning", "Work on it took longer than the time limit of a scene."),
     Code("worker-out-of-memory", "warning", "Work on it took more memory than the limit."),
+    Code("unread-file", "warning", "No reader knows the format of a file.", blocks=True),
     # Its records.
     Code("truncated", "error", "The file ends before its declared end."),
     Code("trailing-data", "error", "The file continues after its declared end."),
@@ -50,7 +51,11 @@ _ALL = (
     Code("misspelt", "error", "A name resembles one that is read, and is none."),
     Code("reference-cycle", "error", "Nodes or components refer to each other in a cycle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
-    Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
+    Code(
+        "outside-path",
+        "error",
+        "A file that this file refers to lies outside of the permitted folders.",
+    ),
     Code("unknown-part", "error", "The file has no part of this name."),
     Code("missing-extra", "error", "The library that reads the format is not installed."),
     Code("entity-declaration", "error", "XML entity declarations are refused."),
@@ -58,6 +63,7 @@ _ALL = (
     Code("non-finite", "error", "A coordinate is infinite or not a number."),
     Code("out-of-range", "error", "The coordinates are too large or too small to be exact."),
     Code("empty-mesh", "error", "The mesh has no triangles."),
+    Code("no-body", "error", "The file has no geometry that is checked."),
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),

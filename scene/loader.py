@@ -19,6 +19,7 @@ from satcheck.scene.mesh_files import (
     DEFAULT_SECONDS_PER_FILE,
     MeshFiles,
 )
+from satcheck.scene.permitted import ANYWHERE, Permitted
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector
@@ -40,6 +41,7 @@ def load_scene(
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE,
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE,
     packages: Mapping[str, str | Path] | None = None,
+    folders: Sequence[str | Path] = (),
     allow_outside: bool = False,
     hashed: bool = True,
     units: str | None = None,
@@ -68,7 +70,8 @@ def load_scene(
     "components": each edge-connected component of these is a body. None: "nodes" for a single file,
     else "none".
     packages: folders of the packages and models that a robot names, see `robot.MeshPlaces`.
-    allow_outside: a scene, a robot or a glTF file may name files outside of its folder.
+    folders: files in them may name other files in them, and not only in their own folder.
+    allow_outside: a scene, a robot, a USD or glTF file may name files outside of these folders.
     hashed: compute the SHA-256 of each file, which some reports contain.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
@@ -88,12 +91,13 @@ def load_scene(
     given = _as_texts(paths)
     if geometry is not None:
         reading = replace(reading, geometry=geometry)
-    scenes = _read_scenes(given, allow_outside)
+    permitted = Permitted.around(given, folders, anywhere=allow_outside)
+    scenes = _read_scenes(given, permitted)
     reading = reading.beside(_stated_reading(scenes.values()))
     files = MeshFiles(
         seconds_per_file,
         megabytes_per_file,
-        allow_outside=allow_outside,
+        permitted=permitted,
         hashed=hashed,
         known=known,
         options=reading,
@@ -111,7 +115,7 @@ def load_scene(
         if kind == "scene":
             builder.add_scene(scenes[path])
         elif kind == "robot":
-            builder.add_robot(path, Path(path), packages, allow_outside, geometry or "collision")
+            builder.add_robot(path, Path(path), packages, permitted, geometry or "collision")
         elif kind == "srdf":
             builder.add_srdf(path, Path(path))
         elif kind == "document":
@@ -149,14 +153,14 @@ def _unit(name: str) -> str:
     return unit
 
 
-def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFile]:
+def _read_scenes(given: Sequence[str], permitted: Permitted) -> dict[str, SceneFile]:
     """The scene files among the inputs, by their paths. Raises SceneFileError."""
     paths = [path for path in given if kind_of(path) == "scene"]
     if not paths:
         return {}
     from satcheck.scene.format.reading import read_scene_file
 
-    return {path: read_scene_file(path, Path(path), allow_outside=allow_outside) for path in paths}
+    return {path: read_scene_file(path, Path(path), permitted) for path in paths}
 
 
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
@@ -180,7 +184,7 @@ def read_rules(path: str) -> SceneFile:
 def is_rules(path: str) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises SceneFileError."""
-    scene = _read_scenes([path], allow_outside=True).get(path)
+    scene = _read_scenes([path], ANYWHERE).get(path)
     return scene is not None and not scene.bodies
 
 
@@ -189,7 +193,7 @@ def has_only_rules(path: str) -> bool:
     SceneFileError."""
     if _begins_a_body(path):
         return False
-    scene = _read_scenes([path], allow_outside=True).get(path)
+    scene = _read_scenes([path], ANYWHERE).get(path)
     return scene is not None and bool(scene.rules or scene.body_rules) and not scene.bodies
 
 

@@ -24,6 +24,7 @@ from satcheck.scene.loading.readers import RobotFile, reader_of
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import LARGE_FILE_BYTES
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.shape_file import remeshed, shape_file
@@ -52,13 +53,13 @@ class MeshFiles:
         seconds: float = DEFAULT_SECONDS_PER_FILE,
         megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
         *,
-        allow_outside: bool = False,
+        permitted: Permitted = NOTHING_ELSE,
         hashed: bool = True,
         known: KnownMeshes | None = None,
         options: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
     ) -> None:
         self._known = known
-        self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed, options)
+        self._limits = ReadLimits(seconds, megabytes, permitted, hashed, options)
         self._children = ReadingChildren(megabytes)
         self._places: dict[Path, Path] = {}
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}

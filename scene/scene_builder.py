@@ -28,6 +28,7 @@ from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.planar.outline import Shape
 from satcheck.scene.read_options import GeometryKind, ReadOptions
@@ -194,7 +195,7 @@ class SceneBuilder:
         path: str,
         location: Path,
         packages: Mapping[str, str | Path] | None,
-        allow_outside: bool,
+        permitted: Permitted,
         geometry: GeometryKind,
     ) -> None:
         from satcheck.scene.robot import (
@@ -205,7 +206,7 @@ class SceneBuilder:
             parts_of,
         )
 
-        places = FilePlaces(path, packages, allow_outside=allow_outside)
+        places = FilePlaces(path, packages, permitted)
         hulls = bool(self._reading.mesh_hulls)
         robot, issues = self._files.robot(path, location, places, packages, geometry, hulls=hulls)
         self._names.append(robot.name)

@@ -18,6 +18,7 @@ from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
@@ -114,7 +115,8 @@ class Bodies:
         reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
     ) -> None:
         self._root, self._allow_open = root, allow_open
-        self._files = MeshFiles(allow_outside=allow_outside, options=reading)
+        permitted = Permitted(anywhere=allow_outside)
+        self._files = MeshFiles(permitted=permitted, options=reading)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:

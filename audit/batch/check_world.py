@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -16,8 +17,19 @@ from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import Report
 from satcheck.scene import Scene
+from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.path_kind import exists, is_folder
+
+
+def foreign_worlds(files: Mapping[str, Sequence[str]]) -> list[World]:
+    """Return a world for each folder that has files which no reader knows: the folder, and these.
+    Its check says that they are not read."""
+    return [(folder, *names) for folder, names in files.items() if names]
+
+
+def _is_foreign(world: World) -> bool:
+    return len(world) > 1 and is_folder(world[0]) and all(map(is_foreign, world[1:]))
 
 
 def check_world(
@@ -49,17 +61,31 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
 
 
 # Why a file that is as it should be has no body that can collide.
-_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out")
+_NO_BODY = "no-body"
+_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out", _NO_BODY)
 
 
 def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:
+    if _is_foreign(world):
+        return foreign_scene(world[0], world[1:])
     _refuse_folder(world[0])
-    scene = options.load(world, hashed=hashed, known=known)
+    scene = _without_libraries(world[0], options.load(world, hashed=hashed, known=known))
     is_explained = any(issue.code in _WITHOUT_BODIES for issue in scene.issues)
     if not scene.bodies and not scene.unreadable and not is_explained:
         reason = "there is no body: give a file of rules as --rules FILE"
         raise SatcheckError("too-few-bodies", reason, file=world[0])
     return scene
+
+
+def _without_libraries(file: str, scene: Scene) -> Scene:
+    """A file of materials or other things without geometry is no fault among other assets."""
+    lost = scene.unreadable
+    if scene.bodies or any(each.issue.code != _NO_BODY or each.file != file for each in lost):
+        return scene
+    issues = (
+        replace(each, severity="note") if each.code == _NO_BODY else each for each in scene.issues
+    )
+    return replace(scene, unreadable=(), order=(), issues=tuple(issues))
 
 
 def _refuse_folder(name: str) -> None:

@@ -134,7 +134,12 @@ class _Tasks:
 
 def _folder(worlds: Sequence[World], options: CheckOptions) -> str | None:
     """The working directory, if a name is relative to it: workers need to have it, too."""
-    shared = (*options.rules, *(options.packages or {}).values(), *filter(None, [options.baseline]))
+    shared = (
+        *options.rules,
+        *options.folders,
+        *(options.packages or {}).values(),
+        *filter(None, [options.baseline]),
+    )
     names = chain(chain.from_iterable(worlds), shared)
     everywhere = all(is_url(name) or Path(name).is_absolute() for name in names)
     return None if everywhere else str(Path.cwd())

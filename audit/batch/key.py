@@ -7,7 +7,7 @@ import json
 import os
 import stat
 from collections import OrderedDict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +20,7 @@ from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.limits import Limits
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.search_path import search_path
 
 _MOST_DIGESTS = 5_000
@@ -96,19 +97,22 @@ def key_of(
     world: World,
     terms: str,
     inputs: tuple[InputFile, ...],
+    folders: Sequence[str] = (),
     real_path: Callable[[str], str] = real_path,
 ) -> str:
-    """terms: of the options, see `terms_of`. Where a file really lies counts: the names of packages
-    and bodies, and what a scene may read, depend on it."""
+    """terms: of the options, see `terms_of`. folders: that the user gave. Where a file really lies
+    counts: the names of packages and bodies, and what a scene may read, depend on it."""
     files = [(each.path, real_path(each.path), each.sha256) for each in inputs]
-    return _sha256(json.dumps([terms, world, files]))
+    around = Permitted.around(world, folders).folders
+    return _sha256(json.dumps([terms, world, files, around]))
 
 
 def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:
-    """A digest of what else the answers depend on, the same for all worlds of a batch. limits: of
+    """A digest of what else the answers depend on, the same for all worlds of a batch, without the
+    folders. limits: of
     answers without the steps that ended a process, as such a step may need more than these."""
     settings = {k: v for k, v in options.settings.items() if k not in _WITHOUT_EFFECT}
-    stated = to_builtins(replace(options, settings=settings))
+    stated = to_builtins(replace(options, settings=settings, folders=()))
     return _sha256(
         json.dumps([__version__, stated, search_path(), to_builtins(limits)], sort_keys=True)
     )

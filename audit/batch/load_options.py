@@ -19,6 +19,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
     split: Split | None = None
     packages: Mapping[str, str] | None = None
     geometry: GeometryKind | None = None
+    folders: tuple[str, ...] = ()
     allow_outside: bool = False
     units: str | None = None
     rules: tuple[str, ...] = ()
@@ -36,6 +37,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             split=self.split,
             packages=self.packages,
             geometry=self.geometry,
+            folders=self.folders,
             allow_outside=self.allow_outside,
             units=self.units,
             hashed=hashed,

@@ -82,6 +82,6 @@ def _validity(options: CheckOptions, limits: Limits) -> Callable[[Head], bool]:
 
     def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        return head.key in [key_of(head.files, each, inputs) for each in terms]
+        return head.key in [key_of(head.files, each, inputs, options.folders) for each in terms]
 
     return valid

@@ -139,7 +139,9 @@ def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | No
         return _remote_answer(world, options, terms, copy=copy)
     checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
-    return answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
+    return answer(
+        _result(world, checked, inputs, _key(world, terms, inputs, options, checked, files))
+    )
 
 
 def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) -> Answer:
@@ -148,7 +150,9 @@ def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) 
     except SatcheckError as error:  # of the fetch: the next run tries again
         return answer(_result(world, unreadable_asset(world[0], error), (), None))
     inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
-    made = answer(_result(world, checked, inputs, _key(world, terms, inputs, checked, files)))
+    made = answer(
+        _result(world, checked, inputs, _key(world, terms, inputs, options, checked, files))
+    )
     return replace(made, line=copy.with_urls(made.line))
 
 
@@ -173,13 +177,18 @@ def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
 
 
 def _key(
-    world: World, terms: str, inputs: tuple[InputFile, ...], checked: Asset, files: FilesRead
+    world: World,
+    terms: str,
+    inputs: tuple[InputFile, ...],
+    options: CheckOptions,
+    checked: Asset,
+    files: FilesRead,
 ) -> str | None:
     """None: the next run checks the world again."""
     lacking = any(issue.code == _NOT_INSTALLED for issue in checked.report.issues)
     if lacking or not files.are_certain():
         return None
-    return key_of(world, terms, inputs, _digests.real_path)
+    return key_of(world, terms, inputs, options.folders, _digests.real_path)
 
 
 def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:

@@ -141,6 +141,9 @@ def _files_of(path: Path) -> Iterator[Path]:
 
 
 def _named(world: World) -> str:
+    folder, *files = world
+    if files and all(Path(name).is_relative_to(folder) for name in files):
+        return folder  # with files in it that no reader knows
     return ", ".join(world)
 
 

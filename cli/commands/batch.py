@@ -15,6 +15,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.remote_world import is_remote
@@ -25,18 +26,19 @@ from satcheck.audit.batch.slot_server import Answer
 from satcheck.audit.batch.spool import Spool
 from satcheck.audit.batch.urls import is_url, matches
 from satcheck.cli import exit_codes
-from satcheck.cli.asset_names import asset_names
+from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
+from satcheck.cli.options import exclude_option, limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.plugins import function_at
 
 # What is about one world, or about one report.
@@ -101,6 +103,7 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
+@exclude_option
 @limits_of_worlds("a scene")
 @options_of(check_command, but=_NOT_HERE)
 def command(
@@ -129,7 +132,12 @@ def command(
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
-    worlds = _worlds(inputs, manifest, shard)
+    local = tuple(name for name in inputs.paths if not is_url(name))
+    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
+    foreign = foreign_worlds(assets.foreign)
+    worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
+    tell_foreign(set(worlds).intersection(foreign))
+    inputs = replace(inputs, folders=tuple(assets.folders))
     _refuse(worlds, inputs, output, baseline)
     config = stated_config(click.get_current_context())
     terms = check_options(inputs, options, baseline, config)
@@ -196,12 +204,14 @@ def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
         yield spool.path, spool.upload_part
 
 
-def _worlds(inputs: Inputs, manifest: str | None, shard: Shard) -> Sequence[World]:
-    """Those of the shard, each once. click.UsageError if there is none in any shard."""
+def _worlds(
+    near: Sequence[World], inputs: Inputs, manifest: str | None, shard: Shard
+) -> Sequence[World]:
+    """Those of the shard, each once. near: on this machine. click.UsageError if there is none in
+    any shard."""
     remote = [name for name in inputs.paths if is_url(name)]
-    near = replace(inputs, paths=tuple(name for name in inputs.paths if not is_url(name)))
     named: Iterator[World] = chain(
-        ((name,) for name in (asset_names(near) if near.paths else ())),
+        near,
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )

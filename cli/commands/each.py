@@ -7,16 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
+from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.limits import Limits
-from satcheck.cli.asset_names import asset_names
+from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import limits_of_worlds, options_of, paths_argument
+from satcheck.cli.options import exclude_option, limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worlds import check_worlds
@@ -45,6 +47,7 @@ _NOT_HERE = (
     metavar="REV",
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
+@exclude_option
 @format_option(REPORTS)
 @limits_of_worlds("an asset")
 @options_of(check_command, but=(*_NOT_HERE, "version"))
@@ -78,14 +81,23 @@ def command(
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
     config = stated_config(click.get_current_context())
-    files = asset_names(inputs)
+    assets = asset_names(inputs)
+    files, inputs = assets.files, replace(inputs, folders=tuple(assets.folders))
+    foreign = foreign_worlds(assets.foreign)
     refuse_early(Inputs(paths=tuple(files)), output)
     if changed_since is not None:
         shared = [*inputs.rules, *filter(None, [baseline])]
         shared += [Path(config.file)] if config else []
-        files = _changed(changed_since, files, shared)
+        unread = [name for _, *names in foreign for name in names]
+        kept = set(_changed(changed_since, [*files, *unread], shared))
+        files = [file for file in files if file in kept]
+        foreign = foreign_worlds(
+            {folder: [name for name in names if name in kept] for folder, *names in foreign}
+        )
+    if not quiet:
+        tell_foreign(foreign)
     return check_worlds(
-        [(file,) for file in files],
+        [*((file,) for file in files), *foreign],
         inputs,
         options,
         baseline,

@@ -29,7 +29,7 @@ _LIMITS = frozenset(
 _DECIDING = (
     *("tolerance", "surface-tolerance", "chord-tolerance", "angular-tolerance", "clearance"),
     *("accuracy", "fail-on", "allow-open", "accept", "rules", "between", "baseline", "never"),
-    *("units", "geometry", "planar", "pose", "state"),
+    *("units", "geometry", "planar", "pose", "state", "exclude"),
 )
 
 

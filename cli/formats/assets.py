@@ -15,6 +15,7 @@ from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.overview import NAMED
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.report.report import NOTHING_TO_CHECK
+from satcheck.scene.path_kind import is_folder
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.ci.problems import Problem
@@ -80,6 +81,7 @@ def _by_rules(seen: Overview) -> list[str]:
 def _next_step(seen: Overview) -> list[str]:
     failing = seen.named.get("fail", [])[:1]
     unsure = [] if failing else seen.named.get("incomplete", [])[:1]
+    unsure = [file for file in unsure if not is_folder(file)]  # of files that no check reads
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "report":
         steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from satcheck.plugins.ifc.attributes import refuse_other_kinds
 from satcheck.plugins.ifc.kernel_log import Message, logged, start_log
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
@@ -48,6 +49,7 @@ def open_model(data: memoryview) -> Any:
     except RuntimeError as error:
         raise _unopened(list(logged()), str(error)) from None
     _refuse_damage(model, logged())
+    refuse_other_kinds(model)
     _refuse_without_unit(model)
     _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):

@@ -29,7 +29,7 @@ def read_mjcf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]
         message = f"MuJoCo reads files that end in {ENDING}: rename it"
         raise MeshFileError("unsupported-format", message, file=path)
     packages = {name: str(place) for name, place in file.packages.items()}
-    model = _asked(Request(path, packages, file.allowed.allow_outside), file)
+    model = _asked(Request(path, packages, file.allowed.permitted), file)
     return robot_of_model(path, model, file.geometry, hulls=file.hulls)
 
 

@@ -33,7 +33,7 @@ def own_meshes(file: File) -> RawScene:
     if not is_robot(file.location):
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"
         raise MeshFileError("unsupported-format", message)
-    read = _compiled(Request(str(file.location), {}, file.allow_outside))
+    read = _compiled(Request(str(file.location), {}, file.permitted))
     from satcheck.plugins.mjcf.contents import own_meshes_of
 
     return own_meshes_of(read)

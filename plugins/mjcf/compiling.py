@@ -52,7 +52,7 @@ class Compiled(NamedTuple):
 def compiled(request: Request) -> Compiled:
     """Raises SceneFileError."""
     path = request.path
-    places = FilePlaces(path, request.packages, allow_outside=request.allow_outside)
+    places = FilePlaces(path, request.packages, request.permitted)
     models = ModelFiles(path, places).models
     try:
         return _compiled(path, places, models)

@@ -13,16 +13,17 @@ from msgspec import Struct
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.permitted import Permitted
 
 Quaternion = tuple[float, float, float, float]
 
 
 class Request(Struct, frozen=True):
-    """path: of the file, as given. packages, allow_outside: as for `FilePlaces`."""
+    """path: of the file, as given. packages, permitted: as for `FilePlaces`."""
 
     path: str
     packages: dict[str, str]
-    allow_outside: bool
+    permitted: Permitted
 
 
 class Place(Struct, frozen=True):

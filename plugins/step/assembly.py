@@ -35,6 +35,7 @@ from satcheck.scene.loading.gltf_nodes import placement_of
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.readers import File
+from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
@@ -92,7 +93,7 @@ class _Assembly:
         options: ReadOptions,
     ) -> None:
         work = Work(isolated=True)
-        views = BufferViews(document, chunk, "", work, allow_outside=False)
+        views = BufferViews(document, chunk, "", work, NOTHING_ELSE)
         self._accessors = Accessors(document, views, work)
         self._meshes = Meshes(document, self._accessors, work)
         self._document = document

@@ -6,7 +6,7 @@ in memory stands in for each file outside. The stage then uses that, and is refu
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +14,15 @@ from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.path_kind import followed
+from satcheck.scene.permitted import Permitted
 
 
 class Closed:
-    """folders: files in them may be read. Holds the layers that stand in for others."""
+    """own: the folder of the file. Holds the layers that stand in for those outside."""
 
-    def __init__(self, folders: Sequence[Path]) -> None:
-        self._folders = [followed(folder) for folder in folders]
+    def __init__(self, permitted: Permitted, own: Path) -> None:
+        self._permitted = permitted
+        self._own = followed(own)
         self._stand_ins: dict[str, Any] = {}
 
     def close(self, root: Any) -> None:
@@ -40,25 +42,20 @@ class Closed:
                     waiting.append(inner)
             for place in _clips_of(layer):
                 if not self.permits(place):
-                    raise refusal(place)
+                    raise self.refusal(place)
 
     def permits(self, place: str) -> bool:
-        """Whether the file lies in one of the folders."""
-        path = followed(Path(_file_of(place)))
-        return any(path.is_relative_to(folder) for folder in self._folders)
+        return self._permitted.has(Path(_file_of(place)), self._own)
+
+    def refusal(self, place: str) -> MeshFileError:
+        where = self._permitted.beyond("the file's directory")
+        message = f"layer {place!r} lies {where}: refused (allow it with --allow-outside)"
+        return MeshFileError("outside-path", message)
 
     def _stand_in(self, place: str) -> None:
         if Path(_file_of(place)).exists():
             text = Sdf.FileFormat.FindById("usda")
             self._stand_ins[place] = Sdf.Layer.New(text, place)
-
-
-def refusal(place: str) -> MeshFileError:
-    message = (
-        f"layer {place!r} lies outside the file's directory: refused (allow it with "
-        "--allow-outside)"
-    )
-    return MeshFileError("outside-path", message)
 
 
 def _file_of(place: str) -> str:

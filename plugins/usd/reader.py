@@ -16,7 +16,7 @@ def read_usd(file: File) -> RawScene:
     os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
     tf = imported("pxr.Tf", "usd", "USD files")
     try:
-        stage = open_stage(file.location, allow_outside=file.allow_outside)
+        stage = open_stage(file.location, file.permitted)
         from satcheck.plugins.usd.reading import read_scene  # imports usd-core
 
         return read_scene(stage, file.options)

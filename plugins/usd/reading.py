@@ -31,6 +31,7 @@ from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_exten
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.read_options import ReadOptions
 
@@ -72,7 +73,9 @@ class _Reading:
         )
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
-            raise MeshFileError("empty-mesh", f"the stage has no body. {reasons}".strip())
+            is_explained = all(CODES[code].severity == "note" for code, _ in warnings)
+            code = "no-body" if is_explained else "empty-mesh"
+            raise MeshFileError(code, f"the stage has no body. {reasons}".strip())
         said = Remarks()
         physics = with_physics(self._stage.stage, self._nodes, self._placed, said)
         joints = Joints(self._stage, self._choice.time, said).of(physics.joints)

@@ -14,6 +14,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
@@ -55,23 +56,22 @@ class Stage(Struct, frozen=True):
         return (*scaled, *columns[3])
 
 
-def open_stage(location: Path, *, allow_outside: bool) -> Stage:
-    """allow_outside: layers may lie outside of the folder of the file. Raises MeshFileError, and
-    what the library raises."""
+def open_stage(location: Path, permitted: Permitted) -> Stage:
+    """permitted: where its layers may lie. Raises MeshFileError, and what the library raises."""
     from pxr import Sdf, Usd, UsdGeom
 
-    from satcheck.plugins.usd.outside import Closed, refusal
+    from satcheck.plugins.usd.outside import Closed
 
-    closed = Closed([location.parent])
+    closed = Closed(permitted, location.parent)
     root = Sdf.Layer.FindOrOpen(str(location))
-    if root is not None and not allow_outside:
+    if root is not None and not permitted.anywhere:
         closed.close(root)
     stage = Usd.Stage.Open(root or str(location))
     layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
     _note_files(layers)
     for layer in layers:
-        if not (allow_outside or closed.permits(layer.identifier)):
-            raise refusal(layer.identifier)
+        if not closed.permits(layer.identifier):
+            raise closed.refusal(layer.identifier)
     lost, warnings = _composition_errors(stage)
     lost |= _lost_clips(stage)
     unit, scale = _unit(stage, warnings)

@@ -117,6 +117,10 @@ class _Look:
             own.refuse_misspelt(plain, path)
             if prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdGeom.PointInstancer):
                 self._unread(own, [name for name in plain if name not in custom], path, prim)
+            elif prim.IsA(UsdGeom.Imageable):
+                for name in _OF_GEOMETRY.intersection(plain):
+                    kind = prim.GetTypeName()
+                    self._said.add("unread", f"{name}: a prim of the type {kind} has none", path)
         self._physics.refuse_misspelt(physics, path)
         if prim.IsA(UsdGeom.Gprim):
             names.PRIMVARS.refuse_misspelt(primvars, path)

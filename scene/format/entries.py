@@ -14,6 +14,7 @@ from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import mesh_reader, readers
 from satcheck.scene.path_kind import followed, is_file
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
 
@@ -79,14 +80,14 @@ class MeshPlaces:
     """Finds the mesh files of one scene file.
 
     Each is checked once, even if many bodies use it. path: of the scene file, for messages;
-    location: on disk. anywhere: meshes may lie outside of its folder. Links are resolved before
-    this is decided.
+    location: on disk. permitted: where meshes may lie beside its folder.
     """
 
-    def __init__(self, path: str, location: Path, *, anywhere: bool) -> None:
+    def __init__(self, path: str, location: Path, permitted: Permitted) -> None:
         self._above = Path(path).parent
         self._folder = location.parent
-        self._root = None if anywhere else followed(self._folder)
+        self._own = followed(self._folder)
+        self._permitted = permitted
         self._known: dict[str, MeshPath | Wrong] = {}
 
     def find(self, mesh: str) -> MeshPath:
@@ -110,10 +111,10 @@ class MeshPlaces:
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
         note(location)
-        if self._root is not None and not followed(location).is_relative_to(self._root):
+        if not self._permitted.has(location, self._own):
+            where = self._permitted.beyond("of the scene's folder")
             message = (
-                f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "
-                "(allow it with --allow-outside)"
+                f"mesh file {shown(mesh)} lies {where}: refused (allow it with --allow-outside)"
             )
             raise Wrong(message, "mesh", code="outside-path")
         if not is_file(location):

@@ -28,6 +28,7 @@ from satcheck.scene.format.form import Problems, Wrong, converted, shown
 from satcheck.scene.format.placement import motion_of, placement, selector
 from satcheck.scene.format.text import Parsed, is_toml, parse
 from satcheck.scene.motion import Motion
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.rules import LENGTHS, Rule
 from satcheck.scene.statics import BodyRule, StaticsTerms
 from satcheck.scene.units import MICROMETRES, parse_length, unit_of
@@ -37,18 +38,18 @@ from satcheck.scene.words import meant
 _INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
 
-def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -> SceneFile:
+def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     """Reads and checks a scene file. One with rules and without bodies is a file of rules.
 
-    path: for messages; location: where it lies. allow_outside: a scene of the form satcheck.scene/1
-    may name meshes outside of its folder. Raises SceneFileError.
+    path: for messages; location: where it lies. permitted: where the meshes of a scene of the form
+    satcheck.scene/1 may lie. Raises SceneFileError.
     """
     parsed = parse(path, location)
     schema = _schema_of(parsed)
     if schema in (None, SCENE_1) and _has_only_rules(parsed.document):
         return _read_rules(parsed)
     if schema == SCENE_1:
-        return _read(parsed, parsed.document, Problems(parsed), allow_outside)
+        return _read(parsed, parsed.document, Problems(parsed), permitted)
     if schema == simple.SIMPLE and not is_toml(location):
         return simple.read_scene(parsed)
     raise _not_a_scene(path, schema)
@@ -90,11 +91,11 @@ def _read_rules(parsed: Parsed) -> SceneFile:
     if "rules" not in values:
         problems.add(Wrong('"rules" is missing'))
     stated = {key: values[key] for key in ("units", "rules", "statics", "accept") if key in values}
-    return _read(parsed, stated | {"schema": SCENE_1, "bodies": []}, problems, False)
+    return _read(parsed, stated | {"schema": SCENE_1, "bodies": []}, problems, NOTHING_ELSE)
 
 
 def _read(
-    parsed: Parsed, values: dict[str, Any], problems: Problems, allow_outside: bool
+    parsed: Parsed, values: dict[str, Any], problems: Problems, permitted: Permitted
 ) -> SceneFile:
     """The inner tables are read one by one, so that an error in one does not hide those of others.
 
@@ -107,7 +108,7 @@ def _read(
     with problems.at():
         top = converted(outer, document.Scene)
 
-    places = MeshPlaces(path, parsed.location, anywhere=allow_outside)
+    places = MeshPlaces(path, parsed.location, permitted)
     bodies: list[BodyEntry] = []
     ids: set[str] = set()
     for k, table in enumerate(inner.get("bodies", ())):

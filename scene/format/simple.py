@@ -30,6 +30,7 @@ from satcheck.scene.format.form import Problems, Table, Wrong, converted
 from satcheck.scene.format.placement import matrix
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.words import meant
 
@@ -74,7 +75,7 @@ def read_scene(parsed: Parsed) -> SceneFile:
     outer = {"bodies": [], **values, **{key: [] for key in inner}}
     with problems.at():
         top = converted(outer, Scene)
-    places = MeshPlaces(path, parsed.location, anywhere=True)
+    places = MeshPlaces(path, parsed.location, ANYWHERE)
     bodies: list[BodyEntry] = []
     ids: set[str] = set()
     for k, table in enumerate(inner.get("bodies", ())):

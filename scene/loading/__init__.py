@@ -20,6 +20,7 @@ from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
 from satcheck.scene.loading.readers import File, NeedsChild, Reader, reader_named
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.resolution import far_vertex, file_resolution, placement_step
 
@@ -27,13 +28,13 @@ from satcheck.scene.resolution import far_vertex, file_resolution, placement_ste
 class ReadLimits(Struct, frozen=True):
     """Limits and options for reading one file.
 
-    The file itself may have a quarter of the megabytes. allow_outside: whether the files that it
-    refers to may lie outside of its folder. hashed: whether its SHA-256 is needed.
+    The file itself may have a quarter of the megabytes. permitted: where the files may lie that it
+    refers to. hashed: whether its SHA-256 is needed.
     """
 
     seconds: float
     megabytes: int
-    allow_outside: bool = False
+    permitted: Permitted = NOTHING_ELSE
     hashed: bool = True
     options: ReadOptions = ReadOptions()
 
@@ -84,7 +85,7 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
         source.size,
         allowed.options,
         flat,
-        allowed.allow_outside,
+        allowed.permitted,
     )
     if source.size <= reader.here:
         with suppress(NeedsChild):

@@ -7,7 +7,9 @@ and msgspec checks their types.
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from typing import Self
 
 import msgspec
 from msgspec.structs import replace
@@ -21,6 +23,7 @@ from satcheck.scene.loading import ReadLimits, read_with
 from satcheck.scene.loading.raw_mesh import RawScene, Refusal
 from satcheck.scene.loading.readers import File, reader_of
 from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.permitted import ANYWHERE, NOTHING_ELSE, Permitted
 
 _LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
@@ -29,11 +32,39 @@ _CODE_OF_WORKER = {
 }
 
 
+class Request(msgspec.Struct, frozen=True):
+    """A file to read, without its names: these are bytes, as those of some files are no UTF-8.
+
+    folders: that the file may name files in, beside its own; None: all.
+    """
+
+    directory: bytes
+    name: bytes
+    folders: tuple[bytes, ...] | None
+    file: File
+
+    @classmethod
+    def about(cls, file: File, directory: str) -> Self:
+        """directory: of the file, absolute."""
+        may = file.permitted
+        folders = None if may.anywhere else tuple(map(os.fsencode, may.folders))
+        names = os.fsencode(directory), os.fsencode(file.name)
+        blank = replace(file, directory="", name="", permitted=NOTHING_ELSE, isolated=True)
+        return cls(*names, folders, blank)
+
+    def named(self) -> File:
+        """Return the file with its names."""
+        folders = self.folders
+        may = ANYWHERE if folders is None else Permitted(tuple(map(os.fsdecode, folders)))
+        directory, name = os.fsdecode(self.directory), os.fsdecode(self.name)
+        return replace(self.file, directory=directory, name=name, permitted=may)
+
+
 class Reply(msgspec.Struct, frozen=True):
     """files: those that the file refers to, read or looked for."""
 
     content: RawScene | Refusal
-    files: tuple[str, ...]
+    files: tuple[bytes, ...]
 
 
 def read_in_child(
@@ -42,8 +73,7 @@ def read_in_child(
     """Return the meshes of a file. path: its name in messages. Raises MeshFileError."""
     folder = Path(file.directory)
     directory = str(folder.absolute())
-    file = replace(file, directory=directory, isolated=True)
-    request = msgspec.msgpack.encode(file)
+    request = msgspec.msgpack.encode(Request.about(file, directory))
     try:
         reply = children.ask(__name__, request, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply)
@@ -54,7 +84,7 @@ def read_in_child(
         message = "the reader's answer is damaged"
         raise MeshFileError("reader-failed", message, file=path) from None
     for name in answer.files:
-        note(_as_given(Path(name), directory, folder))
+        note(_as_given(Path(os.fsdecode(name)), directory, folder))
     content = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
@@ -63,7 +93,7 @@ def read_in_child(
 
 
 def _as_given(file: Path, directory: str, folder: Path) -> Path:
-    """The file by the path of its folder as given; with allow_outside it may lie elsewhere."""
+    """The file by the path of its folder as given; it may lie elsewhere."""
     return folder / file.relative_to(directory) if file.is_relative_to(directory) else file
 
 
@@ -96,10 +126,10 @@ def _one_line(text: str) -> str:
 
 def serve(message: bytes) -> bytes:
     """Runs in the child process. The answer may be a Refusal."""
-    file = msgspec.msgpack.decode(message, type=File)
+    file = msgspec.msgpack.decode(message, type=Request).named()
     with files_read() as files:
         content = _content(file)
-    return msgspec.msgpack.encode(Reply(content, tuple(files)))
+    return msgspec.msgpack.encode(Reply(content, tuple(map(os.fsencode, files))))
 
 
 def _content(file: File) -> RawScene | Refusal:

@@ -67,7 +67,7 @@ def read_gltf(file: File) -> RawScene:
     _check_extensions(document)
     look_at(document, unknown)
     work = Work(isolated=file.isolated)
-    views = BufferViews(document, chunk, file.directory, work, allow_outside=file.allow_outside)
+    views = BufferViews(document, chunk, file.directory, work, file.permitted)
     accessors = Accessors(document, views, work)
     meshes = Meshes(document, accessors, work)
     graph = NodeGraph(document, work)

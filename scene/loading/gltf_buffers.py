@@ -12,6 +12,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_vocabulary import MESHOPT
 from satcheck.scene.loading.readers import NeedsChild
 from satcheck.scene.path_kind import followed, is_file
+from satcheck.scene.permitted import Permitted
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
 _CHUNK_HEADER = 8  # length, type
@@ -126,15 +127,14 @@ class BufferViews:
         chunk: memoryview | None,
         directory: str,
         work: Work,
-        *,
-        allow_outside: bool,
+        permitted: Permitted,
     ) -> None:
         self._work = work
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")
         self._chunk = chunk
         self._directory = directory
-        self._allow_outside = allow_outside
+        self._permitted = permitted
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._unpacked_bytes = 0
@@ -248,10 +248,10 @@ class BufferViews:
             raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
         note(Path(self._directory) / name)
         path = followed(root / name)
-        if not self._allow_outside and not path.is_relative_to(root):
-            raise MeshFileError(
-                "outside-path", f"buffer {name!r} lies outside the file's directory: refused"
-            )
+        if not self._permitted.has(path, root):
+            where = self._permitted.beyond("the file's directory")
+            message = f"buffer {name!r} lies {where}: refused (allow it with --allow-outside)"
+            raise MeshFileError("outside-path", message)
         if not is_file(path):
             raise MeshFileError("missing-resource", f"missing buffer file {name!r}")
         try:

@@ -16,6 +16,7 @@ from msgspec import Struct
 
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Block, RawScene
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.plugins import function_at, others, own
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 
@@ -36,8 +37,8 @@ class File(Struct, frozen=True):
 
     directory: that its references are relative to. name: in the directory. data: its bytes; of a
     large binary STL file and of a format that is `by_name`, less or none. size: in bytes.
-    flat: one mesh for the whole file is wanted. allow_outside: what it names may lie outside of the
-    directory. isolated: this process may crash.
+    flat: one mesh for the whole file is wanted. permitted: where what it
+    names may lie, beside the directory. isolated: this process may crash.
     """
 
     format: str
@@ -47,7 +48,7 @@ class File(Struct, frozen=True):
     size: int
     options: ReadOptions = ReadOptions()
     flat: bool = False
-    allow_outside: bool = False
+    permitted: Permitted = NOTHING_ELSE
     isolated: bool = False
 
     @property

@@ -2,7 +2,7 @@
 paths.
 
 A robot file is untrusted. Only files in its package, or in a folder that the user named, are
-opened. Other files need `allow_outside`.
+opened. Other files need `Permitted.anywhere`.
 
 The package of a file is the nearest parent folder with a package.xml (or Gazebo's model.config).
 Without one it is the parent of the file's folder, because most repositories have robot/urdf and
@@ -23,6 +23,7 @@ from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.path_kind import followed, is_file, is_folder
+from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.search_path import folders_of_environment
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
@@ -49,14 +50,14 @@ class MeshPlaces:
         self,
         file: str,
         packages: Mapping[str, str | Path] | None = None,
+        permitted: Permitted = NOTHING_ELSE,
         *,
-        allow_outside: bool = False,
         included_by: MeshPlaces | None = None,
     ) -> None:
         self._included_by = included_by
         self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
-        self._allow_outside = allow_outside
+        self._permitted = permitted
         self._root = self._upwards(self._steps_to_root())
         self._own = followed(self._root)
 
@@ -150,7 +151,7 @@ class MeshPlaces:
             folder = self._packages.get("/".join(parts[:length]))
             if folder is not None:
                 inside = "/".join(parts[length:])
-                if not self._allow_outside and not _within(folder / inside, followed(folder)):
+                if not self._permitted.has(folder / inside, followed(folder)):
                     raise MeshFileError("outside-path", f"the path leaves {folder}: refused")
                 return _existing(folder, inside, models, quoted=True)
         return None
@@ -191,28 +192,27 @@ class MeshPlaces:
         return _tidy(self._folder.joinpath(*[".."] * steps))
 
     def _may_open(self, place: Path) -> bool:
-        if self._allow_outside or _within(place, self._own):
+        if self._permitted.has(place, self._own):
             return True
         return self._included_by is not None and self._included_by._may_open(place)
 
     def _outside(self) -> str:
-        return f"outside of {self._own}, where the package of the file is"
+        return self._permitted.beyond(f"of {self._own}, where the package of the file is")
 
 
 class FilePlaces:
     """The MeshPlaces of a file and of the files that it includes. All of these may open what the
-    first file may open. packages, allow_outside: as for MeshPlaces."""
+    first file may open. packages, permitted: as for MeshPlaces."""
 
     def __init__(
         self,
         first: str,
         packages: Mapping[str, str | Path] | None = None,
-        *,
-        allow_outside: bool = False,
+        permitted: Permitted = NOTHING_ELSE,
     ) -> None:
         self._packages = packages
-        self._allow_outside = allow_outside
-        self._first = MeshPlaces(first, packages, allow_outside=allow_outside)
+        self._permitted = permitted
+        self._first = MeshPlaces(first, packages, permitted)
         self._places = {first: self._first}
 
     def of(self, file: str) -> MeshPlaces:
@@ -220,7 +220,7 @@ class FilePlaces:
             self._places[file] = MeshPlaces(
                 file,
                 self._packages,
-                allow_outside=self._allow_outside,
+                self._permitted,
                 included_by=self._first,
             )
         return self._places[file]

@@ -63,6 +63,114 @@ def test_patterns_and_names_from_standard_input(assets: Path) -> None:
     assert verdicts(named.out) == {"gripper.glb": "fail"}
 
 
+@pytest.fixture
+def foreign(assets: Path) -> Path:
+    """A folder with a mesh, with files that no reader knows, and with others that are no meshes."""
+    folder = assets / "props"
+    (folder / "source").mkdir()
+    for name in ("chair.FBX", "source/a b.blend", "paint.png", "notes.txt"):
+        (folder / name).touch()
+    return folder
+
+
+def test_files_that_no_reader_knows_block_a_pass(foreign: Path) -> None:
+    names = ["chair.FBX", "source/a b.blend"]
+    ran = satcheck("each", "props", "--format", "json", cwd=foreign.parent)
+    assert (ran.code, verdicts(ran.out)) == (3, {"box.obj": "pass", "props": "incomplete"})
+    (asset,) = (each for each in json.loads(ran.out)["assets"] if each["file"] == "props")
+    issues = [issue for issue in asset["report"]["issues"] if issue["code"] == "unread-file"]
+    assert [issue["file"] for issue in issues] == [f"props/{name}" for name in names]
+    assert {issue["state"] for issue in issues} == {"blocking"}
+    line = "satcheck: props: no reader knows 2 files: props/chair.FBX, props/source/a b.blend\n"
+    assert line in ran.err
+    assert "chair" not in satcheck("each", "props", "-q", cwd=foreign.parent).err
+
+
+def test_such_files_stand_in_every_format(foreign: Path) -> None:
+    table = satcheck("each", str(foreign))
+    assert "props/chair.FBX: files of FBX are not read" in " ".join(table.out.split())
+    assert "Next:" not in table.out
+    suites = JUnitXml.fromstring(satcheck("each", str(foreign), "--format", "junit").out.encode())
+    assert sum(suite.errors for suite in suites) == 1
+    assert "chair.FBX" in satcheck("each", str(foreign), "--format", "github").out
+    results = str(foreign.parent / "results.jsonl")
+    assert satcheck("batch", str(foreign), "-o", results).code == 3
+    assert satcheck("batch", str(foreign), "-o", results, "--resume").code == 3
+    assert f"1 incomplete ({foreign.as_posix()})" in satcheck("report", results).out
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [
+        (("--accept", "unread-file"), 0),
+        (("--accept", "unread-file:chair.FBX", "--accept", "unread-file:a b.blend"), 0),
+        (("--accept", "unread-file:chair.FBX"), 3),
+        (("--accept", "unread"), 3),
+        (("--exclude", "*.FBX", "--exclude", "source"), 0),
+        (("--exclude", "source/*", "--exclude", "chair.FBX"), 0),
+        (("--exclude", "*.FBX"), 3),
+    ],
+)
+def test_such_files_are_accepted_or_excluded(
+    options: tuple[str, ...], code: int, foreign: Path
+) -> None:
+    assert satcheck("each", str(foreign), *options).code == code
+    results = str(foreign.parent / "results.jsonl")
+    assert satcheck("batch", str(foreign), "-o", results, *options).code == code
+
+
+def test_what_is_excluded_is_counted(foreign: Path) -> None:
+    ran = satcheck("each", str(foreign), "--exclude", "source", "--exclude", "chair.*")
+    assert "satcheck: --exclude leaves out 2 files\n" in ran.err
+    (foreign / "satcheck.toml").write_text('exclude = ["source", "chair.*"]\n')
+    found = satcheck("each", ".", cwd=foreign)
+    assert (found.code, "satcheck.toml sets exclude" in found.err) == (0, True)
+    named = satcheck("each", str(foreign / "box.obj"), "--exclude", "box.obj")
+    assert named.code == 0
+    nothing = satcheck("each", str(foreign), "--exclude", "box.obj")
+    assert nothing.code == 2
+    assert "but 2 that no reader knows" in nothing.err
+
+
+def test_a_file_that_no_reader_knows_is_an_error_where_it_is_named(foreign: Path) -> None:
+    ran = satcheck("each", str(foreign / "chair.FBX"), "--format", "json")
+    assert (ran.code, verdicts(ran.out)) == (2, {"chair.FBX": "error"})
+
+
+def test_a_file_of_materials_is_no_fault_among_assets(assets: Path) -> None:
+    pytest.importorskip("pxr")
+    head = '#usda 1.0\n(\n metersPerUnit = 1\n upAxis = "Z"\n)\n'
+    paint = assets / "props" / "paint.usda"
+    paint.write_text(f'{head}def Material "Paint" {{}}\n')
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert (ran.code, verdicts(ran.out)) == (0, {"box.obj": "pass", "paint.usda": "pass"})
+    (asset,) = (each for each in json.loads(ran.out)["assets"] if "paint" in each["file"])
+    stated = {issue["code"]: issue["severity"] for issue in asset["report"]["issues"]}
+    assert stated["no-body"] == "note"
+    assert satcheck(str(paint), str(assets / "props" / "box.obj")).code == 2
+    scene = f'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\nmesh = "{paint.name}"\n'
+    (assets / "props" / "s.toml").write_text(scene)
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert verdicts(ran.out)["s.toml"] == "error"
+    paint.write_text(f'{head}def Mterial "Paint" {{ double radius = 1 }}\n')
+    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    assert verdicts(ran.out)["paint.usda"] == "error"
+
+
+@pytest.mark.parametrize("given", ["kit", "kit/**/*.toml", "-"])
+def test_assets_may_name_what_lies_in_the_folder_that_is_given(given: str, tmp_path: Path) -> None:
+    (tmp_path / "kit" / "sets").mkdir(parents=True)
+    shutil.copy(SAMPLES / "box.obj", tmp_path / "kit")
+    body = '[[bodies]]\nid = "a"\nmesh = "../box.obj"\n'
+    (tmp_path / "kit" / "sets" / "s.toml").write_text(f'schema = "satcheck.scene/1"\n{body}')
+    ran = satcheck("each", given, "--format", "json", stdin="kit\n", cwd=tmp_path)
+    assert verdicts(ran.out)["s.toml"] == "pass"
+    alone = satcheck("each", "kit/sets/s.toml", "--format", "json", cwd=tmp_path)
+    assert verdicts(alone.out) == {"s.toml": "error"}
+    batch = satcheck("batch", given, "-o", "out.jsonl", stdin="kit\n", cwd=tmp_path)
+    assert batch.code == 0
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [

@@ -18,7 +18,7 @@ from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
-from satcheck.scene.loading.child_formats import Reply, serve
+from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import File
@@ -50,8 +50,8 @@ def refuse_errors(scene: Scene) -> None:
 def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     data = path.read_bytes()
-    file = File(path.suffix[1:], str(path.parent), path.name, data, len(data), isolated=True)
-    reply = serve(msgspec.msgpack.encode(file))
+    file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
+    reply = serve(msgspec.msgpack.encode(Request.about(file, file.directory)))
     content = msgspec.msgpack.decode(reply, type=Reply).content
     if isinstance(content, Refusal):
         raise MeshFileError(content.code, content.message)

@@ -21,7 +21,7 @@ def test_linked_folders_are_followed_once(tmp_path: Path) -> None:
     folder.mkdir()
     (folder / "again").symlink_to(folder)
     (folder / "link").symlink_to(tmp_path / "far")
-    assert asset_files([str(folder)]) == [(folder / "link" / "a.obj").as_posix()]
+    assert asset_files([str(folder)]).files == [(folder / "link" / "a.obj").as_posix()]
 
 
 def test_a_folder_that_cannot_be_listed_stands_for_itself(
@@ -37,7 +37,7 @@ def test_a_folder_that_cannot_be_listed_stands_for_itself(
         return scandir(path)
 
     monkeypatch.setattr(os, "scandir", refuse)
-    assert asset_files([str(tmp_path)]) == [closed.as_posix()]
+    assert asset_files([str(tmp_path)]).files == [closed.as_posix()]
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_a_folder_that_cannot_be_listed_stands_for_itself(
 def test_json_is_an_asset_if_it_is_a_scene(content: bytes, assets: int, tmp_path: Path) -> None:
     (tmp_path / "a.obj").touch()
     (tmp_path / "scene.json").write_bytes(content)
-    assert len(asset_files([str(tmp_path)])) == 1 + assets
+    assert len(asset_files([str(tmp_path)]).files) == 1 + assets
 
 
 @pytest.mark.parametrize("name", ["model.sdf", "yard.world"])
@@ -60,20 +60,20 @@ def test_files_of_other_programs_with_the_endings_of_sdformat_are_no_assets(
 ) -> None:
     (tmp_path / "a.obj").touch()
     (tmp_path / name).write_text("define floorplan model")
-    assert len(asset_files([str(tmp_path)])) == 1
+    assert len(asset_files([str(tmp_path)]).files) == 1
     (tmp_path / name).write_text('<?xml version="1.0"?><sdf version="1.9"/>')
-    assert len(asset_files([str(tmp_path)])) == 2
+    assert len(asset_files([str(tmp_path)]).files) == 2
 
 
 def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scene.toml").touch()
     unreadable: Callable[[Path], None] = lambda _: None  # noqa: E731
     monkeypatch.setattr(module, "content_of", unreadable)
-    assert asset_files([str(tmp_path)]) == [(tmp_path / "scene.toml").as_posix()]
+    assert asset_files([str(tmp_path)]).files == [(tmp_path / "scene.toml").as_posix()]
 
 
 def test_xml_is_an_asset_if_it_is_a_model_of_mujoco(tmp_path: Path) -> None:
     (tmp_path / "junit.xml").write_text("<testsuites/>")
     (tmp_path / "notes.xml").write_text("mujoco")
     (tmp_path / "arm.xml").write_text('<?xml version="1.0"?>\n<!-- a --><mujoco model="arm"/>')
-    assert asset_files([str(tmp_path)]) == [(tmp_path / "arm.xml").as_posix()]
+    assert asset_files([str(tmp_path)]).files == [(tmp_path / "arm.xml").as_posix()]

@@ -13,6 +13,7 @@ from satcheck.scene.loading import source as loading_source
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.nodes import Node
 from satcheck.scene.loading.readers import File
+from satcheck.scene.permitted import ANYWHERE
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]
@@ -91,7 +92,7 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     refused = MeshFiles().whole("level.gltf", path)
     assert isinstance(refused, MeshFileError)
     assert refused.code == "outside-path"
-    assert isinstance(MeshFiles(allow_outside=True).whole("level.gltf", path), MeshFile)
+    assert isinstance(MeshFiles(permitted=ANYWHERE).whole("level.gltf", path), MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
 

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.robot import posed
 from tests.audit.shapes import unit_box, write
 
@@ -131,7 +132,7 @@ def two_nodes() -> str:
 
 
 def written(output: Path, scene: Scene, **moves: tuple[float, float, float]) -> Scene:
-    text = new_scene_file(output, scene, MeshFiles(allow_outside=True), moves)
+    text = new_scene_file(output, scene, MeshFiles(permitted=ANYWHERE), moves)
     output.write_text(text, encoding="utf-8")
     return load_scene([output], allow_outside=True)
 

@@ -265,6 +265,21 @@ def test_an_answer_without_a_solver_does_not_hold(monkeypatch: pytest.MonkeyPatc
     assert checked([world]) == [world]
 
 
+def test_a_given_folder_counts_for_the_scenes_in_it() -> None:
+    """What they may read depends on it."""
+    Path("kit/sets").mkdir(parents=True)
+    Path("kit/sets/s.toml").write_text(Path(scene("s.toml", "../box.obj")[0]).read_text())
+    copied("box.obj", "kit/box.obj")
+    world, other = ("kit/sets/s.toml",), _other_scene()
+    assert checked([world, other]) == [world, other]
+    assert [issue["code"] for issue in answer(world)["issues"]] == ["outside-path"]
+    given = CheckOptions(folders=("kit",))
+    assert checked([world, other], given) == [world]
+    assert not answer(world)["issues"]
+    assert checked([world, other], CheckOptions(folders=("kit", "else"))) == []
+    assert checked([world, other]) == [world]
+
+
 def test_options_without_effect_do_not_count() -> None:
     worlds = [_other_scene()]
     assert checked(worlds, CheckOptions(settings={"jobs": 1})) == worlds

@@ -16,6 +16,7 @@ from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from tests.plugins.mjcf.files import (
     TETRAHEDRON,
@@ -290,7 +291,7 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "import_module", missing)
-    request = Request("m.xml", {}, allow_outside=False)
+    request = Request("m.xml", {}, NOTHING_ELSE)
     answer = msgspec.msgpack.decode(serve(msgspec.msgpack.encode(request)), type=Answer)
     assert isinstance(answer.content, Refusal)
     assert answer.content.code == "missing-extra"

@@ -240,7 +240,7 @@ def test_a_fallback_type_counts(tmp_path: Path) -> None:
 
 def test_a_stage_without_bodies_is_refused(tmp_path: Path) -> None:
     scene = load(tmp_path, stage('def Xform "Empty" {\n}'))
-    assert [body.issue.code for body in scene.unreadable] == ["empty-mesh"]
+    assert [body.issue.code for body in scene.unreadable] == ["no-body"]
 
 
 def test_paths_of_two_stages_begin_with_their_files(tmp_path: Path) -> None:

@@ -209,3 +209,9 @@ def test_a_material_that_displaces_blocks_a_pass(
 def test_an_api_that_is_only_like_one_of_a_renderer(tmp_path: Path) -> None:
     assert "unread" in said(load(tmp_path, stage(cube("A", api='"RibbonAPI"'))))
     assert "unread" not in said(load(tmp_path, stage(cube("A", api='"RiMaterialAPI"'))))
+
+
+@pytest.mark.parametrize("kind", ["Scope", "Xform"])
+def test_geometry_in_a_type_without_any_blocks_a_pass(tmp_path: Path, kind: str) -> None:
+    lost = cube("B").replace("def Mesh", f"def {kind}")
+    assert "unread" in said(load(tmp_path, stage(cube("A"), lost)))

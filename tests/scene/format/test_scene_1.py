@@ -12,6 +12,7 @@ from satcheck.scene import SceneFileError
 from satcheck.scene.format import form
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from tests.scene import files
 from tests.scene.format.scenes import BOX, errors, full, read, scene_of, write
@@ -442,7 +443,7 @@ def test_a_mesh_outside_of_the_folder_needs_to_be_allowed(tmp_path):
     document = scene_of({"id": "a", "mesh": "../cube.obj"})
     (error,) = errors(folder, document)
     assert error.code == "outside-path"
-    (body,) = read(folder, document, allow_outside=True).bodies
+    (body,) = read(folder, document, permitted=ANYWHERE).bodies
     assert body.mesh.path == "../cube.obj"
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import MeshFileError
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.robot import MeshPlaces
 
 
@@ -70,7 +71,7 @@ def test_file_paths_may_start_in_a_folder_above(tmp_path: Path) -> None:
     file(folder / "model.config")
     other = file(tmp_path / "models" / "other.stl")
     assert refusal(places(folder), "file://models/other.stl")[0] == "outside-path"
-    assert places(folder, allow_outside=True).locate("file://models/other.stl") == other
+    assert places(folder, permitted=ANYWHERE).locate("file://models/other.stl") == other
 
 
 def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
@@ -84,7 +85,7 @@ def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> N
         assert str(tmp_path / "arm") in message
         assert "--allow-outside" in message
         assert "or with a package.xml in the folder that holds both" in message
-        assert places(urdf, allow_outside=True).locate(uri).samefile(mesh)
+        assert places(urdf, permitted=ANYWHERE).locate(uri).samefile(mesh)
 
 
 def test_a_package_xml_is_the_border_however_near(tmp_path: Path) -> None:
@@ -163,7 +164,7 @@ def test_a_package_beside_is_found_but_has_to_be_allowed(tmp_path: Path) -> None
     code, message = refusal(places(urdf), uri)
     assert code == "outside-path"
     assert f"allow it: --package meshes_of_arm={mesh.parent}" in message
-    assert places(urdf, allow_outside=True).locate(uri) == mesh
+    assert places(urdf, permitted=ANYWHERE).locate(uri) == mesh
     assert places(urdf, packages={"meshes_of_arm": mesh.parent}).locate(uri) == mesh
 
 
