@@ -13,7 +13,7 @@ from tests.asset_repository import CONFIG, ON_TOP, commit, make, write_crate, wr
 from tests.cli.process import Ran, satcheck
 
 TOP = Path(__file__).resolve().parents[2]
-NEED_EXTRAS = {"step", "usd", "ifc", "mjcf"}
+NEED_EXTRAS = {"step", "usd", "ifc", "mjcf", "3dxml", "xaml", "zae"}
 GATED = f'{CONFIG}baseline = "known.json"\n'
 
 
