@@ -1,4 +1,4 @@
-"""How finely coordinates were written, in the file and in the world."""
+"""How far the rounding of coordinates may move a vertex, in the file and in the world."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from satcheck.scene import Body, load_scene
 from satcheck.scene.loading.raw_mesh import RawMesh
 from satcheck.scene.resolution import (
     FLOAT32_STEP,
-    FLOAT64_ROUNDING,
+    FLOAT64_STEP,
+    VERTEX,
     file_resolution,
     placement_step,
 )
@@ -28,15 +29,15 @@ def raw(number_format, decimals=0, significant=0, rounding=0.0):
     ("mesh", "largest", "resolution"),
     [
         (raw("float32"), 8.0, 2.0**-20),
-        (raw("float64"), 8.0, 2.0**-50),
+        (raw("float64"), 8.0, 2.0**-46),
         (raw("written-digits", decimals=1), 8.0, 2.0**-20),  # never coarser than float32
-        (raw("written-digits", decimals=9), 8.0, 0.5e-9),
-        (raw("written-digits", decimals=30), 8.0, 2.0**-50),  # never finer than float64
-        (raw("written-digits", significant=7), 8.0, 0.5e-6),
-        (raw("written-digits", significant=7), 0.5, 0.5e-7),
-        (raw("written-digits", decimals=9, significant=3), 8.0, 0.5e-9),
+        (raw("written-digits", decimals=9), 8.0, VERTEX * 0.5e-9 + 2.0**-46),
+        (raw("written-digits", decimals=30), 8.0, 2.0**-46),  # never finer than float64
+        (raw("written-digits", significant=7), 8.0, VERTEX * 0.5e-6 + 2.0**-46),
+        (raw("written-digits", significant=7), 0.9, VERTEX * 0.5e-7 + 0.9 * 2.0**-49),
+        (raw("written-digits", decimals=9, significant=3), 8.0, VERTEX * 0.5e-9 + 2.0**-46),
         (raw("written-digits", decimals=3), 0.0, 0.0),
-        (raw("float32", rounding=0.25), 8.0, 0.25),
+        (raw("float32", rounding=0.25), 8.0, VERTEX * 0.25),
         (raw("float32", rounding=2.0**-30), 8.0, 2.0**-20),
     ],
 )
@@ -48,8 +49,8 @@ def test_file_resolution(mesh, largest, resolution):
     ("number_format", "by_file", "step"),
     [
         ("float32", True, FLOAT32_STEP),
-        ("float32", False, FLOAT64_ROUNDING),
-        ("written-digits", True, FLOAT64_ROUNDING),
+        ("float32", False, FLOAT64_STEP),
+        ("written-digits", True, FLOAT64_STEP),
     ],
 )
 def test_placements_are_known_as_finely_as_the_file_stores_coordinates(
@@ -78,13 +79,11 @@ def test_formats(tmp_path):
     assert loaded(tmp_path, "a.stl", files.binary_stl()).resolution == 2.0**-23
     assert loaded(tmp_path, "a.glb", files.glb()).resolution == 2.0**-23
     assert loaded(tmp_path, "a.ply", files.binary_ply()).resolution == 2.0**-23
-    assert loaded(tmp_path, "b.ply", files.binary_ply(double=True)).resolution == 2.0**-53
+    assert loaded(tmp_path, "b.ply", files.binary_ply(double=True)).resolution == 2.0**-49
     digits = files.obj().replace(b"v 1 1 1\n", b"v 1.000000000 1 1\n")
-    assert loaded(tmp_path, "a.obj", digits).resolution == pytest.approx(0.5e-9, rel=1e-12, abs=0.0)
+    assert loaded(tmp_path, "a.obj", digits).resolution == VERTEX * 0.5e-9 + 2.0**-49
     model = files.object_3mf(1).replace('x="1"', 'x="1.00000000"')
-    assert loaded(tmp_path, "a.3mf", files.threemf(model)).resolution == pytest.approx(
-        0.5e-8, rel=1e-12, abs=0.0
-    )
+    assert loaded(tmp_path, "a.3mf", files.threemf(model)).resolution == VERTEX * 0.5e-8 + 2.0**-49
 
 
 def needle_out(far):
@@ -114,9 +113,9 @@ def test_no_vertex_is_named_that_costs_little(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["ascii", "binary_little_endian"])
-def test_integers_of_ply_are_off_by_half_a_unit(tmp_path, kind):
+def test_integers_of_ply_are_off_by_half_the_diagonal_of_a_unit(tmp_path, kind):
     points = [(100 * x, 100 * y, 100 * z) for x, y, z in files.CUBE_POINTS]
-    assert loaded(tmp_path, "a.ply", files.integer_ply(kind, points)).resolution == 0.5
+    assert loaded(tmp_path, "a.ply", files.integer_ply(kind, points)).resolution == VERTEX * 0.5
 
 
 @pytest.mark.parametrize(
@@ -158,5 +157,5 @@ def test_world_resolution_adds_the_rounding_of_the_placement(tmp_path):
     file = loaded(tmp_path, "a.stl", files.binary_stl())
     assert Body("a", "a", file).resolution_world == 2.0**-23
     far = (2.0, 0.0, 0.0, 1e9, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-    expected = 2.0 * 2.0**-23 + (1e9 + 2) * 2.0**-53
+    expected = 2.0 * 2.0**-23 + (1e9 + 2) * 2.0**-49
     assert Body("a", "a", file, far).resolution_world == pytest.approx(expected, rel=1e-12, abs=0.0)
