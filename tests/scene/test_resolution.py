@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 import sys
+from fractions import Fraction
+from itertools import product
+from random import Random
 
 import pytest
 
@@ -17,6 +20,7 @@ from satcheck.scene.resolution import (
     file_resolution,
     placement_step,
 )
+from tests.fits.files import Placing
 from tests.scene import files, graphs
 from tests.scene.loading import loaded
 
@@ -110,6 +114,33 @@ def test_no_vertex_is_named_that_costs_little(tmp_path):
         ("d.ply", files.binary_ply([(x + 4096.0, y, z) for x, y, z in files.CUBE_POINTS])),
     ):
         assert loaded(tmp_path, name, content).issues == ()
+
+
+def test_placing_a_body_in_float64_moves_no_vertex_farther():
+    """Its own origin lies within its box. Some vertex moves farther than half of the spacing."""
+    rng, farthest = Random(0), 0.0
+    for _ in range(300):
+        x, y, z, u, v, w = (rng.uniform(-3.0, 3.0) for _ in range(6))
+        shift = rng.choice([0.0, 1.0, 30.0])
+        place = Placing((x, y, z), (shift * u, shift * v, shift * w))
+        body = [tuple(rng.uniform(0.1, 3.0) * c for c in p) for p in product((-1, 1), repeat=3)]
+        largest = max(abs(c) for p in body for c in place.of(p))
+        rows = [[*map(Fraction, row)] for row in place.matrix]
+        for p in body:
+            errors = (
+                float(at - sum(m * Fraction(c) for m, c in zip(row, p, strict=True)) - Fraction(t))
+                for at, row, t in zip(map(Fraction, place.of(p)), rows, place.shift, strict=True)
+            )
+            farthest = max(farthest, math.hypot(*errors) / largest)
+    assert 2.0**-53 < farthest <= file_resolution(raw("float64"), 1.0)
+
+
+def test_rounding_to_decimals_moves_no_vertex_farther():
+    """A vertex halfway between the written numbers of all three coordinates."""
+    vertex = (0.1234565, 0.2345675, 0.9876545)
+    written = tuple(float(f"{c:.6f}") for c in vertex)
+    resolution = file_resolution(raw("written-digits", decimals=6), 100.0)
+    assert 0.5e-6 * 1.7 < math.dist(vertex, written) <= resolution
 
 
 @pytest.mark.parametrize("kind", ["ascii", "binary_little_endian"])
