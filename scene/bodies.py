@@ -16,7 +16,7 @@ from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
 from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.resolution import FLOAT64_ROUNDING
+from satcheck.scene.resolution import FLOAT64_STEP
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class MeshFile(Struct, frozen=True):
     issues: tuple[Issue, ...]
     part: str | None = None
     outline: tuple[tuple[float, float], ...] | None = None
-    placement_step: float = FLOAT64_ROUNDING
+    placement_step: float = FLOAT64_STEP
     deviation: float = 0.0
     surface_tolerance: float = 0.0
 

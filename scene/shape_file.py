@@ -15,7 +15,7 @@ from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.planar.outline import Outline, Shape
-from satcheck.scene.resolution import FLOAT64_ROUNDING
+from satcheck.scene.resolution import FLOAT64_STEP
 from satcheck.scene.words import told_apart
 
 SHAPE_FORMAT = "shape"
@@ -42,7 +42,7 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),
         format=SHAPE_FORMAT,
-        resolution=max(map(abs, (*low, *high))) * FLOAT64_ROUNDING,
+        resolution=max(map(abs, (*low, *high))) * FLOAT64_STEP,
         units=None,
         mesh=examined.mesh,
         topology=examined.topology,

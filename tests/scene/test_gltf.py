@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import Any
 
@@ -13,6 +14,7 @@ from tests.scene import files, meshopt
 from tests.scene.loading import loaded, refusal, warnings
 
 FLOAT, BYTE, SHORT, USHORT = 5126, 5120, 5122, 5123
+HALF_DIAGONAL = math.sqrt(3) / 2  # of the unit cube
 
 
 class Document:
@@ -281,22 +283,23 @@ def test_meshopt_filters():
     assert struct.unpack("<4h", found) == (0, 0, 0, 32767)
 
 
-def test_integer_positions_are_off_by_half_a_step(tmp_path):
+def test_integer_positions_are_off_by_half_the_diagonal_of_a_step(tmp_path):
     document = Document()
     positions = document.json["accessors"][document.primitive["attributes"]["POSITION"]]
     rows = b"".join(struct.pack("<3h2x", *(127 * c for c in point)) for point in files.CUBE_POINTS)
     positions |= {"bufferView": document.view(rows, byteStride=8), "componentType": SHORT}
-    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 0.5
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == HALF_DIAGONAL
     positions["normalized"] = True
-    assert loaded(tmp_path, "b.glb", document.glb()).resolution == 0.5 / 32767
+    step = pytest.approx(HALF_DIAGONAL / 32767, rel=1e-15)
+    assert loaded(tmp_path, "b.glb", document.glb()).resolution == step
     document.json["nodes"] = [{"mesh": 0, "scale": [5, 5, 5], "translation": [1, 0, 0]}]
     (flat,) = load_scene([tmp_path / "b.glb"]).bodies
-    assert flat.file.resolution == 0.5 / 32767
+    assert flat.file.resolution == step
     (tmp_path / "c.glb").write_bytes(document.glb())
     (node,) = load_scene([tmp_path / "c.glb"], split="nodes").bodies
-    assert node.resolution_world == pytest.approx(2.5 / 32767, rel=1e-2)
+    assert node.resolution_world == pytest.approx(5 * HALF_DIAGONAL / 32767, rel=1e-2)
     (flat,) = load_scene([tmp_path / "c.glb"], split="none").bodies
-    assert flat.resolution_world == pytest.approx(2.5 / 32767, rel=1e-9)
+    assert flat.resolution_world == pytest.approx(5 * HALF_DIAGONAL / 32767, rel=1e-9)
 
 
 def test_integer_targets_add_their_step(tmp_path):
@@ -305,7 +308,7 @@ def test_integer_targets_add_their_step(tmp_path):
     target = document.accessor(rows, "VEC3", 8, BYTE)
     document.primitive["targets"] = [{"POSITION": target}]
     document.json["meshes"][0]["weights"] = [0.25]
-    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 0.125
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 0.25 * HALF_DIAGONAL
 
 
 def test_joints_stretch_the_step(tmp_path):
@@ -322,7 +325,8 @@ def test_joints_stretch_the_step(tmp_path):
     document.json["skins"] = [{"joints": [1, 2]}]
     document.json["nodes"] = [{"mesh": 0, "skin": 0}, {"scale": [3, 3, 3]}, {"scale": [9, 9, 9]}]
     document.json["scenes"] = [{"nodes": [0, 1, 2]}]
-    assert loaded(tmp_path, "a.glb", document.glb()).resolution == 1.5
+    step = pytest.approx(3 * HALF_DIAGONAL, rel=1e-15)
+    assert loaded(tmp_path, "a.glb", document.glb()).resolution == step
 
 
 def test_the_exponential_filter_of_meshopt_leaves_its_step(tmp_path):
@@ -349,7 +353,7 @@ def test_the_exponential_filter_of_meshopt_leaves_its_step(tmp_path):
     positions["bufferView"] = number
     file = loaded(tmp_path, "a.glb", document.glb())
     assert file.mesh.bounds == ((0, 0, 0), (1, 1, 1))
-    assert file.resolution == 2.0 ** (exponent - 1)
+    assert file.resolution == 2.0**exponent * HALF_DIAGONAL
 
 
 def test_meshopt_does_not_unpack_more_than_the_limit(tmp_path):
@@ -386,14 +390,14 @@ def test_draco(tmp_path):
 def test_draco_leaves_its_step(tmp_path, bits, box):
     document = packed_with_draco(bits=bits, **box)
     step = box.get("quantization_range", 1.0) / (2**bits - 1)
-    expected = 0.5 * step + 0.5 * 2.0**-24  # and the decoder rounds to float32
+    expected = HALF_DIAGONAL * (step + 2.0**-24)  # and the decoder rounds to float32
     file = loaded(tmp_path, "a.glb", document.glb())
     assert file.resolution == pytest.approx(expected, rel=1e-2)
 
 
 def test_draco_with_about_the_bits_of_float32_is_as_precise(tmp_path):
     file = loaded(tmp_path, "a.glb", packed_with_draco(bits=25).glb())
-    assert file.resolution == pytest.approx(2.0**-24, rel=1e-6)
+    assert file.resolution == pytest.approx(HALF_DIAGONAL * (2.0**-25 + 2.0**-24), rel=1e-6)
 
 
 def test_what_is_there_unpacked_as_well_needs_no_draco(tmp_path):

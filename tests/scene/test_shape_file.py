@@ -13,7 +13,7 @@ def test_a_box_is_a_file_of_its_own():
     file = shape_file(Box((1.0, 2.0, 3.0)), "cell.toml")
     assert (file.path, file.format, file.units, file.issues) == ("cell.toml", "shape", None, ())
     assert file.health.solid
-    assert file.resolution == 1.5 * 2.0**-53
+    assert file.resolution == 1.5 * 2.0**-49
 
 
 def test_the_hash_is_that_of_the_sizes():

@@ -14,8 +14,8 @@ struct CommonPoint {
   double depth;  // distance from the nearer surface, rounded
 };
 
-// Starts from the evidence of a relation with a common interior, and ends at a point deeper than `enough`. Empty if no
-// point with a proven winding number was found.
+// Starts from the evidence of a relation with a common interior, and ends at a point deeper than `enough`; both solids
+// contain it for certain. Empty if no point with a proven winding number was found.
 std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
                                         double enough = INFINITY, Budget* budget = nullptr);
 

@@ -4,6 +4,7 @@
 #include "convex/shape.hpp"
 #include "mesh/topology.hpp"
 #include "tests/check.hpp"
+#include "tests/pairs.hpp"
 #include "tests/shapes.hpp"
 
 using namespace satcheck;
@@ -46,6 +47,29 @@ void a_needle_through_a_box() {
   CHECK(convex_thick(a, b, 1e-6) && !convex_thick(a, b, 5e-4));
 }
 
+Mesh placed(Mesh mesh, const Pose& pose) {
+  for (Vec3& v : mesh.vertices) v = pose.rotation * v + pose.translation;
+  return mesh;
+}
+
+// The vertices move by no more than 1e-14 when they are placed.
+void flush_boxes_overlap_by_rounding_alone() {
+  int overlaps = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    Source random(seed);
+    const Pose pose = random.pose(8);
+    const Vec3 low{1, random.uniform(-1, 1), random.uniform(-2, 2)};
+    const Vec3 high{random.uniform(1.5, 3), random.uniform(1.1, 3), random.uniform(2.1, 4)};
+    const Surface a = make_surface(placed(box({0, 0, 0}, {1, 2, 3}), pose), true);
+    const Surface b = make_surface(placed(box(low, high), pose), true);
+    const MeshRelation relation = mesh_relation(a, b);
+    if (relation.relation != Relation::penetrating) continue;
+    ++overlaps;
+    CHECK(!has_thick_point(a, b, relation, 16, 1e-12));
+  }
+  CHECK(overlaps > 0);
+}
+
 }  // namespace
 
 UNIT(thick_point) {
@@ -53,4 +77,5 @@ UNIT(thick_point) {
   a_body_inside_another();
   a_needle_through_a_box();
   without_witnesses_nothing_is_claimed();
+  flush_boxes_overlap_by_rounding_alone();
 }
