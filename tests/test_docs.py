@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.process import satcheck
+from tests.plugin_marks import skip_without
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
@@ -113,6 +114,7 @@ def test_every_call_of_a_page_runs_from_the_root(page: Path, root: Path) -> None
 
 @pytest.mark.parametrize("block", PROGRAMS)
 def test_a_program_prints_what_the_page_shows(block: str, root: Path) -> None:
+    skip_without(re.findall(r"[\w./]+", block))
     printed = run(["-c", block], root).stdout.splitlines()
     assert printed
     assert [line for line in printed if line not in block] == []
@@ -131,6 +133,8 @@ def test_links_lead_somewhere(page: Path) -> None:
             continue
         name, _, anchor = target.partition("#")
         other = (page.parent / name).resolve() if name else page
+        if other.is_relative_to(ROOT / "plugins") and not (ROOT / "plugins").exists():
+            continue
         assert other.exists(), target
         assert not anchor or anchor in anchors(other), target
 

@@ -24,6 +24,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import new_scene_file
 from tests.cli.process import satcheck
 from tests.oracles.half_space import Matrix, heights_of_shape, heights_of_vertices
+from tests.plugin_marks import needs
 from tests.verify.reports import verified
 
 Vertices = list[list[float]]
@@ -308,6 +309,7 @@ def relations(report: Report) -> dict[tuple[str, str], str]:
     return {(one.a, one.b): one.relation for one in report.findings}
 
 
+@needs("mjcf")
 def test_samples_see_the_floor(tmp_path: Path) -> None:
     """Far away, too: the slide has no limits."""
     scene = in_mujoco(tmp_path, ARM, SLIDE)
@@ -333,6 +335,7 @@ def test_samples_see_the_floor(tmp_path: Path) -> None:
     assert [sample.verdict for sample in found.samples] == ["pass", "fail", "fail", "fail", "pass"]
 
 
+@needs("mjcf")
 def test_a_path_of_joints_hits_the_floor(tmp_path: Path) -> None:
     from satcheck.scene.robot.joint_path import with_joint_path
 
@@ -361,6 +364,7 @@ CART = (
 )
 
 
+@needs("mjcf")
 @pytest.mark.parametrize(
     ("height", "relation", "way"),
     [(0.75, "separated", 1e6), (0.5001, "separated", 1e6), (0.5, "touching", 1000.0)],
@@ -381,6 +385,7 @@ def test_a_way_along_a_floor_takes_few_steps(
     assert finding.motion.steps < 64
 
 
+@needs("mjcf")
 def test_an_impact_after_a_long_way_is_found(tmp_path: Path) -> None:
     """Its time is as narrow as the rounding of a length of the way."""
     from satcheck.scene.robot.joint_path import with_joint_path
@@ -396,6 +401,7 @@ def test_an_impact_after_a_long_way_is_found(tmp_path: Path) -> None:
     assert finding.motion.tolerance <= 1e-5
 
 
+@needs("mjcf")
 def test_a_turn_about_a_tilted_axis_counts_by_what_rises(tmp_path: Path) -> None:
     """Against the heights at many moments: no overlap is missed, and none is found too late."""
     from satcheck.scene.robot.joint_path import with_joint_path
@@ -486,6 +492,7 @@ SDF = (
 )
 
 
+@needs("sdf")
 @pytest.mark.parametrize(
     ("height", "relation", "verdict"),
     [(1.5, "separated", "pass"), (0.5, "touching", "pass"), (0.2, "penetrating", "fail")],
@@ -500,6 +507,7 @@ def test_a_crate_and_the_ground_plane_of_gazebo(
     assert report.summary.verdict == verdict
 
 
+@needs("sdf")
 @pytest.mark.parametrize(("height", "answer"), [(0.5, "yes"), (1.5, "no")])
 def test_a_floor_holds_what_rests_on_it(tmp_path: Path, height: float, answer: str) -> None:
     path = tmp_path / "w.sdf"
@@ -585,6 +593,7 @@ FAR = """<?xml version="1.0"?><sdf version="1.9"><world name="w">
 """
 
 
+@needs("sdf")
 @pytest.mark.parametrize("limit", ["10", "1e4", "1e8", "1e10"])
 def test_a_far_limit_of_a_joint_hides_no_overlap_on_a_path(tmp_path: Path, limit: str) -> None:
     """The tip ends a millimetre deep. The block below it is as large as the limit."""

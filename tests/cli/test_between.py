@@ -11,6 +11,7 @@ from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from tests.cli.process import SAMPLES, satcheck
+from tests.plugin_marks import needs
 from tests.plugins.ifc.models import Model
 
 THREE = ("box.obj", "box_pushed.stl", "cube.off")
@@ -30,6 +31,7 @@ def test_several_sets_add_up() -> None:
     assert ran.document["summary"]["pairs"]["allowed"] == 1
 
 
+@needs("ifc")
 def test_the_relations_of_a_file_still_hold(tmp_path: Path) -> None:
     """A whole may overlap its part, and a pipe may not overlap a wall."""
     model = Model()

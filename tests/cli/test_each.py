@@ -19,6 +19,7 @@ from satcheck.cli.formats.registry import formats
 from satcheck.cli.formats.schema import text
 from tests.audit.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
+from tests.plugin_marks import needs
 
 
 @pytest.fixture
@@ -137,6 +138,7 @@ def test_a_file_that_no_reader_knows_is_an_error_where_it_is_named(foreign: Path
     assert (ran.code, verdicts(ran.out)) == (2, {"chair.FBX": "error"})
 
 
+@needs("usd")
 def test_a_file_of_materials_is_no_fault_among_assets(assets: Path) -> None:
     pytest.importorskip("pxr")
     head = '#usda 1.0\n(\n metersPerUnit = 1\n upAxis = "Z"\n)\n'

@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 from satcheck.cli.formats.schema import text
 from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
+from tests.plugin_marks import needs
 from tests.plugins.usd.files import at, cube, stage
 from tests.scene.files import glb, gltf_document
 
@@ -295,6 +296,7 @@ def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> No
     assert said in " ".join(ran.err.split())
 
 
+@needs("usd")
 def test_the_parts_of_a_usd_file_become_a_scene(tmp_path: Path) -> None:
     source, output = tmp_path / "scene.usda", tmp_path / "moved.toml"
     source.write_text(stage(cube("A"), cube("B", at(0.75))))

@@ -11,6 +11,7 @@ import pytest
 from satcheck.cli.scene_options import SPLITS
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
+from tests.plugin_marks import needs
 from tests.plugins.usd.files import cube, stage
 from tests.scene import files, graphs
 
@@ -132,6 +133,7 @@ def test_the_command_for_connected_pieces_works() -> None:
     assert len(ran.document["bodies"]) == 4
 
 
+@needs("usd")
 def test_one_body_alone_is_told_why_the_others_are_gone(tmp_path: Path) -> None:
     hidden = cube("Ghost", 'token visibility = "invisible"')
     (tmp_path / "a.usda").write_text(stage(cube("A"), hidden))

@@ -13,6 +13,7 @@ import pytest
 
 from satcheck.cli.commands import COMMANDS
 from tests.cli.process import SAMPLES, private_cache, satcheck
+from tests.plugin_marks import needs
 
 HEAVY = {
     "DracoPy",
@@ -61,6 +62,7 @@ def test_figures_import_no_large_library(option: str) -> None:
     assert names & HEAVY == set()
 
 
+@needs("mjcf")
 def test_a_model_of_mujoco_is_read_in_a_child_process() -> None:
     assert "mujoco" not in imported("--format", "json", "lift.xml", code=0)
 

@@ -27,6 +27,7 @@ from satcheck.scene.robot import FilePlaces
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written
+from tests.plugin_marks import has
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "sample_meshes"
@@ -104,8 +105,8 @@ def view_report(path: Path) -> None:
 READERS: Mapping[str, Reader] = {
     **dict.fromkeys(("obj", "stl", "ply", "off", "glb", "gltf"), read_bodies),
     **dict.fromkeys(("3mf", "dae"), read_in_this_process),
-    **dict.fromkeys(("toml", "json", "urdf", "sdf"), read_scene),
-    "mjcf": read_model,
+    **dict.fromkeys(("toml", "json", "urdf", *(["sdf"] if has("sdf") else [])), read_scene),
+    **({"mjcf": read_model} if has("mjcf") else {}),
     "srdf": read_states,
     "config": read_settings,
     "baseline": read_baseline,

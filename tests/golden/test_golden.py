@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 
 from satcheck.cli.formats.schema import text
 from tests.golden import HERE, INDEX, PAIRS, SAMPLE_CALLS, SAMPLES, SCENES, golden_file, report
+from tests.plugin_marks import skip_without
 
 NAMES = list(PAIRS)
 # Truth is stated in decimals; the samples' sizes are between 1 and 20.
@@ -20,6 +21,7 @@ ROUNDING = 1e-9
 
 @cache
 def answer(name: str) -> tuple[int, bytes]:
+    skip_without(SAMPLE_CALLS[name]["inputs"])
     return report(name)
 
 

@@ -11,6 +11,7 @@ import pytest
 from satcheck.scene import asset_files as module
 from satcheck.scene.asset_files import asset_files
 from tests.cli.process import on_posix
+from tests.plugin_marks import needs
 
 
 @on_posix
@@ -54,6 +55,7 @@ def test_json_is_an_asset_if_it_is_a_scene(content: bytes, assets: int, tmp_path
     assert len(asset_files([str(tmp_path)]).files) == 1 + assets
 
 
+@needs("sdf")
 @pytest.mark.parametrize("name", ["model.sdf", "yard.world"])
 def test_files_of_other_programs_with_the_endings_of_sdformat_are_no_assets(
     name: str, tmp_path: Path
@@ -72,6 +74,7 @@ def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.Mon
     assert asset_files([str(tmp_path)]).files == [(tmp_path / "scene.toml").as_posix()]
 
 
+@needs("mjcf")
 def test_xml_is_an_asset_if_it_is_a_model_of_mujoco(tmp_path: Path) -> None:
     (tmp_path / "junit.xml").write_text("<testsuites/>")
     (tmp_path / "notes.xml").write_text("mujoco")

@@ -13,6 +13,7 @@ from satcheck.core.shapes import HalfSpace
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.half_spaces import holds, with_reach
 from satcheck.scene.robot import posed
+from tests.plugin_marks import needs
 
 UNIT = {"type": "box", "size": [1, 1, 1]}
 
@@ -78,6 +79,7 @@ def arm(folder: Path, joint: str) -> Scene:
     return load_scene([folder / "m.xml"])
 
 
+@needs("sdf", "mjcf")
 def test_of_joints_with_limits(tmp_path: Path) -> None:
     """All poses within the limits are within reach."""
     scene = arm(tmp_path, "<joint name='j' type='slide' axis='1 0 0' range='-5000 1'/>")
@@ -90,6 +92,7 @@ def test_of_joints_with_limits(tmp_path: Path) -> None:
         assert holds(turned.bodies[0], turned.bodies[1].world_mesh().bounds)
 
 
+@needs("sdf", "mjcf")
 def test_of_a_joint_without_limits(tmp_path: Path) -> None:
     scene = arm(tmp_path, "<joint name='j' type='slide' axis='1 0 0'/>")
     away = posed(scene, {"j": (1e7,)})

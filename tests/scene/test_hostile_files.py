@@ -12,6 +12,7 @@ import pytest
 
 from satcheck.scene import load_scene
 from satcheck.scene.loading import limits
+from tests.plugin_marks import needs
 from tests.plugins.ifc.models import Model
 from tests.scene import files, graphs
 from tests.scene.hostile import code_of, issues, issues_of, write
@@ -66,6 +67,7 @@ def test_an_archive_of_many_entries(tmp_path):
     assert issues_of(tmp_path, "a.3mf", stream.getvalue()) == []
 
 
+@needs("ifc")
 @pytest.mark.parametrize("name", ["../x.ifc", "/etc/x.ifc", "C:\\x.ifc", "\\\\host\\x.ifc"])
 def test_names_of_entries_are_no_paths(tmp_path, name):
     """An entry is read from the archive, whatever it is called, and nothing is unpacked."""

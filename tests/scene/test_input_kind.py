@@ -8,6 +8,7 @@ import pytest
 
 from satcheck.scene import load_scene
 from satcheck.scene.input_kind import kind_of
+from tests.plugin_marks import needs
 from tests.scene.robot.robots import link, robot_of
 
 ROBOT = robot_of(link("a"), link("b", ""), '<joint name="j" type="fixed">').replace(
@@ -23,9 +24,9 @@ COMMENTS = "<!-- " + "made by a tool " * 400 + "-->\n"
         ("r.urdf", "", "robot"),
         ("r.URDF", "", "robot"),
         ("r.srdf", "", "srdf"),
-        ("w.sdf", "", "robot"),
-        ("w.WORLD", "", "robot"),
-        ("w.xml", '<sdf version="1.9"/>', "robot"),
+        pytest.param("w.sdf", "", "robot", marks=needs("sdf")),
+        pytest.param("w.WORLD", "", "robot", marks=needs("sdf")),
+        pytest.param("w.xml", '<sdf version="1.9"/>', "robot", marks=needs("sdf")),
         ("r.toml", "", "scene"),
         ("r.json", "", "scene"),
         ("r.stl", ROBOT, "mesh"),
@@ -37,7 +38,7 @@ COMMENTS = "<!-- " + "made by a tool " * 400 + "-->\n"
         ("r.srdf.xacro", SRDF, "srdf"),
         ("r.xacro", ROBOT, "robot"),
         ("r.urdf.xacro", "<xacro:arm/>", "robot"),
-        ("r.xml", "<mujoco/>", "robot"),
+        pytest.param("r.xml", "<mujoco/>", "robot", marks=needs("mjcf")),
         ("r.xml", "<mujocoinclude/>", "mesh"),
         ("r.xml", "<robot", "mesh"),
         ("r", "a robot", "mesh"),

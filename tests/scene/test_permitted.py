@@ -12,6 +12,7 @@ import pytest
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.permitted import Permitted
+from tests.plugin_marks import needs
 from tests.scene import files
 from tests.scene.hostile import needs_links
 
@@ -54,7 +55,14 @@ def _scene(folder: Path, parts: str) -> Path:
     return _written(folder / "a.json", json.dumps(document))
 
 
-FORMATS = [_gltf, _usd, _urdf, _sdf, _mjcf, _scene]
+FORMATS = [
+    _gltf,
+    pytest.param(_usd, marks=needs("usd")),
+    _urdf,
+    pytest.param(_sdf, marks=needs("sdf")),
+    pytest.param(_mjcf, marks=needs("mjcf")),
+    _scene,
+]
 Format = Callable[[Path, str], Path]
 
 
@@ -125,6 +133,7 @@ def test_a_given_folder_may_be_a_link(kit: Path) -> None:
     assert code(link / "sets" / "small" / "a.gltf", link) == ("", "")
 
 
+@needs("usd")
 def test_no_text_of_a_file_outside_is_printed(kit: Path) -> None:
     (kit.parent / "secret.usda").write_text("#usda 1.0\npassword = 1234\n")
     path = kit / "sets" / "small" / "a.usda"

@@ -13,8 +13,10 @@ from satcheck.scene import load_scene
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.readers import readers, stated_options
 from satcheck.scene.read_options import ReadOptions, as_stated
+from tests.plugin_marks import needs
 
 
+@needs("usd")
 def test_only_the_options_of_the_formats_that_occur_are_stated() -> None:
     options = ReadOptions(time=2.5)
     assert stated_options(options, ["obj", "glb"]) is None
@@ -29,6 +31,7 @@ def test_a_default_without_effect_is_not_stated() -> None:
     assert stated_options(ReadOptions(), ["usd"]) is None
 
 
+@needs("usd")
 def test_the_options_of_a_report_are_those_of_its_check() -> None:
     options = ReadOptions(time=2.5)
     formats = [reader.name for reader in readers().values()]

@@ -21,6 +21,7 @@ from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_
 from satcheck.scene import mesh_files
 from satcheck.scene.loading.reading_children import ReadingChildren
 from tests.cli.process import SAMPLES, on_posix
+from tests.plugin_marks import needs
 
 
 @pytest.fixture(autouse=True)
@@ -241,6 +242,7 @@ def test_the_search_path_of_packages_counts(monkeypatch: pytest.MonkeyPatch) -> 
     assert checked([world]) == [world]
 
 
+@needs("usd")
 def test_an_answer_without_a_reader_does_not_hold(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
