@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from satcheck.audit.axes.chosen_pair import chosen_pair
 from satcheck.audit.axes.hulls import studied_hulls
 from satcheck.audit.axes.outlines import studied_outlines
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.studied_pair import pair_of, two_of
 from satcheck.audit.summary import tool
 from satcheck.core.conventions import Plane
 from satcheck.report.axes import AxesReport
@@ -24,7 +25,14 @@ def axes_of(
     `flat-bodies` (both are flat and parallel, or one is less than a polygon), `too-many-axes`, and
     the codes of bodies that cannot be used.
     """
-    pair = chosen_pair(scene, bodies, planar=planar, allow_open=allow_open)
+    if planar is None:
+        scene.require_in_space("add --planar xy")
+    else:
+        from satcheck.scene.planar.flat_scene import flat_scene
+
+        scene = flat_scene(scene, planar, allow_open=allow_open)
+    settings = Settings(planar=planar, allow_open=allow_open)
+    pair = pair_of(two_of(scene, bodies), settings)
     studied = studied_hulls(pair) if planar is None else studied_outlines(pair, planar)
     return AxesReport(
         tool=tool(),

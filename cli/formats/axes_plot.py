@@ -16,9 +16,8 @@ from matplotlib.ticker import MaxNLocator
 
 from satcheck.cli.formats.axes import gap_words, origin
 from satcheck.cli.formats.numbers import number
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
+from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, fitted, style
 from satcheck.cli.formats.words import counted, with_unit
-from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -34,7 +33,6 @@ WIDTH = 780.0
 _LEFT, _RIGHT = 216.0, 190.0
 _HEAD, _FOOT, _ROW, _GAP, _ALL = 82.0, 40.0, 21.0, 60.0, 150.0
 _BAR = 0.3  # the height of a shadow, in rows
-_LETTERS = 98  # that fit on a line
 _MANY = 2000  # dots that a vector file still shows at once
 
 
@@ -58,10 +56,10 @@ def draw(result: AxesReport, *, dark: bool = False) -> Figure:
 
 
 def _head(figure: Figure, result: AxesReport, palette: Palette, height: float) -> None:
-    figure.text(16 / WIDTH, 1 - 26 / height, _fitted(_title(result)), size=13, weight="bold")
+    figure.text(16 / WIDTH, 1 - 26 / height, fitted(_title(result)), size=13, weight="bold")
     handles = [
-        Patch(color=palette.proven, label=f"shadow of A, {_fitted(result.a.id, 24)}"),
-        Patch(color=palette.guess, label=f"shadow of B, {_fitted(result.b.id, 24)}"),
+        Patch(color=palette.proven, label=f"shadow of A, {fitted(result.a.id, 24)}"),
+        Patch(color=palette.guess, label=f"shadow of B, {fitted(result.b.id, 24)}"),
         Patch(color=palette.wrong, alpha=0.3, label="overlap"),
     ]
     corner = (8 / WIDTH, 1 - 32 / height)
@@ -169,9 +167,3 @@ def _draw_all(axes: Axes, result: AxesReport, palette: Palette) -> None:
     axes.set_title(f"All {len(numbers):,} axes in the order of testing: gap above 0, overlap below")
     axes.margins(0.03, 0.15)
     axes.xaxis.set_major_locator(MaxNLocator(7, integer=True))
-
-
-def _fitted(words: str, letters: int = _LETTERS) -> str:
-    """On one line; names of bodies can hold any character."""
-    line = harmless(words)
-    return line if len(line) <= letters else f"{line[: letters - 1]}\N{HORIZONTAL ELLIPSIS}"

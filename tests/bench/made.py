@@ -7,7 +7,7 @@ from typing import Any
 from satcheck.audit.tradeoff import RUNGS
 
 Record = dict[str, Any]
-LABELS = [rung.label for rung in RUNGS]
+LABELS = [name if size is None else f"{name} {size:g}" for name, size in RUNGS]
 HEADER = {
     "effort": {"repeat": 3, "rung_seconds": 6.0, "pair_seconds": 12.0, "part_triangles": 3000},
     "environment": {
