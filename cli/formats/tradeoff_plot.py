@@ -65,10 +65,10 @@ def _drawn(result: TradeoffReport) -> list[Row]:
 
 
 def _decades(rows: Sequence[Row]) -> tuple[float, float]:
-    """Whole decades around every time."""
+    """Whole decades around every time, with room for labels."""
     times = [t.median for row in rows for t in (row.cold, row.cached) if t is not None] or [1.0]
-    first, last = math.floor(math.log10(min(times))), math.ceil(math.log10(max(times)))
-    return 10.0**first, 10.0 ** max(last, first + 1)
+    first, last = math.log10(min(times) / 1.5), math.log10(1.5 * max(times))
+    return 10.0 ** math.floor(first), 10.0 ** math.ceil(last)
 
 
 def _legend(palette: Palette) -> list[Line2D]:
