@@ -106,7 +106,7 @@ def _hulls(pair: Pair) -> Studied:
             what = "pairs of edges that can make a face of their Minkowski difference"
             _require_few(*stated, int((pairs.noise == noise).sum()), MOST_FACET_PAIRS, what)
             made = candidates(a, b, pairs, noise=noise)
-            axes = axes_shown(made, points, a.points, b.points, closer=0.0)
+            axes = axes_shown(made, points, a.points, b.points)
     if relation_shown(axes) != relation and hull_a.dimension == hull_b.dimension == 2:
         message = "both bodies are flat and in one plane: give --planar with that plane"
         raise SatcheckError("flat-bodies", message)
@@ -178,11 +178,10 @@ def _outlines(pair: Pair, plane: Plane) -> Studied:
     made = Candidates(
         axes=np.column_stack((edges, none * 0 + m + n, none * 0 + m + n + 1)),
         tolerance=off,
-        kind=("edge-a",) * m + ("edge-b",) * n,
         index=np.column_stack((np.r_[a, none[:n]], np.r_[none[:m], b - m])),
         counted=none < 0,
     )
-    axes = axes_shown(made, Points(world), a, b, pair.closer)
+    axes = axes_shown(made, Points(world), a, b, closer=pair.closer)
     outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
     known = not pair.closer or winner_of(axes) is not None
     unit = along / length[:, None]

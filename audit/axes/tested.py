@@ -7,7 +7,14 @@ import numpy as np
 
 from satcheck.core.axes.candidates import Candidates, first_parallel
 from satcheck.core.axes.shadows import Floats, Indices, Points, shadows
-from satcheck.report.axes import AxesWinner, AxisState, CandidateAxis, EarlyOut, HullRelation
+from satcheck.report.axes import (
+    AxesWinner,
+    AxisKind,
+    AxisState,
+    CandidateAxis,
+    EarlyOut,
+    HullRelation,
+)
 
 RELATIONS: dict[str, HullRelation] = {
     "separating": "separated",
@@ -17,12 +24,12 @@ RELATIONS: dict[str, HullRelation] = {
 
 
 def axes_shown(
-    candidates: Candidates, points: Points, a: Indices, b: Indices, closer: float
+    candidates: Candidates, points: Points, a: Indices, b: Indices, *, closer: float | None = None
 ) -> list[CandidateAxis]:
     """The axes in the order of testing; of parallel candidates the one with the largest gap.
 
-    a, b: the points of each body. closer: how much smaller any gap may be than that of the
-    polygons, because they lie within curves.
+    a, b: the points of each body. closer: in a plane, how much smaller any gap may be than that of
+    the polygons, because they lie within curves; None: in space.
     """
     result = shadows(points, candidates.axes, a, b)
     first = first_parallel(result.direction, candidates.tolerance)
@@ -31,14 +38,15 @@ def axes_shown(
     made = []
     for number, group in enumerate(groups, 1):
         row = group[result.gap[group].argmax()]
-        low, high = result.gap[row] - result.off[row] - closer, result.gap[row] + result.off[row]
+        low = result.gap[row] - result.off[row] - (closer or 0.0)
+        high = result.gap[row] + result.off[row]
         index_a, index_b = candidates.index[group[0]].tolist()
         features = candidates.index[group[candidates.counted[group]]].tolist()
         x, y, z = (result.direction[row] + 0.0).tolist()
         made.append(
             CandidateAxis(
                 number=number,
-                kind=candidates.kind[group[0]],
+                kind=_kind(index_a, index_b, planar=closer is not None),
                 index_a=None if index_a < 0 else index_a,
                 index_b=None if index_b < 0 else index_b,
                 candidates=len({*map(tuple, features)}),
@@ -51,6 +59,14 @@ def axes_shown(
             )
         )
     return made
+
+
+def _kind(index_a: int, index_b: int, *, planar: bool) -> AxisKind:
+    if index_b < 0:
+        return "edge-a" if planar else "face-a"
+    if index_a < 0:
+        return "edge-b" if planar else "face-b"
+    return "edge-edge"
 
 
 def _state(sign: int, *, known: bool) -> AxisState:

@@ -85,8 +85,7 @@ def _draw_shadows(
         places = rows + 0.5 * _BAR * side
         axes.barh(places, length, _BAR, low, color=colour, ec=colour, label=label, zorder=3)
     overlap = np.array([max(-axis.gap, 0.0) for axis in shown])
-    look = {"color": palette.wrong, "alpha": 0.3, "label": "overlap"}
-    axes.barh(rows, overlap, 0.9, -0.5 * overlap, **look)
+    axes.barh(rows, overlap, 0.9, -0.5 * overlap, color=palette.wrong, alpha=0.3, label="overlap")
 
 
 def _name_rows(
@@ -103,7 +102,7 @@ def _name_rows(
         for label, axis in zip(side.get_yticklabels(), shown, strict=True):
             needed = axis.number <= result.early_out.tested or axis.number == best
             label.set_color(palette.ink if needed else palette.faint)
-            label.set_weight("bold" if axis.number == best else "normal")
+            label.set_fontweight("bold" if axis.number == best else "normal")
 
 
 def _said(axis: CandidateAxis, result: AxesReport) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +45,8 @@ def draw(results: Sequence[TradeoffReport], *, dark: bool = False) -> Figure:
             axes.set_xlabel("\n".join(lines), loc="left", size=10)
             drawn = sorted(_drawn(result), key=_place)
             _scale(axes, drawn)
-            _front(axes, drawn, palette)
+            best = [_place(row) for row in drawn if row.pareto]
+            axes.step([x for x, _ in best], [y for _, y in best], palette.faint, where="post")
             for row in drawn:
                 _mark(axes, row, palette)
             parts = [row for row in _drawn(result) if row.threshold is not None]
@@ -92,14 +92,6 @@ def _scale(axes: Axes, rows: Sequence[Row]) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda error, _: number(error)))
     axes.tick_params(labelbottom=True)
-
-
-def _front(axes: Axes, rows: Sequence[Row], palette: Palette) -> None:
-    """A step from each rung on the front to the next slower one."""
-    best = sorted(_place(row) for row in rows if row.pareto)
-    steps = [[left, (right[0], left[1])] for left, right in pairwise(best)]
-    corners = [corner for step in steps for corner in step] + best[-1:]
-    axes.plot([x for x, _ in corners], [y for _, y in corners], color=palette.faint)
 
 
 def _mark(axes: Axes, row: Row, palette: Palette) -> None:

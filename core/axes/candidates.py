@@ -9,16 +9,12 @@ whose arcs cross on the Gauss map, because only they make a face of the Minkowsk
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck._native.core import Polytope
 from satcheck.core.axes.shadows import Floats, Indices, Points
-
-AxisKind = Literal["face-a", "face-b", "edge-edge", "edge-a", "edge-b"]
 
 # How far the corners of two triangles of one flat face may be off each other's planes, in steps of
 # the coordinates: the plane through three of four corners is extrapolated to the fourth.
@@ -75,13 +71,12 @@ class EdgePairs(Struct, frozen=True):
 class Candidates(Struct, frozen=True):
     """In the order of testing: faces of A, faces of B, pairs of edges.
 
-    axes: (m, 4), see Points. tolerance: (m,), how far each may be off, radians. kind: (m,). index:
-    (m, 2), the face or edge of A and of B; -1: none. counted: (m,), not of an edge within a face.
+    axes: (m, 4), see Points. tolerance: (m,), how far each may be off, radians. index: (m, 2), the
+    face or edge of A and of B; -1: none. counted: (m,), not of an edge within a face.
     """
 
     axes: Indices
     tolerance: Floats
-    kind: tuple[AxisKind, ...]
     index: Indices
     counted: NDArray[np.bool_]
 
@@ -191,11 +186,6 @@ def candidates(a: Features, b: Features, pairs: EdgePairs, *, noise: bool) -> Ca
     rows, sine = pairs.rows[kept], pairs.sine[kept]
     i, j = rows.T
     off = np.minimum((a.edge_off[i] + b.edge_off[j]) / sine, WORST_TOLERANCE)
-    kinds: tuple[tuple[AxisKind, int], ...] = (
-        ("face-a", len(a.face)),
-        ("face-b", len(b.face)),
-        ("edge-edge", len(rows)),
-    )
     faces_a = np.column_stack((a.face, np.full(len(a.face), -1)))
     faces_b = np.column_stack((np.full(len(b.face), -1), b.face))
     index = np.concatenate((faces_a, faces_b, rows))
@@ -204,7 +194,6 @@ def candidates(a: Features, b: Features, pairs: EdgePairs, *, noise: bool) -> Ca
     return Candidates(
         axes=np.concatenate((a.triangles, b.triangles, np.column_stack((a.edges[i], b.edges[j])))),
         tolerance=np.concatenate((a.face_off, b.face_off, off)),
-        kind=tuple(kind for kind, count in kinds for _ in range(count)),
         index=index,
         counted=counted,
     )

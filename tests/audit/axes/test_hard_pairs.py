@@ -41,7 +41,7 @@ def shown_by_axes(pair: ConvexPair) -> str:
     a = features_of(hulls[0], 0, points, step)
     b = features_of(hulls[1], hulls[0].vertex_count, points, step)
     found = candidates(a, b, edge_pairs(a, b), noise=False)
-    return relation_shown(axes_shown(found, points, a.points, b.points, closer=0.0))
+    return relation_shown(axes_shown(found, points, a.points, b.points))
 
 
 @pytest.mark.parametrize("family", SMALL, ids=lambda family: family.CATEGORY)
