@@ -51,7 +51,7 @@ class Row(Value, frozen=True, kw_only=True):
     error: float | None = None
     volume: Length | None = None
     volume_error: Length | None = None
-    settled_by: str | None = None
+    settled_by: RungName | None = None
     cold: Times | None = None
     cached: Times | None = None
     cpu: Times | None = None
@@ -78,18 +78,10 @@ class Truth(Value, frozen=True):
     reason: str | None
 
 
-class ClimbEnd(Value, frozen=True):
-    """The rung at which a plain check ends its climb, whether that settles the relation, and what
-    each step said."""
-
-    rung: str
-    settled: bool
-    why: str
-
-
 class TradeoffReport(Value, frozen=True, kw_only=True):
     """Lengths in `units`, null if the files state none. repeat: runs of each rung. budget: seconds
-    that they may take together; seconds: that they took. default: null: no check was made."""
+    that they may take together; seconds: that they took. default: the rung that settles a check by
+    `satcheck A B`; null: none does, or there was no time to see."""
 
     schema: Literal["satcheck.tradeoff/1"] = "satcheck.tradeoff/1"
     tool: Tool
@@ -100,7 +92,7 @@ class TradeoffReport(Value, frozen=True, kw_only=True):
     a: str
     b: str
     truth: Truth
-    default: ClimbEnd | None
+    default: RungName | None
     rungs: tuple[Row, ...]
 
     @property
@@ -113,7 +105,7 @@ class TradeoffReport(Value, frozen=True, kw_only=True):
 def choices(rows: Sequence[Row]) -> list[Row]:
     """The rows that answered, without those that climbed no further than a lower rung and say what
     that says: they are that rung again."""
-    figures: dict[str | None, tuple[float | None, Bounds | None]] = {
+    figures: dict[RungName | None, tuple[float | None, Bounds | None]] = {
         row.rung: (row.signed_distance, row.bounds) for row in rows
     }
     return [

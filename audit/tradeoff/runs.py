@@ -23,11 +23,19 @@ from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.report.report import OVERLAPS, Finding
-from satcheck.report.tradeoff import Bounds, ClimbEnd, Row, RungName
+from satcheck.report.tradeoff import Bounds, Row, RungName
 
 # Stages of a trace that are rungs, and their names here.
-STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
-STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
+STAGES: dict[str, RungName] = {
+    "aabb": "aabb",
+    "obb": "obb",
+    "sat": "hull",
+    "hull": "hull",
+    "curved": "hull",
+    "curved-exact": "hull",
+    "parts": "parts",
+    "triangles": "exact",
+}
 
 
 class Rung(NamedTuple):
@@ -99,31 +107,25 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
         proven=known and finding.exact_relation is not None,
         signed_distance=None if figure is None else figure[0],
         bounds=None if figure is None else figure[1],
-        settled_by=climb_end(finding).rung,
+        settled_by=last_rung(finding),
     )
     return Run(row, cold, cpu), pair
 
 
-def plain_check(bodies: Bodies) -> ClimbEnd | None:
-    """Where `satcheck A B` ends its climb."""
+def default_of(bodies: Bodies) -> RungName | None:
+    """The rung that settles a plain check; None if none does."""
     try:
-        return climb_end(examine(pair_of(bodies, Settings(depth=True)), Trace()).finding)
+        finding = examine(pair_of(bodies, Settings(depth=True)), Trace()).finding
     except Exception:  # noqa: BLE001 the row of the exact rung will say it
         return None
-
-
-def climb_end(finding: Finding) -> ClimbEnd:
-    """The last stage that is a rung ended the climb; those before say why they could not."""
-    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
-    said = [
-        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
-        for stage in climbed
-    ]
-    ran = [STAGES[stage.stage] for stage in climbed if stage.result != "skipped"]
     settled = finding.exact_relation is not None and is_of_bodies(finding)
-    if not settled and finding.reason is not None:
-        said.append(finding.reason)
-    return ClimbEnd(ran[-1] if ran else "none", settled, "; ".join(said))
+    return last_rung(finding) if settled else None
+
+
+def last_rung(finding: Finding) -> RungName | None:
+    """The rung at which the climb ended."""
+    ran = [stage.stage for stage in finding.plan if stage.result != "skipped"]
+    return next((STAGES[stage] for stage in reversed(ran) if stage in STAGES), None)
 
 
 def is_of_bodies(finding: Finding) -> bool:

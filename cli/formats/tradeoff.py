@@ -35,8 +35,7 @@ def render(result: TradeoffReport, page: Page) -> str:
     for line in silent(result):
         console.print(f"  {line}")
     if result.default is not None:
-        ended = "settled by" if result.default.settled else "not settled, ends at"
-        console.print(f"Default: {ended} {result.default.rung}. {result.default.why}.")
+        console.print(f"The default: settled by {result.default}; see satcheck --explain A B.")
     spent = f"{number(round(result.seconds, 1))} s of {number(result.budget)} s"
     console.print(
         "* on the Pareto front: no rung is better in time, error or proof without being worse in "

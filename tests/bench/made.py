@@ -68,7 +68,7 @@ def record(
         "process": [{"wall": 0.2, "cpu": 0.1, "megabytes": 25.0}] * 3,
         "pair": {
             "truth": {"relation": relation, "bounds": bounds, "reason": None},
-            "default": {"rung": picked, "settled": relation is not None, "why": ""},
+            "default": None if relation is None else picked,
             "rungs": list(made.values()),
         },
         "seconds": 6.0,

@@ -54,7 +54,7 @@ def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
         *RUNGS,
         "parts 0.01",
         "volume 2.625",
-        "Default: settled by hull",
+        "The default: settled by hull",
         "x exact",
         "settled by",
     ):
