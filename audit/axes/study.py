@@ -4,7 +4,6 @@ of those of their outlines in a plane."""
 from __future__ import annotations
 
 import numpy as np
-from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.axes.tested import RELATIONS, axes_shown, early_out, relation_shown, winner_of
@@ -35,19 +34,6 @@ MOST_EDGE_PAIRS = 10_000_000
 MOST_FACET_PAIRS = 250_000
 
 
-class Studied(Struct, frozen=True):
-    """axes: in the order of testing. relation: by the check of convex pairs. distance: its figure;
-    negative for a depth; None in a plane, as gjk_steps: how many steps GJK and EPA take."""
-
-    a: AxesBody
-    b: AxesBody
-    counts: AxisCounts
-    axes: list[CandidateAxis]
-    relation: HullRelation
-    distance: float | None = None
-    gjk_steps: int | None = None
-
-
 def axes_of(
     scene: Scene,
     bodies: tuple[str, str] | None = None,
@@ -69,34 +55,48 @@ def axes_of(
         scene = flat_scene(scene, planar, allow_open=allow_open)
     settings = Settings(planar=planar, allow_open=allow_open)
     pair = pair_of(two_of(scene, bodies), settings)
-    studied = _hulls(pair) if planar is None else _outlines(pair, planar)
-    winner = winner_of(studied.axes)
+    return _hulls(pair) if planar is None else _outlines(pair, planar)
+
+
+def _report(
+    pair: Pair,
+    a: AxesBody,
+    b: AxesBody,
+    counts: AxisCounts,
+    axes: list[CandidateAxis],
+    relation: HullRelation,
+    answer: core.PairResult | None = None,
+) -> AxesReport:
+    """axes: in the order of testing. relation, answer: of the check of convex pairs; no answer in a
+    plane."""
+    winner = winner_of(axes)
     return AxesReport(
         tool=tool(),
         units=pair.a.body.units,
-        planar=planar,
-        of="bodies" if studied.a.convex and studied.b.convex else "hulls",
-        a=studied.a,
-        b=studied.b,
-        relation=studied.relation,
-        distance=studied.distance,
+        planar=pair.settings.planar,
+        of="bodies" if a.convex and b.convex else "hulls",
+        a=a,
+        b=b,
+        relation=relation,
+        distance=None if answer is None else answer.distance,
         tolerance=pair.tolerance,
-        gjk_steps=studied.gjk_steps,
-        counts=studied.counts,
-        early_out=early_out(studied.axes),
-        winner=winner if winner and RELATIONS[winner.kind] == studied.relation else None,
-        axes=tuple(sorted(studied.axes, key=lambda axis: -axis.gap)),
+        gjk_steps=None if answer is None else answer.gjk_iterations + answer.epa_iterations,
+        counts=counts,
+        early_out=early_out(axes),
+        winner=winner if winner and RELATIONS[winner.kind] == relation else None,
+        axes=tuple(sorted(axes, key=lambda axis: -axis.gap)),
         left_out=0,
     )
 
 
-def _hulls(pair: Pair) -> Studied:
+def _hulls(pair: Pair) -> AxesReport:
     hull_a, hull_b = _hull(pair.a), _hull(pair.b)
     points = Points(np.concatenate((hull_a.vertices, hull_b.vertices)))
     a = features_of(hull_a, 0, points, pair.a.resolution)
     b = features_of(hull_b, hull_a.vertex_count, points, pair.b.resolution)
     stated = _stated(pair.a, a), _stated(pair.b, b)
-    _require_few(*stated, len(a.edges) * len(b.edges), MOST_EDGE_PAIRS, "pairs of edges")
+    count = len(a.edges) * len(b.edges)
+    _require_few(*stated, count, MOST_EDGE_PAIRS, "pairs of edges of triangles")
     pairs = edge_pairs(a, b)
     answer = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), method="gjk")
     relation: HullRelation = "indeterminate" if answer.outcome == "undecided" else answer.outcome
@@ -122,8 +122,7 @@ def _hulls(pair: Pair) -> Studied:
         ),
         distinct=len(axes),
     )
-    steps = answer.gjk_iterations + answer.epa_iterations
-    return Studied(*stated, counts, axes, relation, answer.distance, steps)
+    return _report(pair, *stated, counts, axes, relation, answer)
 
 
 def _edge_directions(features: Features) -> int:
@@ -159,7 +158,7 @@ def _require_few(a: AxesBody, b: AxesBody, count: int, limit: int, what: str) ->
     raise SatcheckError("too-many-axes", message)
 
 
-def _outlines(pair: Pair, plane: Plane) -> Studied:
+def _outlines(pair: Pair, plane: Plane) -> AxesReport:
     """The bodies of a pair in a plane are prisms; an axis is an edge of the outline turned by 90
     degrees."""
     corners_a, corners_b = _corners(pair.a, plane), _corners(pair.b, plane)
@@ -176,23 +175,19 @@ def _outlines(pair: Pair, plane: Plane) -> Studied:
     off = np.minimum(STEPS_OFF * steps / length, WORST_TOLERANCE)
     none = np.full(m + n, -1)
     made = Candidates(
-        axes=np.column_stack((edges, none * 0 + m + n, none * 0 + m + n + 1)),
+        axes=np.column_stack((edges, np.full(m + n, m + n), np.full(m + n, m + n + 1))),
         tolerance=off,
         index=np.column_stack((np.r_[a, none[:n]], np.r_[none[:m], b - m])),
-        counted=none < 0,
+        counted=np.full(m + n, True),
     )
     axes = axes_shown(made, Points(world), a, b, closer=pair.closer)
     outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
     known = not pair.closer or winner_of(axes) is not None
     unit = along / length[:, None]
     directions = direction_count(unit[:m], off[:m]), direction_count(unit[m:], off[m:]), 0
-    return Studied(
-        a=_outlined(pair.a, m),
-        b=_outlined(pair.b, n),
-        counts=AxisCounts(m + n, 0, 0, directions, len(axes)),
-        axes=axes,
-        relation="indeterminate" if not known or outcome == "undecided" else outcome,
-    )
+    counts = AxisCounts(m + n, 0, 0, directions, len(axes))
+    relation: HullRelation = "indeterminate" if not known or outcome == "undecided" else outcome
+    return _report(pair, _outlined(pair.a, m), _outlined(pair.b, n), counts, axes, relation)
 
 
 def _corners(body: PlacedBody, plane: Plane) -> Floats:
