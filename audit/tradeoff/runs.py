@@ -112,16 +112,6 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
     return Run(row, cold, cpu), pair
 
 
-def default_of(bodies: Bodies) -> RungName | None:
-    """The rung that settles a plain check; None if none does."""
-    try:
-        finding = examine(pair_of(bodies, Settings(depth=True)), Trace()).finding
-    except Exception:  # noqa: BLE001 the row of the exact rung will say it
-        return None
-    settled = finding.exact_relation is not None and is_of_bodies(finding)
-    return last_rung(finding) if settled else None
-
-
 def last_rung(finding: Finding) -> RungName | None:
     """The rung at which the climb ended."""
     ran = [stage.stage for stage in finding.plan if stage.result != "skipped"]

@@ -14,7 +14,7 @@ from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.request.settings import Method, Settings
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.audit.summary import tool
-from satcheck.audit.tradeoff.runs import EXACT, RUNGS, Run, Rung, default_of, run
+from satcheck.audit.tradeoff.runs import EXACT, RUNGS, Run, Rung, run
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import OVERLAPS
 from satcheck.report.tradeoff import Row, Times, TradeoffReport, Truth, choices
@@ -52,7 +52,9 @@ def tradeoff(
     settings = Settings(depth=True, method=method)
     # A clearance beyond any gap: the exact rung measures it.
     beyond = replace(settings, clearance=2.0 ** (math.frexp(pair.largest_coordinate)[1] + 2))
-    default = default_of(bodies) if monotonic() - start < budget else None
+    plain = Measured()
+    if budget > monotonic() - start:
+        _ask(EXACT, plain, bodies, budget, settings)
     measured = {rung: Measured() for rung in rungs}
     turns = _in_turn(rungs, repeat)
     for done, rung in enumerate(turns, 1):
@@ -73,7 +75,7 @@ def tradeoff(
         a=bodies[0].id,
         b=bodies[1].id,
         truth=truth,
-        default=default,
+        default=next((one.row.settled_by for one in plain.runs if one.row.proven), None),
         rungs=with_front(rows),
     )
 

@@ -12,9 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from satcheck.cli.formats.axes import gap_words, origin
+from satcheck.cli.formats.axes import early_out, gap_words, origin, title
 from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, fitted, style
-from satcheck.cli.formats.words import counted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +36,7 @@ def draw(result: AxesReport, *, dark: bool = False) -> Figure:
     with style(dark=dark) as palette:
         figure = Figure(size, layout="constrained")
         axes = figure.subplots()
-        axes.set_title(fitted(_title(result)))
+        axes.set_title(fitted(title(result)))
         _draw_shadows(axes, shown, result, palette)
         _name_rows(axes, shown, result, palette)
         axes.use_sticky_edges = False
@@ -49,24 +48,10 @@ def draw(result: AxesReport, *, dark: bool = False) -> Figure:
         units = f", {result.units}" if result.units else ""
         axes.set_xlabel(
             f"along the axis from A to B, 0 in the middle of the gap or overlap{units}\n"
-            + _summary(result)
+            + early_out(result)
         )
         figure.legend(loc="outside upper left", ncols=3)
     return figure
-
-
-def _title(result: AxesReport) -> str:
-    hulls = "" if result.of == "bodies" else "hulls of "
-    return f"{hulls}{result.a.id} and {result.b.id}: {result.relation}"
-
-
-def _summary(result: AxesReport) -> str:
-    counts, early = result.counts, result.early_out
-    axes = counted(counts.distinct, "axis", "axes")
-    stop = "no axis has a gap, so a test tries all"
-    if early.axis is not None:
-        stop = f"a test stops at axis {early.tested:,}, {early.not_needed:,} are not needed"
-    return f"{counted(counts.candidates, 'candidate')}, {axes} to test; {stop}."
 
 
 def _draw_shadows(
