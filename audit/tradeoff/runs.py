@@ -22,6 +22,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
+from satcheck.decompose.result import Decomposition
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.tradeoff import Bounds, Row, RungName
 
@@ -77,14 +78,23 @@ def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Run |
             cache_directory=folder,
         )
         cold, pair = _ladder(rung, bodies, settings)
-        made = [body.shared.decomposition.known for body in (pair.a, pair.b)]
-        for result in made:
-            if isinstance(result, SatcheckError):
-                return str(result)
-        if not any(made):  # the hulls of the bodies are all there is
+        made = _decompositions(pair)
+        if failure := next((one for one in made if isinstance(one, SatcheckError)), None):
+            return str(failure)
+        if not made:  # the hulls of the bodies are all there is
             ended = "hull" if cold.row.settled_by == "parts" else cold.row.settled_by
             return replace(cold, row=replace(cold.row, settled_by=ended))
-        return replace(cold, cached=_ladder(rung, bodies, settings)[0].cold)
+        again, pair = _ladder(rung, bodies, settings)
+        reread = all(
+            isinstance(one, Decomposition) and one.from_cache for one in _decompositions(pair)
+        )
+        return replace(cold, cached=again.cold if reread else None)
+
+
+def _decompositions(pair: Pair) -> list[Decomposition | SatcheckError]:
+    """Those that a climb has asked for."""
+    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    return [one for one in known if one is not None]
 
 
 def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
