@@ -40,6 +40,15 @@ def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
+pair_option = click.option(
+    "--pair",
+    "bodies",
+    nargs=2,
+    metavar="A B",
+    help="The ids of two bodies of a scene. [default: its only two]",
+)
+
+
 def together(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Command]:
     """Several options, in this order in the help."""
 

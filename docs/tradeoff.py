@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bench.drawing import write_both
+from satcheck.audit.studied_pair import two_of
 from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli.formats.tradeoff_plot import draw
 from satcheck.scene import load_scene
@@ -23,11 +24,11 @@ PAIRS = (
 
 
 def main() -> None:
-    runs = [
-        tradeoff(load_scene([SAMPLES / a, SAMPLES / b]), budget=budget) for a, b, budget in PAIRS
-    ]
-    pairs = [pair for run in runs for pair in run.pairs]
-    write_both(HERE / "tradeoff.svg", lambda dark: draw(pairs, dark=dark))
+    results = []
+    for a, b, budget in PAIRS:
+        scene = load_scene([SAMPLES / a, SAMPLES / b])
+        results.append(tradeoff(two_of(scene, None), budget=budget))
+    write_both(HERE / "tradeoff.svg", lambda dark: draw(results, dark=dark))
 
 
 if __name__ == "__main__":

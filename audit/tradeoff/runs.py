@@ -1,14 +1,18 @@
-"""One run of one rung on one pair, with its time and memory."""
+"""One run of one rung on one pair: its answer in a row of the report, and its time."""
 
 from __future__ import annotations
 
 import os
+import tempfile
 import time
 from time import perf_counter
+from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+# What the first question needs is imported here: it is no cost of the rung that asks it.
+import satcheck.decompose.computation  # noqa: F401
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.volume import common_volume
@@ -16,106 +20,112 @@ from satcheck.audit.finding import examine
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.studied_pair import Bodies, pair_of
-from satcheck.audit.tradeoff.result import ClimbEnd
-from satcheck.audit.tradeoff.thickness import ThicknessRun, thickness_by
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
-from satcheck.core.rounding import rounding_pad
-from satcheck.report.report import Finding
+from satcheck.decompose.result import Decomposition
+from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.tradeoff import Bounds, Row, RungName
 
-# Stages of a trace that are rungs, and how they are called here.
-STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
-STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
-# What a stage records that had nothing to add to the one below.
-SKIPPED = "skipped"
-
-
-class LadderRun(Struct, frozen=True):
-    """The answer of a ladder.
-
-    verdict: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
-    can make of a length here. seconds: from the meshes in memory to the finding, hulls and
-    hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
-    so long, on all threads and in ended child processes together. ended: the rung at which the
-    climb ended. thickness: of what stood for the bodies; its time is in `seconds` only where the
-    finding has it. split: convex parts were asked for; from_cache: and found there. failure: why
-    there are none.
-    """
-
-    finding: Finding
-    verdict: Verdict
-    pad: float
-    seconds: float
-    cpu: float
-    ended: str
-    thickness: ThicknessRun | None = None
-    split: bool = False
-    from_cache: bool = False
-    failure: str | None = None
+# Stages of a trace that are rungs, and their names here.
+STAGES: dict[str, RungName] = {
+    "aabb": "aabb",
+    "obb": "obb",
+    "sat": "hull",
+    "hull": "hull",
+    "curved": "hull",
+    "curved-exact": "hull",
+    "parts": "parts",
+    "triangles": "exact",
+}
 
 
-class VolumeRun(Struct, frozen=True):
-    """The volume in common, and about how far it is off.
+class Rung(NamedTuple):
+    """threshold: of convex parts, see satcheck.decompose. The Boolean is no rung of the ladder."""
 
-    cold: seconds with the start of the child process; cached: when it runs already.
-    """
+    name: RungName
+    threshold: float | None = None
 
-    volume: float
-    error: float
+
+EXACT, BOOLEAN = Rung("exact"), Rung("boolean")
+PARTS = tuple(Rung("parts", threshold) for threshold in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01))
+RUNGS = (Rung("aabb"), Rung("obb"), Rung("hull"), *PARTS, EXACT, BOOLEAN)
+
+
+class Run(Struct, frozen=True):
+    """Seconds from the meshes in memory to the answer, with hulls and trees made anew. cpu: of
+    these the processor was at work so long, on all threads and in ended child processes."""
+
+    row: Row
     cold: float
-    cached: float
+    cpu: float | None = None
+    cached: float | None = None
 
 
-def ask_parts(bodies: Bodies, settings: Settings) -> LadderRun:
-    """Climb a ladder that ends with convex parts."""
-    asked, pair = _climb(bodies, settings)
-    results = [body.shared.decomposition.known for body in (pair.a, pair.b)]
-    made = [result for result in results if result is not None]
-    if not made:  # the hulls of the bodies are all there is
-        return replace(asked, ended="hull") if asked.ended == "parts" else asked
-    failures = [str(result) for result in made if isinstance(result, SatcheckError)]
-    if failures:
-        return replace(asked, split=True, failure=failures[0])
-    parts = [result for result in made if not isinstance(result, SatcheckError)]
-    return replace(asked, split=True, from_cache=all(result.from_cache for result in parts))
+def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Run | str:
+    """Ask a rung; or why it has no answer. seconds: that convex parts or a volume may take."""
+    if rung == BOOLEAN:
+        limit = min(settings.volume_seconds, seconds)
+        return _boolean(bodies, replace(settings, volume_seconds=limit))
+    if rung.name != "parts":
+        return _ladder(rung, bodies, replace(settings, accuracy=rung.name))[0]
+    # A cache of its own, empty at first: that of the user is neither read nor written.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        settings = replace(
+            settings,
+            accuracy="parts",
+            part_threshold=rung.threshold,
+            part_seconds=min(settings.part_seconds, seconds),
+            cache_directory=folder,
+        )
+        cold, pair = _ladder(rung, bodies, settings)
+        made = _decompositions(pair)
+        if failure := next((one for one in made if isinstance(one, SatcheckError)), None):
+            return str(failure)
+        if not made:  # the hulls of the bodies are all there is
+            ended = "hull" if cold.row.settled_by == "parts" else cold.row.settled_by
+            return replace(cold, row=replace(cold.row, settled_by=ended))
+        again, pair = _ladder(rung, bodies, settings)
+        reread = all(
+            isinstance(one, Decomposition) and one.from_cache for one in _decompositions(pair)
+        )
+        return replace(cold, cached=again.cold if reread else None)
 
 
-def ask(bodies: Bodies, settings: Settings) -> LadderRun:
-    """Climb as far up the ladder as the settings let it, nothing known from before."""
-    return _climb(bodies, settings)[0]
+def _decompositions(pair: Pair) -> list[Decomposition | SatcheckError]:
+    """Those that a climb has asked for."""
+    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    return [one for one in known if one is not None]
 
 
-def _climb(bodies: Bodies, settings: Settings) -> tuple[LadderRun, Pair]:
-    before, start = _cpu_seconds(), perf_counter()
+def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
+    cpu, start = _cpu_seconds(), perf_counter()
     pair = pair_of(bodies, settings)
     examined = examine(pair, Trace())
+    cold, cpu = perf_counter() - start, _cpu_seconds() - cpu
     finding = examined.finding
-    seconds, cpu = perf_counter() - start, _cpu_seconds() - before
-    ended = climb_end(finding).rung
-    asked = LadderRun(
-        finding=finding,
-        verdict=examined.verdict,
-        pad=rounding_pad(pair.largest_coordinate),
-        seconds=seconds,
-        cpu=cpu,
-        ended=ended,
-        thickness=thickness_by(ended, pair, finding),
+    # A clearance is asked only to have the gap measured.
+    relation = "separated" if finding.relation == "near" else finding.relation
+    known = is_of_bodies(finding) and relation != "indeterminate"
+    figure = signed_distance(finding, examined.verdict)
+    row = Row(
+        rung=rung.name,
+        threshold=rung.threshold,
+        state="answered",
+        reason=None if known else finding.reason,
+        overlap=relation in OVERLAPS if known else None,
+        relation=relation,
+        proven=known and finding.exact_relation is not None,
+        signed_distance=None if figure is None else figure[0],
+        bounds=None if figure is None else figure[1],
+        settled_by=last_rung(finding),
     )
-    return asked, pair
+    return Run(row, cold, cpu), pair
 
 
-def climb_end(finding: Finding) -> ClimbEnd:
-    """The last stage that is a rung ended the climb; those before say why they could not."""
-    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
-    said = [
-        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
-        for stage in climbed
-    ]
-    ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
-    settled = finding.exact_relation is not None and is_of_bodies(finding)
-    if not settled and finding.reason is not None:
-        said.append(finding.reason)
-    return ClimbEnd(ran[-1] if ran else "none", settled, "; ".join(said))
+def last_rung(finding: Finding) -> RungName | None:
+    """The rung at which the climb ended."""
+    ran = [stage.stage for stage in finding.plan if stage.result != "skipped"]
+    return next((STAGES[stage] for stage in reversed(ran) if stage in STAGES), None)
 
 
 def is_of_bodies(finding: Finding) -> bool:
@@ -123,34 +133,64 @@ def is_of_bodies(finding: Finding) -> bool:
     return finding.undecided not in ("relation", "inside")
 
 
+def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] | None:
+    """With its bounds. verdict: of the same ladder, for what it proves and nobody asked to report.
+    None: no figure of the bodies; how far their surfaces are apart says nothing of one that may lie
+    inside."""
+    if not is_of_bodies(finding):
+        return None
+    if finding.depth_bounds is not None:
+        low, high = finding.depth_bounds
+        # An overlap that is not proven may be a gap, of any width.
+        return -high + 0.0, (-high + 0.0, -low + 0.0 if verdict.proven else None)
+    signed = verdict.signed_distance
+    if signed is not None and signed.distance is not None:
+        return signed.distance, (signed.lower, signed.upper)
+    if finding.distance is not None:
+        return finding.distance, (finding.distance, finding.distance)
+    if verdict.relation == "separated":
+        return verdict.gap_lower, (verdict.gap_lower if verdict.proven else None, None)
+    if verdict.relation == "touching":
+        return 0.0, (0.0, 0.0)
+    band = finding.tolerance
+    return None if finding.relation != "touching" or band is None else (0.0, (-band, None))
+
+
 def _cpu_seconds() -> float:
-    """Return the CPU time of this process, on all threads, and of its children that ended; Windows
-    knows of none."""
     used = os.times()
     return time.process_time() + used.children_user + used.children_system
 
 
-def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
-    """Measure the volume by the Boolean of manifold3d, in a child process of its own; or why there
-    is none."""
-    times: list[float] = []
-    volume = error = 0.0
+def _boolean(bodies: Bodies, settings: Settings) -> Run | str:
+    """Measure the common volume by manifold3d, in a child process of its own, twice."""
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
     with VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
-        for _ in ("cold", "cached"):
-            start = perf_counter()
-            measured = _volume(pair_of(bodies, settings, meter))
-            times.append(perf_counter() - start)
-            if isinstance(measured, str):
-                return measured
-            volume, error = measured
-    return VolumeRun(volume, error, times[0], times[1])
+        cold = _volume(bodies, settings, meter)
+        cached = cold if isinstance(cold, str) else _volume(bodies, settings, meter)
+    if isinstance(cold, str) or isinstance(cached, str):
+        return str(cached)
+    _, volume, error = cold
+    known = volume == 0 or volume > error
+    row = Row(
+        rung="boolean",
+        state="answered",
+        overlap=volume > 0 if known else None,
+        volume=volume,
+        volume_error=error,
+        reason=None if known else "the volume lies within its own error",
+    )
+    return Run(row, cold[0], cached=cached[0])
 
 
-def _volume(pair: Pair) -> tuple[float, float] | str:
+def _volume(
+    bodies: Bodies, settings: Settings, meter: VolumeMeter
+) -> tuple[float, float, float] | str:
+    """Seconds, the volume and its error; or why there is none."""
+    start = perf_counter()
+    pair = pair_of(bodies, settings, meter)
     if pair.curved:
         return "a curved shape has no triangles"
     common = common_volume(pair, Verdict("penetrating", False), Trace())
     if common.volume is None or common.error is None:
         return common.refusal or "no volume"
-    return common.volume, common.error
+    return perf_counter() - start, common.volume, common.error

@@ -13,11 +13,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
+from bench.accuracy.labels import Labels, Point
 from bench.accuracy.palette import Colours, kind_of, series
 from bench.accuracy.rungs import PARTS, Cost
 from bench.drawing import name_decades, percent, plain
 from satcheck.cli.formats.numbers import number
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Labels, Palette, Point, style
+from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
 
 # Points, 72 to the inch.
 WIDTH = 780.0

@@ -16,13 +16,15 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from bench.accuracy.case import Case, Effort, case_of
 from satcheck.audit import Settings, check
-from satcheck.audit.tradeoff import RUNGS, Budget, Row, measure_pair
+from satcheck.audit.tradeoff import RUNGS, tradeoff
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import render
+from satcheck.report.tradeoff import Row
 from satcheck.scene import Body, load_scene
 
 SECONDS_PER_MICROSECOND = 1e-6
@@ -41,19 +43,27 @@ def measured(case: Case, effort: Effort) -> dict[str, Any]:
             raise SatcheckError("no-pair", f"{len(scene.bodies)} readable bodies, not two")
         a, b = scene.bodies
         plain = [stages(inputs) for _ in range(effort.repeat + 1)][1:]  # the first one imports
-        budget = Budget(effort.pair_seconds, per_rung=effort.rung_seconds)
         triangles = [body.world_mesh().triangle_count for body in (a, b)]
         left_out = PARTS if sum(triangles) > effort.part_triangles else []
         asked = [rung for rung in RUNGS if rung not in left_out]
-        pair = measure_pair((a, b), effort.repeat, budget, rungs=asked)
+        pair = tradeoff(
+            (a, b),
+            repeat=effort.repeat,
+            budget=effort.pair_seconds,
+            rung_seconds=effort.rung_seconds,
+            rungs=asked,
+        )
     reason = f"budget: more than {effort.part_triangles:,} triangles"
-    rows = {row.rung: row for row in pair.rows}
-    rows |= {rung: Row(rung=rung, state="not run", reason=reason) for rung in left_out}
+    rows = {(row.rung, row.threshold): row for row in pair.rungs}
+    rows |= {
+        rung: Row(rung=rung.name, threshold=rung.threshold, state="not run", reason=reason)
+        for rung in left_out
+    }
     return {
         "triangles": triangles,
         "size": min(_diagonal(body) for body in (a, b)),
         "stages": plain,
-        "pair": replace(pair, rows=tuple(rows[rung] for rung in RUNGS)).to_dict(),
+        "pair": to_builtins(replace(pair, rungs=tuple(rows[rung] for rung in RUNGS))),
     }
 
 

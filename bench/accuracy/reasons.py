@@ -13,7 +13,6 @@ from bench.accuracy.verdicts import overlaps
 # What a reason says, without what is of one pair alone; the first that matches.
 _BUDGET = (
     (re.compile(r"^budget: more than .* triangles$"), "too many triangles"),
-    (re.compile(r"^budget: .* was stopped after"), "not begun: coarser parts were stopped"),
     (re.compile(r"^budget: stopped after"), "stopped at its budget"),
     (re.compile(r"^budget$"), "the budget of the pair was spent, or too little left"),
 )

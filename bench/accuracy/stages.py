@@ -46,8 +46,7 @@ class StageTimes:
 
 def settled_by(records: Sequence[Record]) -> dict[str, int]:
     """How often each rung settled the relation in a plain check, and how often none did."""
-    ended = [one["pair"]["default"] for one in records if one["pair"]["default"]]
-    return dict(Counter(one["rung"] if one["settled"] else NOTHING for one in ended))
+    return dict(Counter(one["pair"]["default"] or NOTHING for one in records))
 
 
 def grouped(record: Record) -> dict[str, float]:
@@ -63,7 +62,7 @@ def grouped(record: Record) -> dict[str, float]:
 
 def kind_of(record: Record) -> str:
     picked = record["pair"]["default"]
-    if picked is not None and picked["rung"] != "exact":
+    if picked not in (None, "exact"):
         return SETTLED_EARLY
     return OVERLAPPING if record["pair"]["truth"]["relation"] in OVERLAPS else APART
 

@@ -18,6 +18,7 @@ from satcheck.cli.options import (
     debug_option,
     open_option,
     output_option,
+    pair_option,
     paths_argument,
     planar_option,
 )
@@ -45,13 +46,7 @@ TABLE_ROWS = 20
 
 @click.command("axes", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("A B")
-@click.option(
-    "--pair",
-    "bodies",
-    nargs=2,
-    metavar="A B",
-    help="The ids of two bodies of a scene. [default: its only two]",
-)
+@pair_option
 @click.option(
     "--top",
     type=click.IntRange(min=1),

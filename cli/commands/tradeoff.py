@@ -8,7 +8,8 @@ from typing import Any
 import click
 
 from satcheck.audit.request.settings import Method
-from satcheck.audit.tradeoff import Tradeoff, tradeoff
+from satcheck.audit.studied_pair import two_of
+from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, form_option
@@ -18,6 +19,7 @@ from satcheck.cli.options import (
     debug_option,
     method_option,
     output_option,
+    pair_option,
     paths_argument,
     seconds_option,
 )
@@ -26,10 +28,12 @@ from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_p
 from satcheck.cli.progress import Bar
 from satcheck.cli.scene_options import merge_option, reading_options, split_option, units_option
 from satcheck.report.json import document as json_document
+from satcheck.report.tradeoff import TradeoffReport
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("A B")
+@pair_option
 @click.option(
     "--repeat",
     type=click.IntRange(min=1),
@@ -41,15 +45,7 @@ from satcheck.report.json import document as json_document
 @seconds_option(
     "--budget",
     60.0,
-    "Time for the whole run, shared by all pairs. Rungs that do not fit are shown as not run.",
-)
-@click.option(
-    "--pairs",
-    type=click.IntRange(min=1),
-    metavar="N",
-    default=10,
-    show_default=True,
-    help="At most this many pairs of a scene, of those whose boxes meet.",
+    "Time for the whole run. Rungs that do not fit are shown as not run.",
 )
 @plot_option("Draw error against time")
 @dark_option
@@ -65,9 +61,9 @@ from satcheck.report.json import document as json_document
 def command(
     form: str | None,
     output: Path | None,
+    bodies: tuple[str, str] | None,
     repeat: int,
     budget: float,
-    pairs: int,
     plot: Path | None,
     method: Method,
     dark: bool,
@@ -88,23 +84,21 @@ def command(
     refuse_plot(inputs, plot, output)
     document = Document()
     scene = load(inputs)
-    if scene.unreadable:
-        raise click.ClickException("an input could not be used: nothing is compared without it")
+    scene.require_in_space("tradeoff compares meshes in space only")
+    pair = two_of(scene, bodies)
     with Bar("runs", "measuring") as bar:
-        result = tradeoff(
-            scene, repeat=repeat, budget=budget, pairs=pairs, method=method, progress=bar
-        )
+        result = tradeoff(pair, repeat=repeat, budget=budget, method=method, progress=bar)
     if plot:
         from satcheck.cli.formats.tradeoff_plot import draw
 
-        write_plot(draw(result.pairs, dark=dark), plot)
+        write_plot(draw([result], dark=dark), plot)
     document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")
     return exit_codes.CLEAN if result.complete else exit_codes.INCOMPLETE
 
 
-def _render(result: Tradeoff, form: str, page: Page) -> str:
+def _render(result: TradeoffReport, form: str, page: Page) -> str:
     if form == "json":
-        return json_document(result.to_dict())
+        return json_document(result)
     from satcheck.cli.formats.tradeoff import render
 
     return render(result, page)

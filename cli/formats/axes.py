@@ -30,13 +30,13 @@ _COLOURS: dict[AxisState, str] = {
 def render(result: AxesReport, page: Page) -> str:
     """The whole text, final newline included."""
     console = Canvas(page)
-    console.print(_title(result))
+    console.print(title(result))
     for line in (*_notes(result), *_counts(result)):
         console.print(line)
     console.print(_table(result, page))
     if result.left_out:
         console.print(f"{counted(result.left_out, 'more axis', 'more axes')}: see --top.")
-    console.print(_early_out(result))
+    console.print(early_out(result))
     console.print(_winner(result))
     return console.text()
 
@@ -62,7 +62,7 @@ def _signed(gap: float, unit: str | None) -> str:
     return f"{'gap' if gap > 0 else 'overlap'} {with_unit(number(abs(gap)), unit)}"
 
 
-def _title(result: AxesReport) -> str:
+def title(result: AxesReport) -> str:
     what = {"bodies": "", "hulls": "the convex hulls of "}[result.of]
     return f"{what}A {result.a.id} and B {result.b.id}: {result.relation}"
 
@@ -127,7 +127,7 @@ def _shadow(shadow: Shadow) -> str:
     return " .. ".join(map(number, shadow))
 
 
-def _early_out(result: AxesReport) -> str:
+def early_out(result: AxesReport) -> str:
     early, total = result.early_out, result.counts.distinct
     steps = ""
     if result.gjk_steps is not None:

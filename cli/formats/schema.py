@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 from msgspec import Struct
 
@@ -16,9 +15,9 @@ from satcheck.report.resolution import ResolutionReport
 from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
 from satcheck.report.suggestions import SuggestionsReport
+from satcheck.report.tradeoff import TradeoffReport
 from satcheck.report.verification import VerificationReport
 
-HERE = Path(__file__).parent
 STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
     "axes": AxesReport,
@@ -28,6 +27,7 @@ STRUCTS: dict[str, type[Struct]] = {
     "result": Result,
     "samples": SamplesReport,
     "suggestions": SuggestionsReport,
+    "tradeoff": TradeoffReport,
     "verification": VerificationReport,
 }
 
@@ -44,9 +44,4 @@ def text(name: str = "report") -> str:
         from satcheck.cli.config.schema import schema
 
         return schema()
-    if name in STRUCTS:
-        return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
-    text = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
-    document = json.loads(text)
-    document["$defs"] = {**document.get("$defs", {}), "report": schema_of("report", Report)}
-    return json.dumps(document, indent=2) + "\n"
+    return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from satcheck.audit import Report, Settings, check
-from satcheck.audit.axes.chosen_pair import chosen_pair
+from satcheck.audit.axes import axes_of
+from satcheck.audit.studied_pair import two_of
 from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli.formats.words import issue_line
 from satcheck.core.errors import SatcheckError
@@ -189,8 +190,8 @@ def test_other_questions_about_a_pair(tmp_path: Path) -> None:
     file.write_text(json.dumps({"schema": "satcheck.scene/1", "bodies": bodies}))
     scene = load_scene([file])
     with pytest.raises(SatcheckError) as of_tradeoff:
-        tradeoff(scene)
+        tradeoff(two_of(scene, None))
     with pytest.raises(SatcheckError) as of_axes:
-        chosen_pair(scene, None, planar=None, allow_open=False)
+        axes_of(scene)
     for caught in (of_tradeoff, of_axes):
         assert (caught.value.code, caught.value.body) == ("out-of-range", "a")

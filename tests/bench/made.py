@@ -7,7 +7,7 @@ from typing import Any
 from satcheck.audit.tradeoff import RUNGS
 
 Record = dict[str, Any]
-LABELS = [rung.label for rung in RUNGS]
+LABELS = [name if size is None else f"{name} {size:g}" for name, size in RUNGS]
 HEADER = {
     "effort": {"repeat": 3, "rung_seconds": 6.0, "pair_seconds": 12.0, "part_triangles": 3000},
     "environment": {
@@ -68,7 +68,7 @@ def record(
         "process": [{"wall": 0.2, "cpu": 0.1, "megabytes": 25.0}] * 3,
         "pair": {
             "truth": {"relation": relation, "bounds": bounds, "reason": None},
-            "default": {"rung": picked, "settled": relation is not None, "why": ""},
+            "default": None if relation is None else picked,
             "rungs": list(made.values()),
         },
         "seconds": 6.0,

@@ -13,7 +13,6 @@ from tests.bench.made import record, row, silent
     [
         ("budget", "the budget of the pair was spent, or too little left"),
         ("budget: stopped after 6 s", "stopped at its budget"),
-        ("budget: parts 0.5 was stopped after 6 s", "not begun: coarser parts were stopped"),
         ("budget: more than 3,000 triangles", "too many triangles"),
         ("no volume: body 'a b': is no solid", "is no solid"),
         ("no volume: a and b: the intersection took too long", "the intersection took too long"),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 import pytest
 from matplotlib import figure as plots
@@ -11,54 +9,56 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from msgspec.structs import replace
 
-from satcheck.audit.tradeoff import (
-    RUNGS,
-    ClimbEnd,
-    Figure,
-    PairTradeoff,
-    Row,
-    Times,
-    Truth,
-    labels_of,
-)
+from satcheck.audit.tradeoff import RUNGS
 from satcheck.cli.formats.plot_style import DARK, FORMS, LIGHT, file_of
 from satcheck.cli.formats.tradeoff_plot import draw
+from satcheck.report.tradeoff import Row, Times, TradeoffReport, Truth
+from satcheck.report.values import Tool
 
-TRUTH = Truth("separated", Figure(1.0, 1.0, 1.0), 0.0)
 
-
-def made(**of_rung: tuple[float, float | None]) -> PairTradeoff:
+def made(**of_rung: tuple[float, float | None]) -> TradeoffReport:
     """By name: seconds and error of rungs; those that are not named were not run."""
     rows = []
     for rung in RUNGS:
-        if rung.name not in of_rung or rung.threshold not in (None, 0.1):
-            rows.append(Row(rung=rung, state="not run", reason="budget"))
-            continue
-        seconds, error = of_rung[rung.name]
-        right = None if error is None else error > -1.0
-        rows.append(
-            Row(
-                rung=rung,
+        row = Row(rung=rung.name, threshold=rung.threshold, state="not run", reason="budget")
+        if rung.name in of_rung and rung.threshold in (None, 0.1):
+            seconds, error = of_rung[rung.name]
+            right = None if error is None else error > -1.0
+            row = replace(
+                row,
                 state="answered",
+                reason=None,
                 right=right,
                 proven=bool(right),
                 error=error,
-                cold=Times((seconds,)),
-                cached=Times((0.5 * seconds,)) if rung.name == "parts" else None,
+                settled_by=rung.name,
+                cold=times(seconds),
+                cached=times(0.5 * seconds) if rung.name == "parts" else None,
+                pareto=rung.name in ("aabb", "hull", "exact"),
             )
-        )
-    return PairTradeoff("a & <b>", "c", TRUTH, ClimbEnd("exact", True, ""), tuple(rows))
+        rows.append(row)
+    return TradeoffReport(
+        tool=Tool("satcheck", "1"),
+        units=None,
+        repeat=1,
+        budget=1.0,
+        seconds=1.0,
+        a="a & <b>",
+        b="c",
+        truth=Truth("separated", (1.0, 1.0), None),
+        default=None,
+        rungs=tuple(rows),
+    )
 
 
-def markers(figure: plots.Figure, panel: int = 0) -> dict[str, Line2D]:
+def times(seconds: float) -> Times:
+    return Times(1e6 * seconds, 1e6 * seconds, 1e6 * seconds, 1)
+
+
+def markers(figure: plots.Figure) -> dict[str, Line2D]:
     """By rung; `, cached` behind it for the runs that found something cached."""
-    lines = figure.axes[panel].get_lines()
+    lines = figure.axes[0].get_lines()
     return {gid: line for line in lines if (gid := line.get_gid()) is not None}
-
-
-def place(line: Line2D) -> tuple[float, float]:
-    (corner,) = corners_of(line)
-    return corner
 
 
 def corners_of(line: Line2D) -> list[tuple[float, float]]:
@@ -72,95 +72,68 @@ def words(figure: plots.Figure) -> str:
 PAIR = made(
     aabb=(1e-4, -4.0), hull=(1e-3, -0.5), parts=(2.0, -0.01), exact=(0.1, 0.0), boolean=(1, None)
 )
-FRONT = replace(
-    PAIR,
-    rows=tuple(
-        replace(row, on_front=row.rung.name in ("aabb", "hull", "exact")) for row in PAIR.rows
-    ),
-)
-# Three markers that cover each other.
-CROWDED = made(aabb=(1e-4, 0.0), obb=(1.1e-4, 0.0), hull=(1.2e-4, 0.0))
 
 
 def test_slower_is_further_right_and_nearer_is_lower() -> None:
-    seen = {label: place(line) for label, line in markers(draw([PAIR])).items()}
-    by_time = ["aabb", "hull", "exact", "parts 0.1, cached", "boolean", "parts 0.1"]
-    assert sorted(seen, key=lambda label: seen[label][0]) == by_time
-    by_error = ["aabb", "hull", "parts 0.1", "exact", "boolean"]
-    heights = [seen[label][1] for label in by_error]
-    assert heights == sorted(heights, reverse=True)
-    assert len(set(heights)) == len(heights)
+    figure = draw([PAIR])
+    places = {label: corners_of(line)[0] for label, line in markers(figure).items()}
+    assert places == {
+        "aabb": (1e2, 4.0),
+        "hull": (1e3, 0.5),
+        "parts 0.1": (2e6, 0.01),
+        "parts 0.1, cached": (1e6, 0.01),
+        "exact": (1e5, 0.0),
+    }
+    axes = figure.axes[0]
+    for low, high in ((axes.get_xlim(), axes.get_ylim()),):
+        assert low[0] <= 1e2 < 2e6 <= low[1]
+        assert high[0] < 0.0 < 4.0 < high[1]
 
 
 def test_the_marker_says_whether_the_verdict_is_proven_or_wrong() -> None:
-    for palette, figure in ((LIGHT, draw([PAIR])), (DARK, draw([PAIR], dark=True))):
-        seen = markers(figure)
-        kinds = {label: (line.get_marker(), line.get_color()) for label, line in seen.items()}
-        assert kinds == {
+    guess = made(hull=(1e-3, -0.5))
+    guess = replace(guess, rungs=tuple(replace(row, proven=False) for row in guess.rungs))
+    for palette, dark in ((LIGHT, False), (DARK, True)):
+        seen = markers(draw([PAIR], dark=dark))
+        assert {label: (line.get_marker(), line.get_color()) for label, line in seen.items()} == {
             "aabb": ("x", palette.wrong),
             "hull": ("o", palette.proven),
             "parts 0.1": ("o", palette.proven),
             "parts 0.1, cached": ("o", palette.proven),
             "exact": ("o", palette.proven),
-            "boolean": ("^", palette.guess),
         }
-        assert seen["parts 0.1, cached"].get_markerfacecolor() == palette.paper
-
-
-def test_a_diamond_is_the_error_of_a_thickness() -> None:
-    pair = made(hull=(1e-3, 2.0), exact=(1e-2, 0.0))
-    rows = [
-        replace(row, thickness_error=0.125 if row.rung.name == "hull" else 0.0)
-        if row.state == "answered"
-        else row
-        for row in pair.rows
-    ]
-    drawn = markers(draw([replace(pair, rows=tuple(rows))]))
-    hull, exact = place(drawn["hull, thickness"]), place(drawn["exact, thickness"])
-    assert hull[0] == place(drawn["hull"])[0]
-    assert exact == place(drawn["exact"])
-    assert exact[1] < hull[1] < place(drawn["hull"])[1]
-    assert "hull, thickness" not in markers(draw([pair]))
+        assert seen["parts 0.1, cached"].get_markerfacecolor() == "none"
+        (hull,) = markers(draw([guess], dark=dark)).values()
+        assert (hull.get_marker(), hull.get_color()) == ("^", palette.guess)
 
 
 def test_every_rung_is_named_whatever_became_of_it() -> None:
-    for pairs in ([PAIR], [made()], [made(exact=(0.1, 0.0)), PAIR]):
-        text = words(draw(pairs))
-        for pair in pairs:
-            drawn = [row.rung for row in pair.rows if row.state == "answered"]
-            assert all(rung.label in text for rung in drawn)
-            left_out = labels_of([rung for rung in RUNGS if rung not in drawn])
-            assert f"{left_out}: not run, budget" in text
-        assert text.count(
-            "a & <b> against c: separated, 1 apart; the default settles it by: exact"
-        ) == len(pairs)
+    left_out = "parts 0.5, parts 0.2, parts 0.05, parts 0.02, parts 0.01: not run, budget"
+    text = words(draw([PAIR, made()]))
+    for said in ("aabb", "hull", "exact", "parts 0.1", "boolean: 1 s, verdict only"):
+        assert said in text.splitlines()
+    assert f"obb, {left_out}" in text
+    assert text.count("a & <b> against c: proven separated, gap 1") == 2
 
 
-def test_the_price_of_each_step_is_written_over_the_plot() -> None:
-    text = words(draw([FRONT]))
-    assert "aabb to hull: 10 times the time, error 4 to 0.5, wrong to proven" in text
-    assert "hull to exact: 100 times the time, error 0.5 to 0" in text
+def test_of_convex_parts_the_coarsest_and_the_finest_are_named() -> None:
+    parts = made(parts=(2.0, -0.01))
+    rows = [
+        replace(parts.rungs[5], threshold=row.threshold) if row.rung == "parts" else row
+        for row in parts.rungs
+    ]
+    drawn = draw([replace(parts, rungs=tuple(rows))])
+    assert len(markers(drawn)) == 2 * 6
+    named = [label.get_text() for label in drawn.axes[0].texts]
+    assert named == ["parts 0.5", "parts 0.01"]
 
 
 def test_the_line_along_the_front_goes_over_to_the_next_rung_and_then_down() -> None:
-    figure = draw([FRONT])
-    at = {label: place(line) for label, line in markers(figure).items()}
-    corners = [at["aabb"], (at["hull"][0], at["aabb"][1]), at["hull"]]
-    corners += [(at["exact"][0], at["hull"][1]), at["exact"]]
-    assert corners in [corners_of(line) for line in figure.axes[0].get_lines()]
-
-
-@pytest.mark.parametrize("pair", [FRONT, CROWDED])
-def test_labels_overlap_neither_each_other_nor_a_marker(pair: PairTradeoff) -> None:
-    figure = draw([pair])
-    axes = figure.axes[0]
-    names = {row.rung.label for row in pair.rows}
-    labels = [text.get_window_extent() for text in axes.texts if text.get_text() in names]
-    centres = [axes.transData.transform(place(line)) for line in markers(figure).values()]
-    assert len(labels) > 2
-    assert not any(box.contains(*centre) for box in labels for centre in centres)
-    assert not any(one.overlaps(other) for one, other in combinations(labels, 2))
-    assert all(axes.bbox.containsx(end) for box in labels for end in (box.x0, box.x1))
+    (front,) = [
+        line for line in draw([PAIR]).axes[0].get_lines() if "steps" in line.get_drawstyle()
+    ]
+    assert front.get_drawstyle() == "steps-post"
+    assert corners_of(front) == [(1e2, 4.0), (1e3, 0.5), (1e5, 0.0)]
 
 
 def test_any_name_can_be_drawn() -> None:

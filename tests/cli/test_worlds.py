@@ -93,7 +93,8 @@ def test_other_commands_take_one_world(folder: Path, command: str) -> None:
     ran = satcheck(command, "apart.toml", "overlap.toml", cwd=folder)
     assert ran.code == 2
     assert "apart.toml and overlap.toml are scenes" in ran.err
-    assert satcheck(command, "apart.toml", "overlap.toml", "--merge", cwd=folder).code != 2
+    pair = ("--pair", "left", "right", "--budget", "1") if command == "tradeoff" else ()
+    assert satcheck(command, "apart.toml", "overlap.toml", "--merge", *pair, cwd=folder).code != 2
 
 
 def test_rules_apply_to_mesh_files(folder: Path) -> None:

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.audit.axes.projected_axes import projected
-from satcheck.audit.axes.studied import relation_shown
-from satcheck.core.axes.candidates import candidates, edge_pairs
-from satcheck.core.axes.features import features_of
-from satcheck.core.axes.shadows import ExactPoints
+from satcheck.audit.axes.tested import axes_shown, relation_shown
+from satcheck.core.axes.candidates import candidates, edge_pairs, features_of
+from satcheck.core.axes.shadows import Points
 from tests.hard_cases.case import ConvexPair, Family, Vertices
 from tests.hard_cases.families import FAMILIES, large
 
@@ -38,12 +36,12 @@ def has_axes(pair: ConvexPair) -> bool:
 
 def shown_by_axes(pair: ConvexPair) -> str:
     hulls = hull_of(pair.a), hull_of(pair.b)
-    points = np.concatenate([np.asarray(hull.vertices) for hull in hulls])
-    exact, step = ExactPoints(points), float(np.abs(points).max()) * 2.0**-53
-    a = features_of(hulls[0], 0, points, exact, step)
-    b = features_of(hulls[1], hulls[0].vertex_count, points, exact, step)
+    points = Points(np.concatenate([np.asarray(hull.vertices) for hull in hulls]))
+    step = float(np.abs(points.world).max()) * 2.0**-53
+    a = features_of(hulls[0], 0, points, step)
+    b = features_of(hulls[1], hulls[0].vertex_count, points, step)
     found = candidates(a, b, edge_pairs(a, b), noise=False)
-    return relation_shown(projected(found, points, exact, (a.points, b.points)))
+    return relation_shown(axes_shown(found, points, a.points, b.points))
 
 
 @pytest.mark.parametrize("family", SMALL, ids=lambda family: family.CATEGORY)

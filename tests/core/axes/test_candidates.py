@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.core.axes.candidates import candidates, edge_pairs
-from satcheck.core.axes.features import Features, features_of
-from satcheck.core.axes.shadows import Axes, ExactPoints, Floats, shadows
+from satcheck.core.axes.candidates import Features, candidates, edge_pairs, features_of
+from satcheck.core.axes.shadows import Floats, Points, shadows
 from tests.oracles.brute_sat import signed_distance
 from tests.oracles.random_shapes import (
     box_corners,
@@ -27,21 +26,17 @@ def hull_of(points: Floats) -> core.Polytope:
     return core.Mesh(np.ascontiguousarray(points), no_triangles).convex_hull()
 
 
-def both(
-    a: Floats, b: Floats, step: float = STEP
-) -> tuple[Features, Features, ExactPoints, Floats]:
+def both(a: Floats, b: Floats, step: float = STEP) -> tuple[Features, Features, Points]:
     hulls = hull_of(a), hull_of(b)
-    points = np.concatenate([np.asarray(hull.vertices) for hull in hulls])
-    exact = ExactPoints(points)
-    first = features_of(hulls[0], 0, points, exact, step)
-    return first, features_of(hulls[1], hulls[0].vertex_count, points, exact, step), exact, points
+    points = Points(np.concatenate([np.asarray(hull.vertices) for hull in hulls]))
+    first = features_of(hulls[0], 0, points, step)
+    return first, features_of(hulls[1], hulls[0].vertex_count, points, step), points
 
 
 def largest_gap(a: Floats, b: Floats) -> float:
-    first, second, exact, points = both(a, b)
+    first, second, points = both(a, b)
     found = candidates(first, second, edge_pairs(first, second), noise=False)
-    axes = Axes(points, found.corners)
-    return float(shadows(first.points, second.points, axes, exact).gap.max())
+    return float(shadows(points, found.axes, first.points, second.points).gap.max())
 
 
 PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.arange(6) * np.pi / 3])
@@ -59,7 +54,8 @@ PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.aran
 )
 def test_faces_and_edges_are_those_of_the_solid(points: Floats, faces: int, sides: int) -> None:
     for turn in (np.eye(3), rotation_matrix(np.array([0.1, 0.2, 0.3, 0.9]))):
-        features, _, _, world = both(points @ turn.T, box_corners((1, 1, 1)))
+        features, _, shared = both(points @ turn.T, box_corners((1, 1, 1)))
+        world = shared.world
         assert (features.faces, features.sides) == (faces, sides)
         assert len(features.edges) >= sides
         outward = features.left[:sides] + features.right[:sides]
