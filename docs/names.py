@@ -30,7 +30,7 @@ _WRAPPER = TextWrapper(140, subsequent_indent="  ", break_long_words=False, brea
 
 def gltf() -> Iterator[str]:
     extensions = gltf_vocabulary.EXTENSIONS_OF.items()
-    read = {f"extensions of a {place}": names for place, names in extensions}
+    read = {f"{place} extensions": names for place, names in extensions}
     yield from _read({**read, **gltf_colliders.PLACES})
     yield from _harmless("properties", {**gltf_vocabulary.PLACES, **gltf_colliders.PLACES})
     yield from _harmless("extensions", {"file": gltf_vocabulary.EXTENSIONS})
