@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
+from fnmatch import fnmatchcase
 
 from msgspec import Struct
 
@@ -22,8 +23,8 @@ ALIKE = 0.8
 
 class Names(Struct, frozen=True):
     """The names at one place. harmless: why none of them can make, move, hide, reshape or exempt a
-    body, by name; a name that ends in `*` stands for all that begin so. alike: how much of two
-    names is the same if one of them is misspelt."""
+    body, by name; `*` in a name stands for any letters. alike: how much of two names is the same
+    if one of them is misspelt."""
 
     read: frozenset[str]
     harmless: Mapping[str, str] = {}
@@ -32,7 +33,7 @@ class Names(Struct, frozen=True):
     def knows(self, name: str) -> bool:
         if name in self.read or name in self.harmless:
             return True
-        return any(name.startswith(known[:-1]) for known in self.harmless if known.endswith("*"))
+        return any(fnmatchcase(name, known) for known in self.harmless if "*" in known)
 
     def unread(
         self,

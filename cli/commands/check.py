@@ -285,11 +285,11 @@ def command(
 ) -> int:
     """Do these meshes collide? How deep, and which way out?
 
-    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, STEP), scenes (TOML, JSON, IFC,
-    USD) or robots (URDF, SRDF, SDF, MJCF). A body is a file; of one GLB, glTF, 3MF or STEP file
-    alone a node. Every pair of bodies is checked, in the coordinates of the files. A body inside
-    another collides with it. A LENGTH is in units of the files, or has its own where these are
-    known: 2mm.
+    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, STEP, 3DXML, XAML, ZAE), scenes
+    (TOML, JSON, IFC, USD) or robots (URDF, SRDF, SDF, MJCF). A body is a file; of one file alone
+    that has nodes, a node. Every pair of bodies is checked, in the coordinates of the files. A body
+    inside another collides with it. A LENGTH is in units of the files, or has its own where these
+    are known: 2mm.
 
     \b
       satcheck a.stl b.stl                   do they collide?

@@ -57,7 +57,7 @@ _CURVED = re.compile(
     rb"|SURFACE_OF_|TESSELLATED_|TRIANGULATED_"
 )
 # Solids that OpenCascade does not make from a STEP file.
-_UNREAD_SOLIDS = frozenset(
+UNREAD_SOLIDS = frozenset(
     {
         "CSG_SOLID",
         "BOOLEAN_RESULT",
@@ -78,7 +78,7 @@ _UNREAD_SOLIDS = frozenset(
     }
 )
 # Of AP242. OpenCascade leaves them out.
-_TESSELLATED = frozenset(
+TESSELLATED = frozenset(
     ("TESSELLATED_SOLID", "TESSELLATED_SHELL", "TESSELLATED_GEOMETRIC_SET", "TRIANGULATED_FACE",
      "COMPLEX_TRIANGULATED_FACE")
 )  # fmt: skip
@@ -149,11 +149,11 @@ def read_exchange(data: bytes) -> Exchange:
         raise MeshFileError("truncated", message)
     _refuse_values(bare)
     kinds = _kinds(bare)
-    unread = sorted(_UNREAD_SOLIDS & kinds.keys())
+    unread = sorted(UNREAD_SOLIDS & kinds.keys())
     if unread:
         message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
         raise MeshFileError("unsupported-feature", message)
-    if not kinds.keys() & _SURFACES and (facets := sorted(_TESSELLATED & kinds.keys())):
+    if not kinds.keys() & _SURFACES and (facets := sorted(TESSELLATED & kinds.keys())):
         message = f"it has only facets ({', '.join(facets)}), which are not read: export surfaces"
         raise MeshFileError("unsupported-feature", message)
     of_complex = {

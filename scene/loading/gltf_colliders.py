@@ -24,29 +24,30 @@ from satcheck.scene.vocabulary import Names
 # Takes z to y, exactly.
 UPRIGHT: Transform = (1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1)
 
-_NODE = Names(
-    frozenset({"collider", "motion"}),
-    {
-        "trigger": "nothing touches it",
-        "joint": "no geometry",
-        "extras": "data of an application",
-    },
-)
-_COLLIDER = Names(
-    frozenset({"geometry", "shape"}),
-    {
-        "physicsMaterial": "friction",
-        "collisionFilter": "pairs that it exempts are checked all the same",
-        "extras": "data of an application",
-    },
-)
-_GEOMETRY = Names(frozenset({"shape", "mesh", "node", "convexHull"}), {"extras": ""})
-_SIZES = frozenset({"size", "radius", "radiusBottom", "radiusTop", "height", "mesh"})
-_SHAPE = Names(
-    frozenset({"type", "box", "sphere", "capsule", "cylinder", "convex", "trimesh"}),
-    {"name": "a name", "extras": "data of an application"},
-)
-_SHAPE_SIZES = Names(_SIZES, {"extras": "data of an application"})
+_DATA = {"extras": "data of an application"}
+# What each object is called, and its names.
+PLACES = {
+    "rigid body": Names(
+        frozenset({"collider", "motion"}),
+        {"trigger": "nothing touches it", "joint": "no geometry", **_DATA},
+    ),
+    "collider": Names(
+        frozenset({"geometry", "shape"}),
+        {
+            "physicsMaterial": "friction",
+            "collisionFilter": "pairs that it exempts are checked all the same",
+            **_DATA,
+        },
+    ),
+    "geometry": Names(frozenset({"shape", "mesh", "node", "convexHull"}), _DATA),
+    "shape": Names(
+        frozenset({"type", "box", "sphere", "capsule", "cylinder", "convex", "trimesh"}),
+        {"name": "a name", **_DATA},
+    ),
+    "sizes": Names(
+        frozenset({"size", "radius", "radiusBottom", "radiusTop", "height", "mesh"}), _DATA
+    ),
+}
 
 
 class Collider(Struct, frozen=True):
@@ -86,13 +87,13 @@ class Colliders:
             ]
             if others:
                 raise MeshFileError("unsupported-feature", f"{where}: two colliders")
-            self._unknown.look(_NODE, body.keys(), name, where)
+            self._unknown.look(PLACES["rigid body"], body.keys(), name, where)
             collider = member([body["collider"]], 0, "collider")
-            self._unknown.look(_COLLIDER, collider.keys(), "collider", where)
+            self._unknown.look(PLACES["collider"], collider.keys(), "collider", where)
             if name == OMI_BODIES:
                 return self._shape(OMI_SHAPES, integer(collider, "shape", -1))
             geometry = member([collider.get("geometry")], 0, "geometry of a collider")
-            self._unknown.look(_GEOMETRY, geometry.keys(), "geometry", where)
+            self._unknown.look(PLACES["geometry"], geometry.keys(), "geometry", where)
             if "shape" in geometry:
                 return self._shape(KHR_SHAPES, integer(geometry, "shape", -1))
             hull = geometry.get("convexHull") is True
@@ -113,11 +114,11 @@ class Colliders:
         shapes = items(extension(self._document, name) or {}, "shapes")
         shape = member(shapes, number, "shape")
         kind = shape.get("type")
-        self._unknown.look(_SHAPE, shape.keys(), "shape", f"shape {number}")
+        self._unknown.look(PLACES["shape"], shape.keys(), "shape", f"shape {number}")
         sizes = shape.get(kind, {}) if isinstance(kind, str) else {}
         if not isinstance(sizes, dict):
             raise MeshFileError("bad-record", f"the sizes of shape {number} are no object")
-        self._unknown.look(_SHAPE_SIZES, sizes.keys(), "sizes", f"shape {number}")
+        self._unknown.look(PLACES["sizes"], sizes.keys(), "sizes", f"shape {number}")
         try:
             match kind:
                 case "box":

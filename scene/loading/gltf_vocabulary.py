@@ -100,8 +100,9 @@ def _names(read: str, **harmless: str) -> Names:
     return Names(frozenset(read.split()), _FREE | harmless)
 
 
+_JOINTS = frozenset(f"{what}_{number}" for what in ("JOINTS", "WEIGHTS") for number in range(16))
 # Where an extension is read: elsewhere it would be lost.
-_EXTENSIONS_OF = {
+EXTENSIONS_OF = {
     "file": Names(frozenset((KHR_SHAPES, KHR_BODIES, OMI_SHAPES, OMI_BODIES)), HARMLESS_EXTENSIONS),
     "node": Names(frozenset((INSTANCING, KHR_BODIES, OMI_BODIES)), HARMLESS_EXTENSIONS),
     "primitive": Names(frozenset((DRACO,)), HARMLESS_EXTENSIONS),
@@ -110,58 +111,57 @@ _EXTENSIONS_OF = {
 }
 _NO_EXTENSIONS = Names(frozenset(), HARMLESS_EXTENSIONS)
 
-_FILE = _names(
-    "asset scene scenes nodes meshes accessors bufferViews buffers skins animations extensions "
-    "extensionsUsed extensionsRequired",
-    materials="appearance",
-    textures="appearance",
-    images="appearance",
-    samplers="appearance",
-    cameras="they have no extent",
-)
-# The list in the file, what each is called, and its names.
-_LISTS = (
-    ("scenes", "scene", _names("nodes extensions")),
-    (
-        "nodes",
-        "node",
-        _names(
-            "children mesh skin matrix translation rotation scale weights extensions",
-            camera="it has no extent",
-        ),
+# What each object is called, and its names.
+PLACES = {
+    "file": _names(
+        "asset scene scenes nodes meshes accessors bufferViews buffers skins animations extensions "
+        "extensionsUsed extensionsRequired",
+        materials="appearance",
+        textures="appearance",
+        images="appearance",
+        samplers="appearance",
+        cameras="no extent",
     ),
-    ("meshes", "mesh", _names("primitives weights extensions")),
-    (
-        "accessors",
-        "accessor",
-        _names(
-            "bufferView byteOffset componentType normalized count type sparse extensions",
-            min="a bound, not data",
-            max="a bound, not data",
-        ),
+    "scene": _names("nodes extensions"),
+    "node": _names(
+        "children mesh skin matrix translation rotation scale weights extensions",
+        camera="no extent",
     ),
-    (
-        "bufferViews",
-        "buffer view",
-        _names(
-            "buffer byteOffset byteLength byteStride extensions",
-            target="a hint for graphics",
-        ),
+    "mesh": _names("primitives weights extensions"),
+    "primitive": _names("attributes indices mode targets extensions", material="appearance"),
+    "attribute": Names(frozenset({"POSITION"}) | _JOINTS, _FREE | _APPEARANCE),
+    "target": Names(frozenset({"POSITION"}), _FREE | _APPEARANCE),
+    "accessor": _names(
+        "bufferView byteOffset componentType normalized count type sparse extensions",
+        min="a bound, not data",
+        max="a bound, not data",
     ),
-    ("buffers", "buffer", _names("uri byteLength extensions", type="of an older version")),
-    ("skins", "skin", _names("inverseBindMatrices joints extensions", skeleton="places nothing")),
-)
-_PRIMITIVE = _names("attributes indices mode targets extensions", material="appearance")
-_JOINTS = frozenset(f"{what}_{number}" for what in ("JOINTS", "WEIGHTS") for number in range(16))
-_ATTRIBUTES = Names(frozenset({"POSITION"}) | _JOINTS, _FREE | _APPEARANCE)
-_TARGET = Names(frozenset({"POSITION"}), _FREE | _APPEARANCE)
-_SPARSE = _names("count indices values extensions")
-_SPARSE_INDICES = _names("bufferView byteOffset componentType extensions")
-_SPARSE_VALUES = _names("bufferView byteOffset extensions")
-_INSTANCES = _names("attributes extensions")
-_INSTANCE = Names(frozenset({"TRANSLATION", "ROTATION", "SCALE"}), _FREE | _APPEARANCE)
-_DRACO = _names("bufferView attributes extensions")
-_MESHOPT = _names("buffer byteOffset byteLength byteStride count mode filter fallback extensions")
+    "sparse": _names("count indices values extensions"),
+    "sparse indices": _names("bufferView byteOffset componentType extensions"),
+    "sparse values": _names("bufferView byteOffset extensions"),
+    "buffer view": _names(
+        "buffer byteOffset byteLength byteStride extensions", target="a hint for graphics"
+    ),
+    "buffer": _names("uri byteLength extensions", type="of an older version"),
+    "skin": _names("inverseBindMatrices joints extensions", skeleton="places nothing"),
+    INSTANCING: _names("attributes extensions"),
+    "instance": Names(frozenset({"TRANSLATION", "ROTATION", "SCALE"}), _FREE | _APPEARANCE),
+    DRACO: _names("bufferView attributes extensions"),
+    **dict.fromkeys(
+        MESHOPT,
+        _names("buffer byteOffset byteLength byteStride count mode filter fallback extensions"),
+    ),
+}
+# The list in the file, and what each object in it is called.
+_LISTS = {
+    "scenes": "scene",
+    "nodes": "node",
+    "meshes": "mesh",
+    "accessors": "accessor",
+    "bufferViews": "buffer view",
+    "buffers": "buffer",
+    "skins": "skin",
+}
 
 
 def look_at(document: dict[str, Any], unknown: UnknownNames) -> None:
@@ -174,56 +174,59 @@ class _Look:
         self._unknown = unknown
 
     def at_file(self, document: dict[str, Any]) -> None:
-        self._object(document, _FILE, "file", "the file")
+        self._object(document, "file", "the file")
         self._extensions(document.get("asset"), "asset", "the asset")
         used = (_texts(document.get(key)) for key in ("extensionsUsed", "extensionsRequired"))
         declared = list(dict.fromkeys(name for names in used for name in names))
         self._unknown.look(EXTENSIONS, declared, "extension", "the file uses an extension")
-        for key, kind, names in _LISTS:
+        for key, kind in _LISTS.items():
             for number, owner in enumerate(_list(document.get(key))):
-                self._object(owner, names, kind, f"{kind} {number}")
+                self._object(owner, kind, f"{kind} {number}")
         for number, material in enumerate(_list(document.get("materials"))):
             self._extensions(material, "material", f"material {number}")
         for number, mesh in enumerate(_list(document.get("meshes"))):
             self._mesh(mesh, f"mesh {number}")
         for number, node in enumerate(_list(document.get("nodes"))):
             instances = _inside(node, "extensions", INSTANCING)
-            self._object(instances, _INSTANCES, INSTANCING, f"node {number}: {INSTANCING}")
-            self._names(instances.get("attributes"), _INSTANCE, "instance", f"node {number}")
+            self._object(instances, INSTANCING, f"node {number}: {INSTANCING}")
+            self._names(instances.get("attributes"), "instance", f"node {number}")
         for number, view in enumerate(_list(document.get("bufferViews"))):
             for name in MESHOPT:
                 place = f"buffer view {number}: {name}"
-                self._object(_inside(view, "extensions", name), _MESHOPT, name, place)
+                self._object(_inside(view, "extensions", name), name, place)
         for number, accessor in enumerate(_list(document.get("accessors"))):
             self._sparse(_inside(accessor, "sparse"), f"accessor {number}: sparse")
 
     def _mesh(self, mesh: Any, where: str) -> None:
         for primitive in _list(mesh.get("primitives")) if isinstance(mesh, dict) else ():
-            self._object(primitive, _PRIMITIVE, "primitive", f"{where}: a primitive")
+            self._object(primitive, "primitive", f"{where}: a primitive")
             if not isinstance(primitive, dict):
                 continue
-            self._names(primitive.get("attributes"), _ATTRIBUTES, "attribute", where)
+            self._names(primitive.get("attributes"), "attribute", where)
             for target in _list(primitive.get("targets")):
-                self._names(target, _TARGET, "target", f"{where}: a morph target")
+                self._names(target, "target", f"{where}: a morph target")
             packed = _inside(primitive, "extensions", DRACO)
-            self._object(packed, _DRACO, DRACO, f"{where}: {DRACO}")
-            self._names(packed.get("attributes"), _ATTRIBUTES, "attribute", f"{where}: {DRACO}")
+            self._object(packed, DRACO, f"{where}: {DRACO}")
+            self._names(packed.get("attributes"), "attribute", f"{where}: {DRACO}")
 
     def _sparse(self, sparse: dict[str, Any], where: str) -> None:
-        self._object(sparse, _SPARSE, "sparse", where)
-        for key, names in (("indices", _SPARSE_INDICES), ("values", _SPARSE_VALUES)):
-            self._object(sparse.get(key), names, f"sparse {key}", f"{where} {key}")
+        self._object(sparse, "sparse", where)
+        for key in ("indices", "values"):
+            self._object(sparse.get(key), f"sparse {key}", f"{where} {key}")
 
-    def _object(self, owner: Any, names: Names, kind: str, place: str) -> None:
-        self._names(owner, names, kind, place)
+    def _object(self, owner: Any, kind: str, place: str) -> None:
+        self._names(owner, kind, place)
         self._extensions(owner, kind, place)
 
     def _extensions(self, owner: Any, kind: str, place: str) -> None:
         if isinstance(owner, dict) and "extensions" in owner:
-            names = _EXTENSIONS_OF.get(kind, _NO_EXTENSIONS)
-            self._names(owner["extensions"], names, f"extension of {kind}", place)
+            names = EXTENSIONS_OF.get(kind, _NO_EXTENSIONS)
+            self._look(owner["extensions"], names, f"extension of {kind}", place)
 
-    def _names(self, owner: Any, names: Names, kind: str, place: str) -> None:
+    def _names(self, owner: Any, kind: str, place: str) -> None:
+        self._look(owner, PLACES[kind], kind, place)
+
+    def _look(self, owner: Any, names: Names, kind: str, place: str) -> None:
         if isinstance(owner, dict):
             self._unknown.look(names, owner.keys(), kind, place)
 

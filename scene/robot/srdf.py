@@ -16,7 +16,7 @@ from satcheck.scene.robot.xml_tree import Element, read_tree
 
 _PLANNING = "it says what is planned, and exempts and moves no body"
 _PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))
-_ROBOT = Place(
+ROBOT = Place(
     elements(
         "disable_collisions disable_default_collisions enable_collisions group_state",
         because(
@@ -75,7 +75,7 @@ def read_srdf(path: str, location: Path) -> Srdf:
     """Raises SceneFileError with the file, the line and the element."""
     root = read_tree(path, location, "robot")
     slips = Slips()
-    slips.look(root, _ROBOT)
+    slips.look(root, ROBOT)
     disabled = {_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")}
     for element in root.all("enable_collisions"):
         if _pair(element) in disabled:

@@ -7,11 +7,14 @@ import pytest
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.vocabulary import Names
 
-LINK = Names(frozenset({"collision", "visual", "inertial", "name"}), {"gazebo": "", "vendor_*": ""})
+LINK = Names(
+    frozenset({"collision", "visual", "inertial", "name"}),
+    {"gazebo": "", "vendor_*": "", "*_paint_*": ""},
+)
 
 
 def test_what_is_read_or_harmless_is_no_issue() -> None:
-    assert not list(LINK.unread(["collision", "gazebo", "vendor_paint"], "line 1"))
+    assert not list(LINK.unread(["collision", "gazebo", "vendor_x", "a_paint_b"], "line 1"))
 
 
 def test_what_nobody_knows_blocks_a_pass_once() -> None:

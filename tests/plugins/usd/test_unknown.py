@@ -83,6 +83,8 @@ def test_what_nobody_reads_blocks_a_pass(tmp_path: Path, text: str) -> None:
         cube("A", head='wobble = "x"'),
         'def Xform "X" {\n float3[] extent = [(0, 0, 0), (1, 1, 1)]\n}\n' + cube("A"),
         'def OmniGraph "G" {\n}\n' + cube("A"),
+        cube("A", api='"SpotLightAPI"'),
+        'def PxrBarnLightFilter "L" {\n token visibility = "inherited"\n}\n' + cube("A"),
         'def "Set" (prepend variantSets = "v") {\n variantSet "v" = {\n "red" {\n'
         ' def Material "M" {\n}\n}\n}\n}\n' + cube("B"),
     ],
