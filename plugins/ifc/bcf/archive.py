@@ -48,8 +48,7 @@ def render(report: Report, scene: Scene) -> bytes:
                 name = f"{guid}/{pair.guid}"
                 files[f"{name}.bcfv"], files[f"{name}.png"] = snapshot
                 views.append(_view(pair.guid, len(views)))
-        topic = _topic(guid, index, pairs)
-        topic.viewpoints = bcf.TopicViewpoints(view_point=views) if views else None
+        topic = _topic(guid, index, pairs, views)
         files[f"{guid}/markup.bcf"] = bcf.Markup(header=_header(topics.shown(pairs)), topic=topic)
     return _archive(files)
 
@@ -66,7 +65,7 @@ def _extensions(found: Iterable[Sequence[Pair]]) -> Any:
     )
 
 
-def _topic(guid: str, index: int, pairs: Sequence[Pair]) -> Any:
+def _topic(guid: str, index: int, pairs: Sequence[Pair], views: list[Any]) -> Any:
     first = pairs[0]
     return bcf.Topic(
         guid=guid,
@@ -79,11 +78,13 @@ def _topic(guid: str, index: int, pairs: Sequence[Pair]) -> Any:
         labels=bcf.TopicLabels(label=list(first.labels)) if first.labels else None,
         creation_date=_date(),
         creation_author=AUTHOR,
+        viewpoints=bcf.TopicViewpoints(view_point=views),
     )
 
 
 def _view(guid: str, index: int) -> Any:
-    return bcf.ViewPoint(guid=guid, viewpoint=f"{guid}.bcfv", snapshot=f"{guid}.png", index=index)
+    files = {"viewpoint": f"{guid}.bcfv", "snapshot": f"{guid}.png"}
+    return bcf.ViewPoint(guid=guid, index=index, **files)
 
 
 def _header(pairs: Iterable[Pair]) -> Any:

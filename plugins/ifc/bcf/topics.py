@@ -30,6 +30,11 @@ if TYPE_CHECKING:
 _PROJECT = re.compile(rb"=\s*IFCPROJECT\s*\(\s*'([0-9A-Za-z_$]{22})'", re.IGNORECASE)
 Status = Literal["Open", "ReOpened", "Closed"]
 STATUSES: tuple[Status, ...] = ("Open", "ReOpened", "Closed")
+_BESIDE_BASELINE: dict[str, Status] = {
+    "unchanged": "Closed",
+    "worse": "ReOpened",
+    "undecided": "ReOpened",
+}
 TYPES = {
     "overlap": "Clash",
     "motion": "Clash",
@@ -152,7 +157,7 @@ def _pairs(report: Report, scene: Scene) -> Iterator[Pair]:
 def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
     if body is None or body.file.format != "ifc":
         return Member(id_, file, None, body.name if body else id_)
-    storeys = [group for group in body.groups if group.startswith(_STOREY)]
+    storeys = (group.removeprefix(_STOREY) for group in body.groups if group.startswith(_STOREY))
     return Member(
         id=id_,
         file=file,
@@ -160,7 +165,7 @@ def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
         name=body.name,
         project=_project_of(file),
         kind=body.name.partition(" ")[0],
-        storeys=tuple(storey.removeprefix(_STOREY) for storey in storeys),
+        storeys=tuple(storeys),
     )
 
 
@@ -169,19 +174,12 @@ def _pair(finding: Finding, report: Report, members: Mapping[str, Member]) -> Pa
     said += [text for text in (finding.reason, finding.rule and f"rule: {finding.rule}") if text]
     return Pair(
         members=(members[finding.a], members[finding.b]),
-        status=_status(finding),
+        status=_BESIDE_BASELINE.get(finding.baseline_state or "", "Open"),
         priority=PRIORITIES[finding.severity],
         kind=TYPES[kind_of(finding)],
         description="; ".join(said),
         finding=finding,
     )
-
-
-def _status(finding: Finding) -> Status:
-    """Beside a baseline: closed if the finding is accepted."""
-    if finding.baseline_state == "unchanged":
-        return "Closed"
-    return "ReOpened" if finding.baseline_state in ("worse", "undecided") else "Open"
 
 
 def _guid(*parts: str) -> str:
