@@ -51,8 +51,11 @@ class Copies:
 
     def url(self, path: str) -> str | None:
         """Of the file with this copy; None: a local file."""
-        head, _, rest = Path(os.path.relpath(path, self._folder)).as_posix().partition("/")
-        return unquote(head) + rest if is_url(unquote(head)) else None
+        place = Path(os.path.normpath(path))
+        if self._folder not in place.parents:
+            return None
+        head, _, rest = place.relative_to(self._folder).as_posix().partition("/")
+        return unquote(head) + rest
 
     def fetch(self, paths: Iterable[str]) -> bool:
         """Copies those of these files that have no copy; whether there was one. Raises

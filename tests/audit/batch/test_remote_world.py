@@ -105,6 +105,7 @@ def test_copies_that_are_too_many_are_removed(
     monkeypatch.setattr(remote_world, "_MOST_BYTES", 1)
     make_room(tmp_path)
     assert not Path(copy.path(WORLD[0])).exists()
+    make_room(tmp_path)
     assert copy.fetch([copy.path(WORLD[0])])
 
 
