@@ -8,7 +8,7 @@ proposed here is proven in exact arithmetic (`verify/inside.py`) before it is an
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from itertools import chain
 from time import perf_counter_ns
@@ -30,7 +30,6 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.report.certificate import OnBody
 from satcheck.report.regions import InsideFinding, Regions
-from satcheck.report.report import OUTSIDE_REGION, REGION_OPEN, Issue
 from satcheck.scene.statics import terms_of
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.inside import check_answer
@@ -81,18 +80,18 @@ def _answer(
     asked: InsideFinding, bodies: PlacedBodies, places: Mapping[str, int], tolerance: float
 ) -> InsideFinding:
     if asked.region not in places:
-        return _open(asked, f"no body has the id {asked.region!r}")
+        return replace(asked, reason=f"no body has the id {asked.region!r}")
     k, region = places[asked.body], places[asked.region]
     for number in (k, region):
         if number in bodies.unusable:
-            return _open(asked, bodies.unusable[number].reason)
+            return replace(asked, reason=bodies.unusable[number].reason)
     try:
         return _decided(asked, bodies.placed[k], bodies.placed[region], tolerance)
     except (Rejected, NotCertified) as why:
-        return _open(asked, f"not decided: {why}")
+        return replace(asked, reason=f"not decided: {why}")
     except Exception as error:  # noqa: BLE001  the other bodies are still decided
         not_for_lack_of_memory(error)
-        return _open(asked, f"internal error: {type(error).__name__}: {error}")
+        return replace(asked, reason=f"internal error: {type(error).__name__}: {error}")
 
 
 def _decided(
@@ -100,7 +99,7 @@ def _decided(
 ) -> InsideFinding:
     """Raises Rejected or NotCertified for what is not proven."""
     if space.curved is not None or not space.checked().world or not space.solid:
-        return _open(asked, f"{asked.region} is not a closed mesh or a box")
+        return replace(asked, reason=f"{asked.region} is not a closed mesh or a box")
     decide = _in_convex if space.checked().convex else _in_concave
     finding = decide(asked, body, space, tolerance)
     if finding.answer != "open":
@@ -119,14 +118,16 @@ def _in_concave(
     asked: InsideFinding, body: PlacedBody, space: PlacedBody, tolerance: float
 ) -> InsideFinding:
     if body.curved is not None:
-        return _open(asked, "a curved shape in a region that is not convex")
+        return replace(asked, reason="a curved shape in a region that is not convex")
     for shift in (NO_SHIFT, _shift(body, space, tolerance)):
         moved = core.Surface(body.mesh.translated(shift), body.solid)
         if core.mesh_relation(moved, space.surface()).relation in ("inside", "coincident"):
             return replace(asked, answer="yes", shift=shift)
     distance, point = _farthest_outside(body, space)
     if point is None or distance <= tolerance:
-        return _open(asked, "it does not lie in the region, or by no more than the tolerance")
+        return replace(
+            asked, reason="it does not lie in the region, or by no more than the tolerance"
+        )
     return replace(_outside(asked, distance), point=point)
 
 
@@ -191,20 +192,6 @@ def _farthest_outside(body: PlacedBody, space: PlacedBody) -> tuple[float, OnBod
             weights = (f"1/{len(vertices)}",) * len(vertices)
             best = distance, OnBody(vertices=tuple(vertices), weights=weights)
     return best
-
-
-def region_issues(regions: Regions) -> Iterator[Issue]:
-    """Bodies that fail or are open, for formats that only list pairs and issues."""
-    for finding in regions.findings:
-        if finding.answer != "yes":
-            code = OUTSIDE_REGION if finding.answer == "no" else REGION_OPEN
-            said = "not" if finding.answer == "no" else "perhaps not"
-            message = f"{finding.body} is {said} {finding.question}: {finding.reason}"
-            yield Issue(code, "warning", finding.body, None, message)
-
-
-def _open(asked: InsideFinding, reason: str) -> InsideFinding:
-    return replace(asked, reason=reason)
 
 
 def _outside(asked: InsideFinding, by: float) -> InsideFinding:
