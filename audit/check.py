@@ -38,7 +38,7 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
-from satcheck.report.report import Finding, Issue, Report
+from satcheck.report.report import OUTSIDE_REGION, REGION_OPEN, Finding, Issue, Report
 from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
@@ -217,10 +217,11 @@ def _regions(
     """UNSET: no rule asks whether a body lies in a region."""
     if not scene.asks_for_regions:
         return UNSET, []
-    from satcheck.audit.regions import region_issues, regions_of
+    from satcheck.audit.regions import regions_of
+    from satcheck.audit.statics.answers import issues_of
 
     regions = regions_of(scene, bodies, settings)
-    return regions, list(region_issues(regions))
+    return regions, issues_of(regions.findings, OUTSIDE_REGION, REGION_OPEN)
 
 
 def _examine_all(

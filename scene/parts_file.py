@@ -5,15 +5,12 @@ GLB and STL hold 32-bit floats (glTF 2.0, section 3.6.2.2; the STL of 3D Systems
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from satcheck.core import Mesh
 from satcheck.scene.glb_file import Node, glb
-
-_STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 
 Part = tuple[str, Mesh]
 _CONTINUES = "\\"  # at the end of a line of OBJ: the next line belongs to it
@@ -51,16 +48,13 @@ def _obj(parts: Sequence[Part], units: str | None) -> bytes:
 
 
 def _stl(parts: Sequence[Part], units: str | None) -> bytes:
+    import trimesh
+    from trimesh.exchange.stl import export_stl
+
     del units
-    corners = np.concatenate([mesh.vertices[mesh.triangles] for _, mesh in parts])
-    triangles = np.zeros(len(corners), _STL_TRIANGLE)
-    triangles["corners"] = corners
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    np.divide(normals, lengths, out=normals, where=lengths > 0)
-    triangles["normal"] = normals
-    header = b"convex parts, made by satcheck".ljust(80)
-    return header + struct.pack("<I", len(triangles)) + triangles.tobytes()
+    meshes = [trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False) for _, mesh in parts]
+    content: bytes = export_stl(trimesh.util.concatenate(meshes))
+    return content
 
 
 def _glb(parts: Sequence[Part], units: str | None) -> bytes:

@@ -54,7 +54,7 @@ def write_crate(assets: Path, height: float) -> None:
     placed = np.eye(4)
     placed[2, 3] = height
     scene.add_geometry(lid, node_name="lid", geom_name="lid", transform=placed)
-    scene.export(assets / "crate.glb")  # type: ignore[no-untyped-call]
+    scene.export(assets / "crate.glb")
 
 
 def write_shelf(assets: Path, height: float) -> None:

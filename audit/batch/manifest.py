@@ -10,8 +10,8 @@ from pathlib import Path
 
 import msgspec
 
-from satcheck.audit.batch import urls
 from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.urls import at, is_url
 from satcheck.core.errors import SatcheckError
 
 _JSON_LIST = "["
@@ -23,13 +23,17 @@ def read_manifest(name: str) -> Iterator[World]:
 
     Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.urls`.
     """
-    for number, line in enumerate(urls.lines(name) if urls.is_url(name) else _lines(name), 1):
+    for number, line in enumerate(_lines(name), 1):
         text = os.fsdecode(line.removeprefix(codecs.BOM_UTF8) if number == 1 else line)
         if text.strip():
             yield _world(text.rstrip("\r\n"), f"{name}:{number}")
 
 
 def _lines(name: str) -> Iterator[bytes]:
+    if is_url(name):
+        with at(name) as (system, file), system.open(file, "rb") as lines:
+            yield from lines
+        return
     try:
         with Path(name).open("rb") as lines:
             yield from lines

@@ -8,7 +8,7 @@ import os
 import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
@@ -21,7 +21,7 @@ from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.check_world import check_world
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.audit.batch.limits import Limits
-from satcheck.audit.batch.remote_world import Copies, Copy, is_remote
+from satcheck.audit.batch.remote_world import Copies, is_remote, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
@@ -107,19 +107,15 @@ def _answers(chunk: Chunk, options: CheckOptions) -> Iterator[Answer]:
         yield from (_answer_of_now(world, options, chunk.wanted) for world in chunk.worlds)
         return
     terms = terms_of(options, chunk.limits if chunk.left_out else None)
-    copies = None if chunk.copies is None else _copies(chunk.copies)
-    yield from (_answer(world, options, terms, copies=copies) for world in chunk.worlds)
+    if chunk.copies is not None:
+        make_room(Path(chunk.copies))
+    yield from (_answer(world, options, terms, chunk.copies) for world in chunk.worlds)
 
 
 def _answer_of_now(world: World, options: CheckOptions, wanted: Wanted) -> Answer:
     checked = check_world(world, options, hashed=wanted.hashed, known=_meshes)
     line = line_of(_result(world, checked, (), None), timings=True)
     return Answer(world, checked.verdict, line)
-
-
-@cache
-def _copies(folder: str) -> Copies:
-    return Copies(Path(folder))
 
 
 def _tell(step: str) -> None:
@@ -133,10 +129,10 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | None) -> Answer:
-    if copies is not None and is_remote(world):
-        copy = copies.of(world, anywhere=options.allow_outside)
-        return _remote_answer(world, options, terms, copy=copy)
+def _answer(world: World, options: CheckOptions, terms: str, folder: str | None) -> Answer:
+    if folder is not None and is_remote(world):
+        copies = Copies(Path(folder), world, anywhere=options.allow_outside)
+        return _remote_answer(world, options, terms, copies)
     checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
     return answer(
@@ -144,25 +140,25 @@ def _answer(world: World, options: CheckOptions, terms: str, copies: Copies | No
     )
 
 
-def _remote_answer(world: World, options: CheckOptions, terms: str, copy: Copy) -> Answer:
+def _remote_answer(world: World, options: CheckOptions, terms: str, copies: Copies) -> Answer:
     try:
-        checked, files = _checked_copy(world, options, copy)
+        checked, files = _checked_copies(world, options, copies)
     except SatcheckError as error:  # of the fetch: the next run tries again
         return answer(_result(world, unreadable_asset(world[0], error), (), None))
-    inputs = copy.inputs(inputs_of(files, partial(_digests.digest, files)))
+    inputs = copies.inputs(inputs_of(files, partial(_digests.digest, files)))
     made = answer(
         _result(world, checked, inputs, _key(world, terms, inputs, options, checked, files))
     )
-    return replace(made, line=copy.with_urls(made.line))
+    return replace(made, line=copies.with_urls(made.line))
 
 
-def _checked_copy(world: World, options: CheckOptions, copy: Copy) -> tuple[Asset, FilesRead]:
+def _checked_copies(world: World, options: CheckOptions, copies: Copies) -> tuple[Asset, FilesRead]:
     """Repeats the check as long as it looks for files that can be fetched. Raises SatcheckError."""
-    paths = tuple(map(copy.path, world))
-    copy.fetch(paths)
+    paths = tuple(map(copies.path, world))
+    copies.fetch(paths)
     for _ in range(_MOST_ROUNDS):
         checked, files = _checked(paths, options)
-        if not copy.fetch(files):
+        if not copies.fetch(files):
             return checked, files
     reason = f"names files that name files, and so on, {_MOST_ROUNDS} times: copy it and check that"
     raise SatcheckError("too-many-files", reason, file=world[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from satcheck.audit.severity import severity_of_answer
@@ -10,6 +10,8 @@ from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.margins import Margins
 from satcheck.audit.statics.subjects import Subject
+from satcheck.report.regions import InsideFinding
+from satcheck.report.report import Issue
 from satcheck.report.statics import (
     BodyIsland,
     BodyRuleReport,
@@ -74,6 +76,20 @@ def finding(
     if answer == "yes" and reason is not None:
         level = "warning"
     return SupportFinding(body, question, rule.name, level, answer, reason)
+
+
+def issues_of(
+    findings: Iterable[SupportFinding | InsideFinding], failed: str, undecided: str
+) -> list[Issue]:
+    """Bodies that fail or are open, once each, for formats that only list pairs and issues. failed,
+    undecided: the codes."""
+    issues: dict[str, Issue] = {}
+    for answer in sorted(findings, key=lambda f: f.answer):  # no before open
+        if answer.answer != "yes":
+            code, said = (failed, "not") if answer.answer == "no" else (undecided, "perhaps not")
+            message = f"{answer.body} is {said} {answer.question}: {answer.reason}"
+            issues.setdefault(answer.body, Issue(code, "warning", answer.body, None, message))
+    return list(issues.values())
 
 
 def island_report(

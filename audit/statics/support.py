@@ -17,6 +17,7 @@ from satcheck.audit.statics.answers import (
     doubt_about,
     finding,
     island_report,
+    issues_of,
     rule_report,
     vector,
 )
@@ -154,18 +155,10 @@ class Support:
         )
 
     def issues(self, scene: Scene, statics: Statics) -> list[Issue]:
-        """Bodies that fail or are open, once each, for formats that only list pairs and issues; and
-        rules that select no body."""
+        """Bodies that fail or are open, doubts about the bodies, and rules that select none."""
         members = scene.in_order()
-        failed: dict[str, Issue] = {}
-        for answer in sorted(statics.findings, key=lambda f: f.answer):  # no before open
-            if answer.answer != "yes":
-                code = UNSUPPORTED if answer.answer == "no" else SUPPORT_OPEN
-                said = "not" if answer.answer == "no" else "perhaps not"
-                message = f"{answer.body} is {said} {answer.question}: {answer.reason}"
-                issue = Issue(code, "warning", answer.body, None, message)
-                failed.setdefault(answer.body, issue)
-        return [*failed.values(), *_axes(scene), *self._small(), *self._unused(members)]
+        failed = issues_of(statics.findings, UNSUPPORTED, SUPPORT_OPEN)
+        return [*failed, *_axes(scene), *self._small(), *self._unused(members)]
 
     def _small(self) -> list[Issue]:
         tolerance = self.terms.tolerance

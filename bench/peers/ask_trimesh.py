@@ -27,7 +27,7 @@ def main() -> None:
     scene, way = Path(sys.argv[1]), sys.argv[2]
     document = json.loads(scene.read_text(encoding="utf-8"))
     meshes: dict[str, Any] = {}
-    manager: Any = trimesh.collision.CollisionManager()  # type: ignore[no-untyped-call]
+    manager: Any = trimesh.collision.CollisionManager()
     for body in document["bodies"]:
         path = body["mesh"]
         if path not in meshes:

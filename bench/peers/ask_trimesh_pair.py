@@ -17,7 +17,7 @@ import trimesh.collision
 
 
 def manager_of(path: str) -> Any:
-    manager: Any = trimesh.collision.CollisionManager()  # type: ignore[no-untyped-call]
+    manager: Any = trimesh.collision.CollisionManager()
     manager.add_object(path, trimesh.load(path, force="mesh"))
     return manager
 

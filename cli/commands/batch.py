@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -23,8 +23,8 @@ from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import ENGINES, Tally, run
 from satcheck.audit.batch.shard import Shard, parse_shard
 from satcheck.audit.batch.slot_server import Answer
-from satcheck.audit.batch.spool import Spool
-from satcheck.audit.batch.urls import is_url, matches
+from satcheck.audit.batch.spool import spooled
+from satcheck.audit.batch.urls import at, is_url
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -143,10 +143,10 @@ def command(
     terms = check_options(inputs, options, baseline, config)
     limits = Limits(scene_seconds, scene_megabytes)
     check = _engine(engine, scheduler, options["jobs"])
-    with _local(output) as (path, added), ResultsFile(path) as results, Bar("scenes") as bar:
+    with _local(output) as path, ResultsFile(path) as results, Bar("scenes") as bar:
         if not resume:
             _refuse_existing(results, output)
-        watch = _Watch(Tally(len(worlds)), added, bar)
+        watch = _Watch(Tally(len(worlds)), bar)
         made = partial(check, options=terms, limits=limits)
         try:
             tally = run(worlds, terms, limits, made, results, watch)
@@ -162,16 +162,14 @@ def command(
 
 
 class _Watch:
-    """Keeps and shows how far a run is. added: to be called when results are on the disk."""
+    """Keeps and shows how far a run is."""
 
-    def __init__(self, tally: Tally, added: Callable[[], None], bar: Bar | None) -> None:
+    def __init__(self, tally: Tally, bar: Bar | None) -> None:
         self.tally = tally
-        self._added = added
         self._bar = bar
 
     def __call__(self, tally: Tally) -> None:
         self.tally = tally
-        self._added()
         if self._bar is not None:
             self._bar(tally.done, tally.total, _verdicts(tally, but="pass"))
 
@@ -194,14 +192,9 @@ def _refuse_existing(results: ResultsFile, output: str) -> None:
         raise SatcheckError("results-exist", reason, file=named)
 
 
-@contextmanager
-def _local(output: str) -> Iterator[tuple[Path, Callable[[], None]]]:
-    """The file that the run writes, and what is called when results have been added."""
-    if not is_url(output):
-        yield Path(output), lambda: None
-        return
-    with Spool(output) as spool:
-        yield spool.path, spool.upload_part
+def _local(output: str) -> AbstractContextManager[Path]:
+    """The file that the run writes."""
+    return spooled(output) if is_url(output) else nullcontext(Path(output))
 
 
 def _worlds(
@@ -226,7 +219,8 @@ def _worlds(
 def _meant_by(url: str) -> list[str]:
     if not _PATTERN.intersection(url):
         return [url]
-    matching = matches(url)
+    with at(url) as (system, pattern):
+        matching = sorted(map(system.unstrip_protocol, system.glob(pattern)))
     if not matching:
         raise SatcheckError("no-assets", "no file matches the pattern", file=url)
     return matching

@@ -22,7 +22,7 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
 from satcheck.cli.config.source import stated_config
 from satcheck.cli.format_option import form_of, format_option
-from satcheck.cli.formats.registry import ALL, kind_of
+from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.lengths import length, settings_of
 from satcheck.cli.options import (
@@ -303,6 +303,8 @@ def command(
     refuse_certificate(form, wanted=options["certificate"])
     pictures = taken_pictures(options)
     refuse_pictures(pictures, inputs, output, baseline)
+    if kind_of(form) == "picture":
+        function_of(form)  # a library that it lacks is told before the check
     if pictures or kind_of(form) == "picture":
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from satcheck.plugins.ifc.elements import material_of
+from satcheck.plugins.ifc.elements import instances_of, material_of
 
 # Entities that make curved surfaces.
 _CURVED = (
@@ -70,10 +70,4 @@ def _radii(profile: Any) -> Iterator[float]:
 
 def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:
     """The classes of the instances of the file that are of one of these."""
-    types: set[str] = set()
-    for name in names:
-        try:
-            types.update(instance.is_a() for instance in model.by_type(name))
-        except RuntimeError:  # the schema lacks the class
-            continue
-    return frozenset(types)
+    return frozenset(each.is_a() for name in names for each in instances_of(model, name))

@@ -26,8 +26,6 @@ _OTHER_VIEWS = frozenset(
     ("Axis", "Annotation", "Box", "Clearance", "CoG", "FootPrint", "Lighting", "Plan", "Profile",
      "Reference", "SurveyPoints")
 )  # fmt: skip
-
-
 _ONLY_EXTENT = {"Box": "a bounding box", "Clearance": "a clearance"}
 
 
@@ -100,6 +98,14 @@ def _unread_shape(element: Any) -> str | None:
         if rank_of(each.MappedRepresentation.RepresentationIdentifier) is not None:
             return f"only its type {kind.GlobalId} has a shape, and the file does not place it"
     return None
+
+
+def instances_of(model: Any, name: str) -> list[Any]:
+    """All instances of a class, in the order of their numbers; none if the schema lacks it."""
+    try:
+        return sorted(model.by_type(name), key=lambda each: int(each.id()))
+    except RuntimeError:
+        return []
 
 
 def parts_of(whole: Any) -> Iterator[Any]:

@@ -5,5 +5,7 @@ from __future__ import annotations
 from satcheck.cli.formats.registry import Format
 
 FORMATS = (
-    Format("bcf", (".bcf",), "satcheck.plugins.ifc.bcf:render", "picture", "topics (BCF 3.0)"),
+    Format(
+        "bcf", (".bcf",), "satcheck.plugins.ifc.bcf.archive:render", "picture", "topics (BCF 3.0)"
+    ),
 )

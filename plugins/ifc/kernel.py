@@ -11,15 +11,16 @@ import os
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from msgspec import Struct
+
 from satcheck.core.transform import Transform
 from satcheck.plugins.ifc.curved import curved_bodies
 from satcheck.plugins.ifc.elements import material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in
 from satcheck.plugins.ifc.kernel_log import logged
 from satcheck.plugins.ifc.readers import CHORD
-from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh, Refusal
 from satcheck.scene.read_options import ReadOptions
 
 _METRES = 1e-3  # of a millimetre
@@ -30,6 +31,38 @@ _DEFAULT_PRECISION = 1e-5  # metres, of contexts that state none
 # The beginnings of types of representations without a surface.
 _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+class Shape(Struct, frozen=True):
+    """The mesh of a body as the kernel makes it.
+
+    vertices, triangles, decimals: as in RawMesh, in metres. matrix: the placement in the world;
+    None: identity. tolerance: how far its facets may be off its surfaces, metres. warnings: (code,
+    message).
+    """
+
+    vertices: bytes
+    triangles: bytes
+    matrix: Transform | None
+    decimals: int
+    tolerance: float = 0.0
+    warnings: tuple[tuple[str, str], ...] = ()
+
+    def mesh(self, units: str) -> RawMesh:
+        return RawMesh(
+            vertices=self.vertices,
+            triangles=self.triangles,
+            number_format="written-digits",
+            decimals=self.decimals,
+            units=units,
+            warnings=self.warnings,
+            surface_tolerance=self.tolerance,
+        )
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The same for bodies that share a mesh."""
+        return self.vertices, self.triangles, self.tolerance
 
 
 def shapes_of(
@@ -99,18 +132,14 @@ def _whole(
             return Refusal(NO_SURFACE, f"it has only lines or points ({', '.join(kinds)})")
         kinds = [f"#{each.id()} ({each.RepresentationType})" for each in wanted]
         return Refusal("reader-failed", f"the kernel makes no shape of {', '.join(kinds)}")
-    warnings = _warnings(failures.faces.get(body.id(), 0))
+    faces = failures.faces.get(body.id(), 0)
+    message = f"the kernel left out faces or their edges: {faces} messages"
+    warnings = (("ignored-geometry", message),) if faces else ()
     first = shapes[0]
     vertices, triangles = concatenate([(s.vertices, s.triangles, None) for s in shapes])
     return Shape(
         bytes(vertices), bytes(triangles), first.matrix, first.decimals, tolerance, warnings
     )
-
-
-def _warnings(faces: int) -> tuple[tuple[str, str], ...]:
-    if not faces:
-        return ()
-    return (("ignored-geometry", f"the kernel left out faces or their edges: {faces} messages"),)
 
 
 def _decimals(model: Any) -> int:

@@ -12,11 +12,10 @@ from typing import Any
 
 from satcheck.plugins.ifc.elements import elements_of, path_names
 from satcheck.plugins.ifc.groups import groups_of
-from satcheck.plugins.ifc.kernel import shapes_of
+from satcheck.plugins.ifc.kernel import Shape, shapes_of
 from satcheck.plugins.ifc.model import UNITS, open_model
 from satcheck.plugins.ifc.relations import relations_of
 from satcheck.plugins.ifc.remarks import remarks_on
-from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene, Refusal

@@ -15,8 +15,8 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.plugins.ifc.corners import meet_in_a_corner
-from satcheck.plugins.ifc.elements import parts_of
-from satcheck.plugins.ifc.shape import Shape
+from satcheck.plugins.ifc.elements import instances_of, parts_of
+from satcheck.plugins.ifc.kernel import Shape
 from satcheck.scene.loading.raw_mesh import RawRule, Refusal, RuleSeverity
 
 _NOTE: RuleSeverity = "note"
@@ -80,9 +80,10 @@ def _assemblies(
 ) -> Iterator[RawRule]:
     """Parts of one whole, each assembly a group. A part that is a whole belongs to the outermost
     one."""
-    wholes = [each for each in model.by_type("IfcElement") if any(True for _ in parts_of(each))]
+    elements = instances_of(model, "IfcElement")
+    wholes = [each for each in elements if any(True for _ in parts_of(each))]
     inner = {part.id() for whole in wholes for part in parts_of(whole)}
-    for whole in sorted((each for each in wholes if each.id() not in inner), key=_by_id):
+    for whole in (each for each in wholes if each.id() not in inner):
         members = [body for body in _bodies_of(whole, paths) if body != whole.id()]
         if len(members) > 1:
             name = f"assembly:{whole.GlobalId}"
@@ -103,44 +104,38 @@ def _wholes(bodies: Sequence[Any], paths: Mapping[int, str]) -> Iterator[RawRule
 
 def _pairs(model: Any) -> Iterator[_Pair]:
     yield from _fillings(model)
-    for relation in _all(model, "IfcRelProjectsElement"):
+    for relation in instances_of(model, "IfcRelProjectsElement"):
         host, addition = relation.RelatingElement, relation.RelatedFeatureElement
         yield _Pair(host, addition, "a projection of its host (IfcRelProjectsElement)", None)
-    for relation in _all(model, "IfcRelConnectsElements"):
+    for relation in instances_of(model, "IfcRelConnectsElements"):
         is_path = relation.is_a("IfcRelConnectsPathElements")
         reason = f"connected ({relation.is_a()})"
         ends = relation.RelatingElement, relation.RelatedElement
         yield _Pair(*ends, reason, is_corner=is_path)
         for real in getattr(relation, "RealizingElements", ()):
             yield from (_Pair(real, end, reason) for end in ends)
-    for relation in _all(model, "IfcRelCoversBldgElements"):
+    for relation in instances_of(model, "IfcRelCoversBldgElements"):
+        host = relation.RelatingBuildingElement
         for covering in relation.RelatedCoverings:
-            yield _Pair(
-                relation.RelatingBuildingElement,
-                covering,
-                "its covering (IfcRelCoversBldgElements)",
-            )
+            yield _Pair(host, covering, "its covering (IfcRelCoversBldgElements)")
     yield from _ports(model)
 
 
 def _fillings(model: Any) -> Iterator[_Pair]:
     """Doors and windows in openings, with the hosts of the openings."""
-    for relation in _all(model, "IfcRelFillsElement"):
+    for relation in instances_of(model, "IfcRelFillsElement"):
         opening = relation.RelatingOpeningElement
         for voids in opening.VoidsElements:
-            reason = f"it fills an opening of {_called(voids.RelatingBuildingElement)}"
-            yield _Pair(
-                voids.RelatingBuildingElement,
-                relation.RelatedBuildingElement,
-                f"{reason} (IfcRelFillsElement)",
-            )
+            host = voids.RelatingBuildingElement
+            reason = f"it fills an opening of {_called(host)} (IfcRelFillsElement)"
+            yield _Pair(host, relation.RelatedBuildingElement, reason)
 
 
 def _ports(model: Any) -> Iterator[_Pair]:
     """Pipes, ducts and fittings whose ports are connected."""
     from ifcopenshell.util.system import get_port_element
 
-    for relation in _all(model, "IfcRelConnectsPorts"):
+    for relation in instances_of(model, "IfcRelConnectsPorts"):
         a, b = map(get_port_element, (relation.RelatingPort, relation.RelatedPort))
         if a is not None and b is not None:
             yield _Pair(a, b, "connected by ports (IfcRelConnectsPorts)")
@@ -149,14 +144,6 @@ def _ports(model: Any) -> Iterator[_Pair]:
 def _may_coincide(a: Shape | Refusal, b: Shape | Refusal) -> bool:
     """Whether two joined walls may share most of one of them."""
     return isinstance(a, Shape) and isinstance(b, Shape) and not meet_in_a_corner(a, b)
-
-
-def _all(model: Any, name: str) -> list[Any]:
-    """All relations of a class, in the order of their numbers; none if the schema lacks it."""
-    try:
-        return sorted(model.by_type(name), key=_by_id)
-    except RuntimeError:
-        return []
 
 
 def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
@@ -171,10 +158,6 @@ def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
             if each.is_a("IfcElement"):
                 waiting += parts_of(each)
     return sorted(ids)
-
-
-def _by_id(instance: Any) -> int:
-    return int(instance.id())
 
 
 def _called(element: Any) -> str:

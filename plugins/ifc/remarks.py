@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from satcheck.plugins.ifc.elements import Elements
+from satcheck.plugins.ifc.elements import Elements, instances_of
+from satcheck.plugins.ifc.kernel import Shape
 from satcheck.plugins.ifc.readers import CHORD
-from satcheck.plugins.ifc.shape import Shape
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
@@ -31,7 +31,7 @@ def _remarks(model: Any, elements: Elements) -> Iterator[tuple[str, str]]:
     if elements.without:
         names = [f"{each.is_a()} {each.GlobalId}" for each in elements.without]
         yield "no-shape", f"{len(names)} elements without a shape are not checked: {listed(names)}"
-    if _all_of(model, ("IfcMapConversion",)):
+    if instances_of(model, "IfcMapConversion"):
         yield "left-out", "IfcMapConversion is not applied: coordinates are those of the project"
 
 
@@ -54,14 +54,3 @@ def _counts(classes: Counter[str]) -> list[str]:
 def _wholes(elements: Elements) -> list[str]:
     counts = Counter(whole.is_a() for whole in elements.wholes)
     return [f"{each} (its parts are)" for each in _counts(counts)]
-
-
-def _all_of(model: Any, names: Iterable[str]) -> bool:
-    """Whether the file has an instance of one of these classes."""
-    for name in names:
-        try:
-            if model.by_type(name):
-                return True
-        except RuntimeError:  # the schema lacks the class
-            continue
-    return False

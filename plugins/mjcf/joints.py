@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from satcheck.core.transform import Transform, compose, placed
 from satcheck.plugins.mjcf import messages
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.robot.kinematics import from_quaternion
 from satcheck.scene.robot.model import Joint, JointKind, Limits, Link
 
@@ -34,7 +35,9 @@ def joints_of(model: messages.Model) -> tuple[list[Joint], list[Link]]:
         of_body.setdefault(joint.body, []).append(joint)
     joints: list[Joint] = []
     between: list[Link] = []
-    taken = {body.name for body in model.bodies} | {joint.name for joint in model.joints}
+    taken = UniqueNames()
+    for name in {body.name for body in model.bodies} | {joint.name for joint in model.joints}:
+        taken.unique(name)
     for number, body in enumerate(model.bodies[1:], 1):
         parent = model.bodies[body.parent].name
         own = of_body.get(number, [])
@@ -43,7 +46,7 @@ def joints_of(model: messages.Model) -> tuple[list[Joint], list[Link]]:
         for k, joint in enumerate(own, 1):
             child = body.name
             if k < len(own):
-                child = _free(f"{body.name} after {joint.name}", taken)
+                child = taken.unique(f"{body.name} after {joint.name}")
                 between.append(Link(child, (), unused=False))
             start = pose_of(body.place) if k == 1 else IDENTITY
             joints.append(_joint(joint, parent, child, start))
@@ -51,8 +54,8 @@ def joints_of(model: messages.Model) -> tuple[list[Joint], list[Link]]:
     return joints, between
 
 
-def _fixed(body: str, parent: str, origin: Transform, taken: set[str]) -> Joint:
-    name = _free(f"{body} in {parent}", taken)
+def _fixed(body: str, parent: str, origin: Transform, taken: UniqueNames) -> Joint:
+    name = taken.unique(f"{body} in {parent}")
     return Joint(name, "fixed", parent, body, origin, (1.0, 0.0, 0.0), None, None)
 
 
@@ -81,15 +84,6 @@ def _joint(joint: messages.Joint, parent: str, child: str, start: Transform) -> 
         stands_at_zero=True,
         reference=joint.rest,
     )
-
-
-def _free(wanted: str, taken: set[str]) -> str:
-    name, number = wanted, 1
-    while name in taken:
-        number += 1
-        name = f"{wanted}-{number}"
-    taken.add(name)
-    return name
 
 
 def values_of(

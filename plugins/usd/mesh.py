@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import UsdGeom
 
-from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.polygons import triangles_of
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
 
 Ints = NDArray[np.int64]
@@ -107,14 +107,7 @@ def _solid_faces(
 def _triangles(points: Points, corners: Ints, lengths: Ints) -> Ints:
     if (lengths == 3).all():
         return corners.reshape(-1, 3)
-    cut = cut_polygons(
-        points.astype("<f8").tobytes(),
-        corners.astype("<u4").tobytes(),
-        lengths.astype("<u4").tobytes(),
-    )
-    if isinstance(cut, ReadError):
-        raise MeshFileError(cut.code, cut.message)
-    return np.frombuffer(cut, "<u4").astype(np.int64).reshape(-1, 3)
+    return triangles_of(points, corners, lengths)
 
 
 def _outward(mesh: Any, triangles: Ints, time: Any) -> Ints:

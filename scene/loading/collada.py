@@ -14,12 +14,12 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
+from satcheck.scene.loading.polygons import triangles_of
 from satcheck.scene.loading.raw_mesh import (
     RawMesh,
     RawScene,
@@ -321,7 +321,7 @@ def _triangles(group: Element, points: Floats) -> Indices:
         pieces = (corners[e - n : e] for e, n in zip(ends, lengths, strict=True))
         corners = [corner for piece in pieces for corner in split(piece)]
     elif any(length > 3 for length in lengths):
-        return _cut(points, corners, lengths)
+        return triangles_of(points, corners, lengths)
     return np.array(corners, np.int64).reshape(-1, 3)
 
 
@@ -333,15 +333,3 @@ def _lengths(group: Element, rows: list[list[int]], stride: int) -> list[int]:
     if group.tag in _ONE_P_EACH:
         return [len(row) // stride for row in rows]
     return [3] * min(group.integer("count"), sum(map(len, rows)))
-
-
-def _cut(points: Floats, corners: list[int], lengths: list[int]) -> Indices:
-    """The triangles of polygons of these lengths."""
-    triangles = cut_polygons(
-        points.astype("<f8").tobytes(),
-        np.array(corners, "<u4").tobytes(),
-        np.array(lengths, "<u4").tobytes(),
-    )
-    if isinstance(triangles, ReadError):
-        raise MeshFileError(triangles.code, triangles.message)
-    return np.frombuffer(triangles, "<u4").astype(np.int64).reshape(-1, 3)

@@ -17,5 +17,5 @@ def imported(module: str, extra: str, kind: str) -> Any:
         if error.name is None or not module.startswith(error.name):
             raise
         library = module.partition(".")[0]
-        message = f"{kind} are read by {library}: pip install 'satcheck[{extra}]'"
+        message = f"{kind} need {library}: pip install 'satcheck[{extra}]'"
         raise MeshFileError("missing-extra", message) from None

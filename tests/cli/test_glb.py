@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from satcheck.cli.formats.picture.glb import MET, OVERLAP
+from satcheck.core import Mesh
+from satcheck.scene.glb_file import Node, glb
 from tests.cli.process import PUSHED, satcheck
 
 
@@ -58,6 +63,24 @@ def test_a_body_that_is_not_closed_has_no_overlap_and_that_is_said(tmp_path: Pat
     assert not [name for name in scene.graph.nodes_geometry if name.startswith("overlap")]
     (remark,) = scene.metadata["remarks"]
     assert "open_box is not closed" in remark
+
+
+def test_nodes_may_have_one_name_and_materials_keep_theirs() -> None:
+    tetrahedron = Mesh(np.eye(4, 3), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    nodes = [Node("part", tetrahedron, None, material) for material in (MET, OVERLAP, None)]
+    content = glb(nodes, "mm", ["a", "b"])
+    (length,) = struct.unpack("<I", content[12:16])
+    tree = json.loads(content[20 : 20 + length])
+    assert [node["name"] for node in tree["nodes"]] == ["part"] * 3
+    assert sorted(node["mesh"] for node in tree["nodes"]) == [0, 1, 2]
+    assert len(tree["accessors"]) == 2  # the vertices and the triangles, once each
+    translucent, opaque = tree["materials"]
+    assert (translucent["name"], translucent["alphaMode"]) == (MET.name, "BLEND")
+    assert (opaque["name"], "alphaMode" in opaque) == (OVERLAP.name, False)
+    colours = [each["pbrMetallicRoughness"]["baseColorFactor"] for each in (translucent, opaque)]
+    assert colours == [pytest.approx(each.colour, abs=0.5 / 255) for each in (MET, OVERLAP)]
+    assert tree["scenes"][0]["extras"] == {"remarks": ["a", "b"]}
+    assert glb(nodes, "mm", ["a", "b"]) == content
 
 
 def test_view_writes_the_same_model(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ follows from what its pairs have in common, so a second run updates the topic.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -24,13 +24,17 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.report.baseline import KnownFinding
     from satcheck.report.report import Finding, Report
     from satcheck.scene import Body, Scene
 
 _PROJECT = re.compile(rb"=\s*IFCPROJECT\s*\(\s*'([0-9A-Za-z_$]{22})'", re.IGNORECASE)
 Status = Literal["Open", "ReOpened", "Closed"]
 STATUSES: tuple[Status, ...] = ("Open", "ReOpened", "Closed")
+_BESIDE_BASELINE: dict[str, Status] = {
+    "unchanged": "Closed",
+    "worse": "ReOpened",
+    "undecided": "ReOpened",
+}
 TYPES = {
     "overlap": "Clash",
     "motion": "Clash",
@@ -56,10 +60,9 @@ class Member(Struct, frozen=True):
     storeys: tuple[str, ...] = ()
 
 
-class PairView(Struct, frozen=True):
+class Pair(Struct, frozen=True):
     """A pair of a topic. finding: None for a known finding that is gone."""
 
-    guid: str
     members: tuple[Member, Member]
     status: Status
     priority: str
@@ -68,8 +71,9 @@ class PairView(Struct, frozen=True):
     finding: Finding | None
 
     @property
-    def title(self) -> str:
-        return " / ".join(member.name for member in self.members)
+    def guid(self) -> str:
+        """Return the GUID of its view, the same in either order of the bodies."""
+        return _guid("view", *sorted(member.id for member in self.members))
 
     @property
     def classes(self) -> tuple[str, ...]:
@@ -82,62 +86,78 @@ class PairView(Struct, frozen=True):
         return tuple(sorted({storey for member in self.members for storey in member.storeys}))
 
     @property
-    def key(self) -> str:
-        """Return what the pairs of a topic have in common."""
+    def labels(self) -> tuple[str, ...]:
+        classes = (" / ".join(self.classes),) if self.classes else ()
+        return (*classes, *self.storeys)
+
+    @property
+    def topic(self) -> str:
+        """Return the GUID of its topic: of what the pairs of the topic have in common."""
         if not self.classes:
-            return "\n".join(sorted(member.id for member in self.members))
+            return _guid(*sorted(member.id for member in self.members))
         projects = sorted(member.project or member.file for member in self.members)
-        return "\n".join(
-            ("group", self.kind, self.priority, *self.classes, "", *self.storeys, "", *projects)
-        )
+        place = ("", *self.storeys, "", *projects)
+        return _guid("group", self.kind, self.priority, *self.classes, *place)
 
 
-class Topic(Struct, frozen=True):
-    """views: of its pairs, the worst first; those that are to be shown. labels: classes and storeys
-    of the bodies."""
-
-    guid: str
-    index: int
-    kind: str
-    status: Status
-    priority: str
-    title: str
-    description: str
-    labels: tuple[str, ...]
-    views: tuple[PairView, ...]
+def topics_of(report: Report, scene: Scene) -> dict[str, list[Pair]]:
+    """Return the pairs of each topic by its GUID, the worst first. Pairs that touch, and nothing
+    else, are no topics."""
+    topics: dict[str, list[Pair]] = {}
+    for pair in _pairs(report, scene):
+        topics.setdefault(pair.topic, []).append(pair)
+    return topics
 
 
-def topics_of(report: Report, scene: Scene) -> list[Topic]:
-    """The worst first. Pairs that touch, and nothing else, are no topics."""
-    groups: dict[str, list[PairView]] = {}
-    for view in _views(report, scene):
-        groups.setdefault(view.key, []).append(view)
-    return [_topic(key, views, index) for index, (key, views) in enumerate(groups.items())]
+def shown(pairs: Sequence[Pair]) -> Sequence[Pair]:
+    """Return the pairs of a topic that are not closed; all pairs if all are."""
+    return [pair for pair in pairs if pair.status != "Closed"] or pairs
 
 
-def _views(report: Report, scene: Scene) -> Iterator[PairView]:
-    members = _members(report, {body.id: body for body in scene.bodies})
-    for finding in worst_first(filter(_is_shown, report.findings)):
-        yield _of_finding(finding, report, members)
-    for known in report.baseline.absent if report.baseline else ():
-        yield _gone(known, members)
+def status(pairs: Sequence[Pair]) -> Status:
+    """Return the state of a topic: it is closed only if all its pairs are."""
+    states = {pair.status for pair in shown(pairs)}
+    return "ReOpened" if "ReOpened" in states else states.pop()
 
 
-def _is_shown(finding: Finding) -> bool:
-    return is_listed(finding) and finding.severity in PRIORITIES and kind_of(finding) in TYPES
+def title(pairs: Sequence[Pair]) -> str:
+    first, *others = shown(pairs)
+    if not others:
+        return " / ".join(member.name for member in first.members)
+    where = f", {', '.join(first.storeys)}" if first.storeys else ""
+    return f"{' / '.join(first.classes)}: {counted(1 + len(others), 'pair')}{where}"
 
 
-def _members(report: Report, bodies: Mapping[str, Body]) -> dict[str, Member]:
-    known = {each.id: bodies.get(each.id) for each in report.bodies}
-    return {
-        each.id: _member(each.id, each.file, each.path, known[each.id]) for each in report.bodies
+def description(pairs: Sequence[Pair]) -> str:
+    lines = []
+    for pair in pairs[:_MOST_DESCRIBED]:
+        closed = "accepted: " if pair.status == "Closed" and pair.finding else ""
+        ids = " / ".join(f"{member.name} ({member.id})" for member in pair.members)
+        lines.append(f"{ids}: {closed}{pair.description}")
+    if len(pairs) > _MOST_DESCRIBED:
+        lines.append(f"and {len(pairs) - _MOST_DESCRIBED} more")
+    return "\n".join(lines)
+
+
+def _pairs(report: Report, scene: Scene) -> Iterator[Pair]:
+    bodies = {body.id: body for body in scene.bodies}
+    members = {
+        each.id: _member(each.id, each.file, each.path, bodies.get(each.id))
+        for each in report.bodies
     }
+    for finding in worst_first(report.findings):
+        if is_listed(finding) and finding.severity in PRIORITIES and kind_of(finding) in TYPES:
+            yield _pair(finding, report, members)
+    for known in report.baseline.absent if report.baseline else ():
+        pair = members[known.a], members[known.b]
+        severity = PRIORITIES[known.severity]
+        yield Pair(pair, "Closed", severity, TYPES["overlap"], "no longer found", None)
 
 
 def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
     if body is None or body.file.format != "ifc":
         return Member(id_, file, None, body.name if body else id_)
-    storeys = [group for group in body.groups if group.startswith(_STOREY)]
+    storeys = (group.removeprefix(_STOREY) for group in body.groups if group.startswith(_STOREY))
     return Member(
         id=id_,
         file=file,
@@ -145,17 +165,16 @@ def _member(id_: str, file: str, path: str | None, body: Body | None) -> Member:
         name=body.name,
         project=_project_of(file),
         kind=body.name.partition(" ")[0],
-        storeys=tuple(storey.removeprefix(_STOREY) for storey in storeys),
+        storeys=tuple(storeys),
     )
 
 
-def _of_finding(finding: Finding, report: Report, members: Mapping[str, Member]) -> PairView:
+def _pair(finding: Finding, report: Report, members: Mapping[str, Member]) -> Pair:
     said = [measured(finding, unit_of(report.units))]
     said += [text for text in (finding.reason, finding.rule and f"rule: {finding.rule}") if text]
-    return PairView(
-        guid=_view_guid(finding.a, finding.b),
+    return Pair(
         members=(members[finding.a], members[finding.b]),
-        status=_status(finding),
+        status=_BESIDE_BASELINE.get(finding.baseline_state or "", "Open"),
         priority=PRIORITIES[finding.severity],
         kind=TYPES[kind_of(finding)],
         description="; ".join(said),
@@ -163,79 +182,10 @@ def _of_finding(finding: Finding, report: Report, members: Mapping[str, Member])
     )
 
 
-def _gone(known: KnownFinding, members: Mapping[str, Member]) -> PairView:
-    """Return the topic of a known finding of the baseline that is no finding any more."""
-    return PairView(
-        guid=_view_guid(known.a, known.b),
-        members=(members[known.a], members[known.b]),
-        status="Closed",
-        priority=PRIORITIES[known.severity],
-        kind=TYPES["overlap"],
-        description="no longer found",
-        finding=None,
-    )
-
-
-def _view_guid(a: str, b: str) -> str:
-    """The same in either order of the bodies."""
-    return str(uuid5(_SPACE, "\n".join(("view", *sorted((a, b))))))
-
-
-def _status(finding: Finding) -> Status:
-    """Beside a baseline: closed if the finding is accepted."""
-    if finding.baseline_state == "unchanged":
-        return "Closed"
-    return "ReOpened" if finding.baseline_state in ("worse", "undecided") else "Open"
-
-
-def _topic(key: str, views: Sequence[PairView], index: int) -> Topic:
-    first = views[0]
-    status = _common_status(view.status for view in views)
-    shown = tuple(view for view in views if status == "Closed" or view.status != "Closed")
-    return Topic(
-        guid=str(uuid5(_SPACE, key)),
-        index=index,
-        kind=first.kind,
-        status=status,
-        priority=first.priority,
-        title=_title(shown),
-        description=_description(views),
-        labels=_labels(first),
-        views=shown,
-    )
-
-
-def _common_status(states: Iterable[Status]) -> Status:
-    """Closed only if all are."""
-    left = set(states) - {"Closed"}
-    if not left:
-        return "Closed"
-    return "ReOpened" if "ReOpened" in left else "Open"
-
-
-def _title(views: Sequence[PairView]) -> str:
-    first = views[0]
-    if len(views) == 1:
-        return first.title
-    where = f", {', '.join(first.storeys)}" if first.storeys else ""
-    return f"{' / '.join(first.classes)}: {counted(len(views), 'pair')}{where}"
-
-
-def _description(views: Sequence[PairView]) -> str:
-    lines = []
-    for view in views[:_MOST_DESCRIBED]:
-        closed = "accepted: " if view.status == "Closed" and view.finding else ""
-        ids = " / ".join(f"{member.name} ({member.id})" for member in view.members)
-        lines.append(f"{ids}: {closed}{view.description}")
-    if len(views) > _MOST_DESCRIBED:
-        lines.append(f"and {len(views) - _MOST_DESCRIBED} more")
-    return "\n".join(lines)
-
-
-def _labels(view: PairView) -> tuple[str, ...]:
-    """Return the labels of IFC elements: the pair of classes, and the storeys."""
-    classes = (" / ".join(view.classes),) if view.classes else ()
-    return (*classes, *view.storeys)
+def _guid(*parts: str) -> str:
+    """File names may hold what is no text."""
+    text = "\n".join(parts).encode(errors="backslashreplace").decode()
+    return str(uuid5(_SPACE, text))
 
 
 @cache

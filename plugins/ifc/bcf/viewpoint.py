@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-from xml.etree.ElementTree import Element
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from msgspec import Struct
+from bcf.v3 import model as bcf
 from msgspec.structs import replace
 
 from satcheck.cli.formats.picture.data import up_of
 from satcheck.cli.formats.picture.png import View, image_of, view_of
-from satcheck.plugins.ifc.bcf.text import below, document, point
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
@@ -19,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.plugins.ifc.bcf.topics import Member, PairView
+    from satcheck.plugins.ifc.bcf.topics import Member, Pair
     from satcheck.scene import Body, Scene
 
     Floats = npt.NDArray[np.float64]
@@ -29,17 +27,6 @@ COLOURS = ("2970D6", "E68C1A")  # of A and B, as in the pictures: red, green, bl
 _UNIT = "m"  # of BCF
 # From y up to z up, the axes of BCF: (x, y, z) becomes (x, -z, y).
 _Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-
-
-class Seen(Struct, frozen=True):
-    """eye, direction, up: of the camera, metres, z up. height: of what the image shows, metres.
-    image: PNG."""
-
-    eye: tuple[float, float, float]
-    direction: tuple[float, float, float]
-    up: tuple[float, float, float]
-    height: float
-    image: bytes
 
 
 class Snapshots:
@@ -55,8 +42,8 @@ class Snapshots:
         boxes = [body.world_mesh().bounds for body in scene.bodies]
         self._boxes: Floats = np.array(boxes).reshape(-1, 2, 3)
 
-    def of(self, shown: PairView) -> Seen | None:
-        """None: no body of the pair can be drawn."""
+    def of(self, shown: Pair) -> tuple[Any, bytes] | None:
+        """The viewpoint and its picture (PNG); None: no body of the pair can be drawn."""
         pair = [self._bodies[m.id] for m in shown.members if m.id in self._bodies]
         if not pair:
             return None
@@ -66,7 +53,11 @@ class Snapshots:
         if finding is None:
             near = replace(near, bodies=tuple(pair))
         image = image_of(near, finding, pair, view, SIZE)
-        return self._seen(view, pair, image)
+        camera = self._camera(view, pair)
+        seen = bcf.VisualizationInfo(
+            guid=shown.guid, components=_components(shown), orthogonal_camera=camera
+        )
+        return seen, image
 
     def _near(self, view: View) -> list[Body]:
         """The bodies that may be in the image."""
@@ -75,52 +66,46 @@ class Snapshots:
         near = ((low <= view.target + reach) & (high >= view.target - reach)).all(axis=1)
         return [self._scene.bodies[k] for k in np.flatnonzero(near)]
 
-    def _seen(self, view: View, pair: Sequence[Body], image: bytes) -> Seen:
-        """The eye stands before the bodies, so that no wall is between."""
+    def _camera(self, view: View, pair: Sequence[Body]) -> Any:
+        """The eye stands before the bodies, so that no wall is between. Metres, z up."""
         _, up, towards = view.rows
         points = np.concatenate([np.asarray(body.world_mesh().bounds) for body in pair])
         height = SIZE[1] / view.scale
         corners = np.array(np.meshgrid(*zip(points.min(axis=0), points.max(axis=0), strict=True)))
         ahead = ((corners.reshape(3, -1).T - view.target) @ towards).max()
         eye = view.target + towards * (ahead + height)
-        return Seen(
-            eye=self._placed(eye * self._metres),
-            direction=self._placed(-towards),
-            up=self._placed(up),
-            height=float(height * self._metres),
-            image=image,
+        return bcf.OrthogonalCamera(
+            camera_view_point=bcf.Point(**self._placed(eye * self._metres)),
+            camera_direction=bcf.Direction(**self._placed(-towards)),
+            camera_up_vector=bcf.Direction(**self._placed(up)),
+            view_to_world_scale=float(height * self._metres),
+            aspect_ratio=SIZE[0] / SIZE[1],
         )
 
-    def _placed(self, vector: Floats) -> tuple[float, float, float]:
+    def _placed(self, vector: Floats) -> dict[str, float]:
         """In the axes of BCF."""
-        x, y, z = map(float, self._axes @ vector + 0.0)
-        return x, y, z
+        return dict(zip("xyz", map(float, self._axes @ vector + 0.0), strict=True))
 
 
-def visualization(view: PairView, seen: Seen) -> bytes:
-    root = Element("VisualizationInfo", Guid=view.guid)
-    components = below(root, "Components")
-    selection = below(components, "Selection")
-    for member in view.members:
-        _component(selection, member)
-    visibility = below(components, "Visibility", DefaultVisibility="true")
-    hints = ("SpacesVisible", "SpaceBoundariesVisible", "OpeningsVisible")
-    below(visibility, "ViewSetupHints", **dict.fromkeys(hints, "false"))
-    colouring = below(components, "Coloring")
-    for member, colour in zip(view.members, COLOURS, strict=True):
-        _component(below(below(colouring, "Color", Color=colour), "Components"), member)
-    camera = below(root, "OrthogonalCamera")
-    point(camera, "CameraViewPoint", seen.eye)
-    point(camera, "CameraDirection", seen.direction)
-    point(camera, "CameraUpVector", seen.up)
-    below(camera, "ViewToWorldScale", repr(seen.height))
-    below(camera, "AspectRatio", repr(SIZE[0] / SIZE[1]))
-    return document(root)
+def _components(pair: Pair) -> Any:
+    """Both bodies, selected and coloured."""
+    both = [_component(member) for member in pair.members]
+    colours = [
+        bcf.ComponentColoringColor(
+            color=colour, components=bcf.ComponentColoringColorComponents(component=[each])
+        )
+        for each, colour in zip(both, COLOURS, strict=True)
+    ]
+    hints = bcf.ViewSetupHints()  # no spaces, no openings
+    return bcf.Components(
+        selection=bcf.ComponentSelection(component=both),
+        visibility=bcf.ComponentVisibility(view_setup_hints=hints, default_visibility=True),
+        coloring=bcf.ComponentColoring(color=colours),
+    )
 
 
-def _component(parent: Element, member: Member) -> None:
+def _component(member: Member) -> Any:
     """Programs find an element by its GlobalId only."""
     if member.guid is None:
-        below(parent, "Component", AuthoringToolId=member.id)
-    else:
-        below(parent, "Component", IfcGuid=member.guid)
+        return bcf.Component(authoring_tool_id=member.id)
+    return bcf.Component(ifc_guid=member.guid)

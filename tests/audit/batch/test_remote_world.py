@@ -10,7 +10,8 @@ from typing import Any
 import fsspec
 import pytest
 
-from satcheck.audit.batch.remote_world import Copies
+from satcheck.audit.batch import remote_world
+from satcheck.audit.batch.remote_world import Copies, make_room
 
 WORLD = ("memory://bucket/scenes/a.toml",)
 
@@ -27,7 +28,7 @@ def memory() -> Iterator[Any]:
 
 
 def test_the_layout_is_kept(tmp_path: Path) -> None:
-    copy = Copies(tmp_path).of(WORLD, anywhere=False)
+    copy = Copies(tmp_path, WORLD, anywhere=False)
     scene = copy.path(WORLD[0])
     mesh = str(Path(scene).parent / "m" / "box.obj")
     assert copy.fetch([scene, mesh])
@@ -36,19 +37,20 @@ def test_the_layout_is_kept(tmp_path: Path) -> None:
     assert copy.url(mesh) == "memory://bucket/scenes/m/box.obj"
     assert copy.path("here.obj") == "here.obj"
     assert copy.url("here.obj") is None
+    assert copy.url(str(Path(scene).parents[3])) is None
 
 
 def test_what_lies_outside_of_the_root_is_not_fetched(tmp_path: Path) -> None:
     outside = "../../bucket/meshes/box.obj"
-    near = Copies(tmp_path / "near").of(WORLD, anywhere=False)
+    near = Copies(tmp_path / "near", WORLD, anywhere=False)
     assert not near.fetch([str(Path(near.path(WORLD[0])).parent / outside)])
-    far = Copies(tmp_path / "far").of(WORLD, anywhere=True)
+    far = Copies(tmp_path / "far", WORLD, anywhere=True)
     assert far.fetch([str(Path(far.path(WORLD[0])).parent / outside)])
 
 
 def test_no_host_beside_that_of_the_world_is_asked(memory: Any, tmp_path: Path) -> None:
     memory.pipe_file("/other/box.obj", b"")
-    copy = Copies(tmp_path).of(WORLD, anywhere=True)
+    copy = Copies(tmp_path, WORLD, anywhere=True)
     outside = Path(copy.path(WORLD[0])).parents[2] / "other" / "box.obj"
     assert copy.url(str(outside)) == "memory://other/box.obj"
     assert not copy.fetch([str(outside)])
@@ -57,8 +59,7 @@ def test_no_host_beside_that_of_the_world_is_asked(memory: Any, tmp_path: Path) 
 
 def test_a_name_cannot_leave_the_folder_of_copies(tmp_path: Path) -> None:
     world = ("memory://bucket/../../../x.toml",)
-    copies = Copies(tmp_path)
-    place = Path(copies.of(world, anywhere=True).path(world[0]))
+    place = Path(Copies(tmp_path, world, anywhere=True).path(world[0]))
     assert ".." not in place.parts
     assert place.is_relative_to(tmp_path.resolve())
 
@@ -78,24 +79,37 @@ def test_files_beside_the_folder_of_a_robot_are_fetched(
     memory: Any, tmp_path: Path, name: str, fetched: bool
 ) -> None:
     memory.pipe_file(f"/bucket/scenes/{name}", b"")
-    copy = Copies(tmp_path).of((f"memory://bucket/scenes/{name}",), anywhere=False)
+    copy = Copies(tmp_path, (f"memory://bucket/scenes/{name}",), anywhere=False)
     robot = Path(copy.path(f"memory://bucket/scenes/{name}"))
     assert copy.fetch([str(robot.parents[1] / "meshes" / "box.obj")]) == fetched
 
 
 def test_worlds_of_other_roots_share_no_copies(tmp_path: Path) -> None:
     """Else the answer for a world would depend on the worlds before it."""
-    copies = Copies(tmp_path)
-    robot = copies.of(("memory://bucket/robot/a.urdf",), anywhere=False)
+    robot = Copies(tmp_path, ("memory://bucket/robot/a.urdf",), anywhere=False)
     manifest = Path(robot.path("memory://bucket/package.xml"))
     assert robot.fetch([str(manifest)])
-    other = copies.of(WORLD, anywhere=False)
+    other = Copies(tmp_path, WORLD, anywhere=False)
     assert not Path(other.path("memory://bucket/package.xml")).exists()
-    again = copies.of(("memory://bucket/robot/b.urdf",), anywhere=False)
+    again = Copies(tmp_path, ("memory://bucket/robot/b.urdf",), anywhere=False)
     assert Path(again.path("memory://bucket/package.xml")) == manifest
 
 
+def test_copies_that_are_too_many_are_removed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = Copies(tmp_path, WORLD, anywhere=False)
+    copy.fetch([copy.path(WORLD[0])])
+    make_room(tmp_path)
+    assert Path(copy.path(WORLD[0])).exists()
+    monkeypatch.setattr(remote_world, "_MOST_BYTES", 1)
+    make_room(tmp_path)
+    assert not Path(copy.path(WORLD[0])).exists()
+    make_room(tmp_path)
+    assert copy.fetch([copy.path(WORLD[0])])
+
+
 def test_a_report_names_urls(tmp_path: Path) -> None:
-    copy = Copies(tmp_path / 'a "folder"').of(WORLD, anywhere=False)
+    copy = Copies(tmp_path / 'a "folder"', WORLD, anywhere=False)
     text = json.dumps({"message": f"{copy.path(WORLD[0])}: broken"}).encode()
     assert json.loads(copy.with_urls(text)) == {"message": f"{WORLD[0]}: broken"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,18 +12,17 @@ import pytest
 
 from satcheck.audit.batch.check_options import World
 from satcheck.audit.batch.results import Head, ResultsFile
-from satcheck.audit.batch.spool import Spool
+from satcheck.audit.batch.spool import spooled
 from satcheck.core.errors import SatcheckError
-from satcheck.decompose.cache import DIRECTORY_VARIABLE
 from tests.audit.batch.test_results import everything, result
 
 URL = "memory://bucket/r.jsonl"
-A, B, C = (result(name)[1] for name in "abc")
+A, B = (result(name)[1] for name in "ab")
 
 
 @pytest.fixture
 def memory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Any]:
-    monkeypatch.setenv(DIRECTORY_VARIABLE, str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     system = fsspec.filesystem("memory")
     yield system
     system.store.clear()
@@ -32,16 +32,16 @@ def stored(memory: Any) -> dict[str, bytes]:
     return {name: memory.cat_file(name) for name in memory.find("/bucket")}
 
 
-def spooled(folder: Path) -> list[str]:
-    return [each.name for each in folder.rglob("*") if each.is_file() and each.suffix != ".lock"]
+def left(folder: Path) -> list[str]:
+    return [each.name for each in folder.rglob("*")]
 
 
 def test_a_finished_batch_is_at_the_url(memory: Any, tmp_path: Path) -> None:
-    with Spool(URL) as spool, ResultsFile(spool.path) as results:
+    with spooled(URL) as path, ResultsFile(path) as results:
         results.append([result("b"), result("a")])
         results.finish([("a",), ("b",)])
     assert stored(memory) == {"/bucket/r.jsonl": A + B}
-    assert spooled(tmp_path) == []
+    assert left(tmp_path) == []
 
 
 def interrupted(*names: str) -> list[World]:
@@ -49,7 +49,7 @@ def interrupted(*names: str) -> list[World]:
     kept: list[Head] = []
 
     def run() -> None:
-        with Spool(URL) as spool, ResultsFile(spool.path) as results:
+        with spooled(URL) as path, ResultsFile(path) as results:
             kept.extend(results.keep(everything))
             results.append(map(result, names))
             raise KeyboardInterrupt
@@ -62,7 +62,7 @@ def interrupted(*names: str) -> list[World]:
 def test_an_ended_run_leaves_its_part(memory: Any, tmp_path: Path) -> None:
     interrupted("b")
     assert stored(memory) == {"/bucket/r.jsonl.part": B}
-    assert spooled(tmp_path) == []
+    assert left(tmp_path) == []
     assert interrupted("a") == [("b",)]
     assert stored(memory) == {"/bucket/r.jsonl.part": B + A}
 
@@ -78,57 +78,25 @@ def test_a_finished_batch_stays_until_the_next_one_has_finished(memory: Any) -> 
     assert stored(memory) == {"/bucket/r.jsonl": A, "/bucket/r.jsonl.part": B}
 
 
-def killed(*names: str) -> None:
-    """As after the death of the process: the spool stays, and its part was uploaded once."""
-    spool = Spool(URL)
-    spool.__enter__()
-    with ResultsFile(spool.path) as results:
-        list(results.keep(everything))
-        results.append(map(result, names))
-    spool._lock.release()
-
-
-def test_a_killed_run_is_continued_on_its_machine(memory: Any) -> None:
-    killed("a")
-    assert stored(memory) == {"/bucket/r.jsonl.part": b""}
-    assert interrupted("b") == [("a",)]
-    assert stored(memory) == {"/bucket/r.jsonl.part": A + B}
-
-
-def test_what_another_machine_has_added_is_kept(memory: Any) -> None:
-    killed("a")
-    memory.pipe_file("/bucket/r.jsonl.part", B)
-    assert sorted(interrupted("c")) == [("a",), ("b",)]
-
-
-@pytest.mark.usefixtures("memory")
-def test_two_runs_do_not_write_one_url() -> None:
-    first = Spool(URL)
-    first.__enter__()
-    with pytest.raises(SatcheckError) as caught, Spool(URL):
-        pass
-    assert caught.value.code == "results-in-use"
-    first._lock.release()
-
-
 def test_an_upload_that_fails_says_where_the_results_are(
-    memory: Any, monkeypatch: pytest.MonkeyPatch
+    memory: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     def full(*_: object) -> None:
         raise OSError("quota")
 
-    spool = Spool(URL)
-    spool.__enter__()
-    with ResultsFile(spool.path) as results:
-        results.append([result("a")])
-        results.finish([("a",)])
-    monkeypatch.setattr(memory, "put_file", full)
+    def run() -> None:
+        with spooled(URL) as path, ResultsFile(path) as results:
+            results.append([result("a")])
+            results.finish([("a",)])
+            monkeypatch.setattr(memory, "put_file", full)
+
     with pytest.raises(SatcheckError) as caught:
-        spool.__exit__(None, None, None)
+        run()
     assert caught.value.code == "cannot-write"
     assert "quota" in str(caught.value)
-    assert str(spool.path) in str(caught.value)
-    assert spool.path.read_bytes() == A
+    (place,) = tmp_path.rglob("results.jsonl")
+    assert str(place) in str(caught.value)
+    assert place.read_bytes() == A
 
 
 def test_what_cannot_be_written_fails_before_the_work(
@@ -138,6 +106,6 @@ def test_what_cannot_be_written_fails_before_the_work(
         raise NotImplementedError
 
     monkeypatch.setattr(memory, "put_file", refused)
-    with pytest.raises(SatcheckError) as caught, Spool(URL):
+    with pytest.raises(SatcheckError) as caught, spooled(URL):
         pass
     assert caught.value.code == "cannot-write"

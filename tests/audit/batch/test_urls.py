@@ -37,28 +37,11 @@ def test_a_file_is_copied(memory: Any, tmp_path: Path) -> None:
     assert urls.digest("memory://bucket/a.obj") == sha256(b"v 0 0 0\n").hexdigest()
 
 
-def test_a_file_that_is_not_there(memory: Any, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("memory")
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     assert not urls.download("memory://bucket/b.obj", tmp_path / "b.obj")
     assert list(tmp_path.iterdir()) == []
     assert urls.digest("memory://bucket/b.obj") is None
-    urls.remove("memory://bucket/b.obj")
-    assert not memory.store
-
-
-def test_a_pattern_stands_for_urls(memory: Any) -> None:
-    for name in ("b/1.toml", "a/2.toml", "a/3.obj"):
-        memory.pipe_file(f"/bucket/{name}", b"")
-    found = urls.matches("memory://bucket/**/*.toml")
-    assert found == ["memory://bucket/a/2.toml", "memory://bucket/b/1.toml"]
-
-
-def test_an_upload_replaces_what_is_there(memory: Any, tmp_path: Path) -> None:
-    memory.pipe_file("/bucket/a", b"old and longer")
-    (tmp_path / "a").write_bytes(b"new\nlines\n")
-    urls.upload(tmp_path / "a", "memory://bucket/a")
-    assert list(urls.lines("memory://bucket/a")) == [b"new\n", b"lines\n"]
-    urls.remove("memory://bucket/a")
-    assert not memory.exists("/bucket/a")
 
 
 def test_an_unknown_scheme_is_told(tmp_path: Path) -> None:
@@ -74,3 +57,14 @@ def test_without_fsspec_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> N
         urls.digest("memory://bucket/a")
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[remote]'" in str(caught.value)
+
+
+def test_without_the_package_of_a_scheme_it_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def lacking(url: str) -> None:
+        raise ImportError(f"Install bucketfs to access {url}")
+
+    monkeypatch.setattr("fsspec.core.url_to_fs", lacking)
+    with pytest.raises(SatcheckError) as caught:
+        urls.digest("bucket://a")
+    assert caught.value.code == "missing-extra"
+    assert "Install bucketfs" in str(caught.value)

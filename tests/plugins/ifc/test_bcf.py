@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline, known_findings
-from satcheck.plugins.ifc.bcf import render
+from satcheck.plugins.ifc.bcf.archive import render
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene, load_scene
 from tests.cli.process import PUSHED, SAMPLES, satcheck
@@ -177,11 +177,39 @@ def test_bodies_without_a_guid_are_named(tmp_path: Path) -> None:
     ran = satcheck("--units", "in", *PUSHED, "-o", str(path), cwd=SAMPLES)
     assert ran.code == 1
     content = path.read_bytes()
-    assert len(read_back(content, tmp_path).topics) == 1
+    archive = read_back(content, tmp_path)
+    (handler,) = archive.topics.values()
+    (view,) = handler.viewpoints.values()
+    components = view.visualization_info.components
+    coloured = [each.components.component[0] for each in components.coloring.color]
+    for named in (components.selection.component, coloured):
+        assert [each.authoring_tool_id for each in named] == ["box", "box_pushed"]
     root = ElementTree.fromstring(parts(content, ".bcfv")[0])
-    names = [each.get("AuthoringToolId") for each in root.iter("Component")]
-    assert names == ["box", "box_pushed", "box", "box_pushed"]
     assert float(root.findtext("OrthogonalCamera/ViewToWorldScale") or "") < 0.5  # metres
+
+
+def test_names_may_hold_what_xml_cannot(tmp_path: Path) -> None:
+    for name, sample in zip(("a\x01<", "b\udc80&"), PUSHED, strict=True):
+        suffix = Path(sample).suffix
+        (tmp_path / f"{name}{suffix}").write_bytes((SAMPLES / sample).read_bytes())
+    scene = load_scene(sorted(tmp_path.iterdir()))
+    content = render(check(scene, Settings()), scene)
+    (title,) = (
+        ElementTree.fromstring(each).findtext("Topic/Title")
+        for each in parts(content, "markup.bcf")
+    )
+    assert title == "a\N{REPLACEMENT CHARACTER}< / b\N{REPLACEMENT CHARACTER}&"
+
+
+def test_without_its_library_a_check_ends_before_it_begins(tmp_path: Path) -> None:
+    (tmp_path / "bcf.py").write_text(
+        "raise ModuleNotFoundError(\"No module named 'bcf'\", name='bcf')"
+    )
+    path = tmp_path / "report.bcf"
+    ran = satcheck(*PUSHED, "-o", str(path), cwd=SAMPLES, env={"PYTHONPATH": str(tmp_path)})
+    assert ran.code == 2
+    assert "BCF files need bcf: pip install 'satcheck[ifc]'" in ran.err
+    assert not path.exists()
 
 
 def test_the_ending_of_bcf_2_is_refused(tmp_path: Path) -> None:
