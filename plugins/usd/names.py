@@ -50,6 +50,7 @@ OPS = Names(
 )
 # Without a name space.
 PROPERTIES = {
+    "boundaryInterpolation": "an old name about subdivision; the control cage is checked",
     "proxyPrim": "a prim that is drawn instead, and is a prim of its own",
     "extent": "bounds of what is below",
     "extentsHint": "bounds of what is below",

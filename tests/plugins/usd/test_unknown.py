@@ -217,3 +217,8 @@ def test_an_api_that_is_only_like_one_of_a_renderer(tmp_path: Path) -> None:
 def test_geometry_in_a_type_without_any_blocks_a_pass(tmp_path: Path, kind: str) -> None:
     lost = cube("B").replace("def Mesh", f"def {kind}")
     assert "unread" in said(load(tmp_path, stage(cube("A"), lost)))
+
+
+def test_an_old_name_about_subdivision_is_harmless(tmp_path: Path) -> None:
+    old = 'uniform token boundaryInterpolation = "edgeAndCorner"'
+    assert "unread" not in said(load(tmp_path, stage(cube("A", old))))
