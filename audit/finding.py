@@ -73,9 +73,7 @@ def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
     judgement = judged(answer, pair, overlaps=verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
-    if answer.relation not in OVERLAPS and not _is_complete(pair):
-        # The issue of the file keeps the check from passing, until somebody accepts it.
-        answer = replace(answer, quality="estimate", reason=answer.reason or INCOMPLETE)
+    answer = _capped(answer, pair)
     return Examined(_finding(pair, answer, judgement, trace), verdict, answer)
 
 
@@ -93,6 +91,7 @@ def apart_by_boxes(pair: Pair) -> Examined:
         contacts=Contacts() if pair.request.wants("contacts") else None,
         components=Components() if pair.request.wants("components") else None,
     )
+    answer = _capped(answer, pair)
     return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
 
 
@@ -109,8 +108,13 @@ def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
     )
 
 
-def _is_complete(pair: Pair) -> bool:
-    return all(is_complete(placed.body.file.format) for placed in (pair.a, pair.b))
+def _capped(answer: Answer, pair: Pair) -> Answer:
+    """Return the answer as an estimate if a reader may have left out what would overlap. The issue
+    of the file keeps the check from passing, until somebody accepts it."""
+    known = all(is_complete(placed.body.file.format) for placed in (pair.a, pair.b))
+    if known or answer.relation in OVERLAPS:
+        return answer
+    return replace(answer, quality="estimate", reason=answer.reason or INCOMPLETE)
 
 
 def _why_open(pair: Pair, verdict: Verdict) -> str | None:

@@ -11,12 +11,14 @@ from click.core import ParameterSource
 
 from satcheck.cli.formats.registry import (
     PLAIN,
+    Format,
     Kind,
     format_named,
     format_of,
     formats,
 )
 from satcheck.scene.loading.readers import reader_of
+from satcheck.scene.plugins import failures
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -36,6 +38,8 @@ class _FormatChoice(click.Choice[str]):
         found = format_named(value)
         if found is not None and found.kind in self._kinds:
             return found.name
+        if failed := failures("formats", (Format,)):
+            self.fail(f"{value!r} is no format that is known{failed}", param, ctx)
         return super().convert(value, param, ctx)
 
 
@@ -80,7 +84,7 @@ def form_of(
         return form or "table"
     if ending == _BCF_2 and "bcf" in known:
         raise click.UsageError(f"{output}: BCF 2.1 is not written: name the file .bcf for BCF 3.0")
-    is_other = ending in _NO_REPORTS or (named is None and reader_of(ending) is not None)
+    is_other = named is None and (ending in _NO_REPORTS or reader_of(ending) is not None)
     chosen = "table" if named is None else named.name
     if is_other or chosen not in known:
         raise click.UsageError(

@@ -30,7 +30,7 @@ MOST_FILES = 8
 MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
 # Options about the document, not about the answer, and about many assets.
-_DELIVERY = ("form", "output", "quiet", "top", "changed_since", "color", "exit_zero")
+_DELIVERY = ("form", "output", "quiet", "top", "changed_since", "exclude", "color", "exit_zero")
 # What other programs call our options: a name without dashes, and what it is here.
 _ALIASES: Mapping[str, tuple[str, ...]] = {
     "html": ("-o", "report.html"),

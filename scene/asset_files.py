@@ -12,7 +12,7 @@ from typing import NamedTuple
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
-from satcheck.scene.loading.readers import mesh_reader, robots
+from satcheck.scene.loading.readers import mesh_reader, robots_of
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.path_kind import exists, is_folder
 
@@ -57,7 +57,7 @@ def asset_files(given: Iterable[str], exclude: Sequence[str] = ()) -> Assets:
             assets = sorted([*unlisted, *(path for path in below if _is_asset(Path(path)))])
             unread = sorted(filter(is_foreign, below))
             if not assets:
-                raise _no_asset(name, unread)
+                raise _no_asset(name, unread, left_out.count)
             if unread:
                 foreign[name] = unread
         elif _is_pattern(name):
@@ -82,7 +82,8 @@ class _LeftOut:
     def others(self, paths: Iterable[str], folder: str) -> Iterator[str]:
         """folder: where paths start; "": they are as they are."""
         for path in paths:
-            if self._patterns and self._has(Path(path).relative_to(folder)):
+            inner = Path(path).relative_to(folder) if folder else Path(path)
+            if self._patterns and self._has(inner):
                 self.count += 1
             else:
                 yield path
@@ -108,9 +109,10 @@ def _matches(pattern: str) -> Iterator[str]:
     return (path.as_posix() for path in matches if path.is_file())
 
 
-def _no_asset(folder: str, foreign: Sequence[str]) -> SatcheckError:
+def _no_asset(folder: str, foreign: Sequence[str], excluded: int) -> SatcheckError:
     """To be raised."""
     others = f", but {len(foreign):,} that no reader knows, as {foreign[0]}" if foreign else ""
+    others += f", beside {excluded:,} that --exclude leaves out" if excluded else ""
     return SatcheckError("no-assets", f"{folder}: it has no mesh, scene or robot{others}")
 
 
@@ -157,10 +159,9 @@ def _is_asset(path: Path) -> bool:
     ending = path.suffix.lower()
     if ending in SCENE_SUFFIXES:
         return _holds(path, _SCENE_MARKS)
-    for reader in robots().values():
-        if ending in reader.endings:
-            marks = reader.marks
-            return marks is None or is_robot(path) or (bool(marks) and _holds(path, marks))
+    for reader in robots_of(ending):
+        marks = reader.marks
+        return marks is None or is_robot(path) or (bool(marks) and _holds(path, marks))
     return mesh_reader(ending) is not None
 
 

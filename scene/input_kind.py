@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots
+from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots, robots_of
 from satcheck.scene.loading.regular_file import size_of
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
@@ -28,11 +28,11 @@ def kind_of(path: str) -> InputKind:
         return "scene"
     if suffix == _SRDF:
         return "srdf"
-    if suffix in robot_endings():
-        return "robot"
     reader = mesh_reader(suffix)
     if reader is not None:
         return "document" if reader.kind == "document" else "mesh"
+    if robots_of(suffix) and suffix not in readers():
+        return "robot"
     root, *below = _first_elements(Path(path))
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"

@@ -164,6 +164,15 @@ class MeshFiles:
             message += "; --geometry, --purpose and `reading` of a scene choose its parts"
         return MeshFileError("unknown-part", message, file=path)
 
+    def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
+        """Return the issues that concern no single part of a file whose parts are read."""
+        place = self._absolute(location)
+        for components in (False, True):
+            nodes = self._nodes.get((place, components))
+            if isinstance(nodes, Nodes):
+                return nodes.issues
+        return ()
+
     def _hull(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         key = self._absolute(location), part
         if key not in self._hulls:

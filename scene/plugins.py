@@ -33,14 +33,15 @@ def own(group: Group) -> Iterator[Any]:
         yield from getattr(import_module(f"{_PACKAGE}.{name}.{group}"), group.upper())
 
 
-def others(group: Group) -> tuple[Any, ...]:
-    """What other packages register. One that fails is left out, and `failures` names it."""
-    return tuple(found for found in _others(group) if not isinstance(found, Failure))
+def others(group: Group, kinds: tuple[type[Any], ...]) -> tuple[Any, ...]:
+    """Return what other packages register, objects of these kinds. One that fails is left out, and
+    `failures` names it."""
+    return tuple(found for found in _others(group, kinds) if not isinstance(found, Failure))
 
 
-def failures(group: Group) -> str:
+def failures(group: Group, kinds: tuple[type[Any], ...]) -> str:
     """Return a text to be put after an error about an unknown name: which plug-ins have failed."""
-    failed = [found for found in _others(group) if isinstance(found, Failure)]
+    failed = [found for found in _others(group, kinds) if isinstance(found, Failure)]
     return "".join(f"; the plug-in {each.name} cannot be loaded: {each.reason}" for each in failed)
 
 
@@ -62,14 +63,17 @@ def _having(group: Group) -> tuple[str, ...]:
 
 
 @cache
-def _others(group: Group) -> tuple[Any, ...]:
+def _others(group: Group, kinds: tuple[type[Any], ...]) -> tuple[Any, ...]:
     from importlib.metadata import entry_points  # takes as long as a small check
 
-    return tuple(_loaded(point) for point in entry_points(group=f"satcheck.{group}"))
+    return tuple(_loaded(point, kinds) for point in entry_points(group=f"satcheck.{group}"))
 
 
-def _loaded(point: Any) -> Any:
+def _loaded(point: Any, kinds: tuple[type[Any], ...]) -> Any:
     try:
-        return point.load()
+        found = point.load()
+        if not isinstance(found, kinds):
+            raise TypeError(f"{type(found).__name__} is not what registers there")
+        return found
     except Exception as error:  # noqa: BLE001  a package of others: anything may happen
         return Failure(point.value, f"{type(error).__name__}: {error}")

@@ -25,7 +25,8 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.issue import BLOCKING, Issue, issue
+from satcheck.scene.loading.nodes import Node
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
@@ -67,6 +68,7 @@ class SceneBuilder:
         self._scenes: JoinedScenes | None = None
         self._rule_files: set[str] = set()
         self._taken_apart = False
+        self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
@@ -167,7 +169,7 @@ class SceneBuilder:
                 file = self._files.whole(path, entry.mesh.location)
                 transform = scaled_mesh(transform, self._scale(file, entry.units))
             else:
-                node = self._files.part(path, entry.mesh.location, entry.part)
+                node = self._part(path, entry.mesh.location, entry.part)
                 if isinstance(node, MeshFileError):
                     file, transform = node, None
                 else:
@@ -239,8 +241,18 @@ class SceneBuilder:
         """piece: a part of the file; None: the whole."""
         if piece is None:
             return self._files.whole(path, location)
-        node = self._files.part(path, location, piece)
+        node = self._part(path, location, piece)
         return node if isinstance(node, MeshFileError) else node.file
+
+    def _part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
+        """A part of a file. What blocks a pass about the file is said once, whoever names a part
+        of it."""
+        node = self._files.part(path, location, part)
+        if location not in self._parted:
+            self._parted.add(location)
+            issues = self._files.issues_of_parts(location)
+            self._issues += [each for each in issues if each.code in BLOCKING]
+        return node
 
     def _groups_of(self, robot: str, parts: Sequence[Part]) -> dict[str, str]:
         """Groups of a robot -> their names in the check."""

@@ -38,8 +38,8 @@ STEP_LINE = re.compile(r"^satcheck step (\S+) ([0-9a-f]*)$", re.MULTILINE)
 # A scene names meshes, these name buffers: more rounds of fetching are a circle.
 _MOST_ROUNDS = 8
 
-# An issue that ends when a package is installed, which no file shows.
-_NOT_INSTALLED = "missing-extra"
+# Issues that end when a package is installed, which no file shows.
+_NOT_INSTALLED = frozenset(("missing-extra", "unsupported-format"))
 # What this process keeps for the next world. A triangle takes about 200 bytes.
 _KEPT_TRIANGLES = 1_000_000
 # New objects before Python looks for cycles among them, of which reports have none.
@@ -155,6 +155,7 @@ def _remote_answer(world: World, options: CheckOptions, terms: str, copies: Copi
 def _checked_copies(world: World, options: CheckOptions, copies: Copies) -> tuple[Asset, FilesRead]:
     """Repeats the check as long as it looks for files that can be fetched. Raises SatcheckError."""
     paths = tuple(map(copies.path, world))
+    options = replace(options, folders=())  # those of this machine are not around a remote scene
     copies.fetch(paths)
     for _ in range(_MOST_ROUNDS):
         checked, files = _checked(paths, options)
@@ -181,7 +182,7 @@ def _key(
     files: FilesRead,
 ) -> str | None:
     """None: the next run checks the world again."""
-    lacking = any(issue.code == _NOT_INSTALLED for issue in checked.report.issues)
+    lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
     if lacking or not files.are_certain():
         return None
     return key_of(world, terms, inputs, options.folders, _digests.real_path)

@@ -69,11 +69,11 @@ def command_named(name: str) -> click.Command | None:
 
 def all_commands() -> dict[str, str]:
     """Return what each command does, by name."""
-    plugins = (*_plugins().values(), *others("commands"))
+    plugins = (*_plugins().values(), *others("commands", (Plugin,)))
     return {**{plugin.name: plugin.about for plugin in plugins}, **COMMANDS}
 
 
 def _of_others(word: str) -> Plugin | None:
     if not _WORD.fullmatch(word):
         return None
-    return next((plugin for plugin in others("commands") if plugin.name == word), None)
+    return next((plugin for plugin in others("commands", (Plugin,)) if plugin.name == word), None)

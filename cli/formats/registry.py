@@ -89,7 +89,7 @@ def formats(kinds: Iterable[Kind] = ALL) -> dict[str, Format]:
 def format_named(name: str) -> Format | None:
     """Return the format of this name; None: there is none."""
     if name not in _registry():
-        _add(_registry(), others("formats"))
+        _add(_registry(), others("formats", (Format,)))
     return _registry().get(name)
 
 
@@ -112,7 +112,7 @@ def format_of(ending: str) -> Format | None:
     """Return the format of files whose names end so; None: there is none."""
     found = _with_ending(ending)
     if found is None and ending:
-        _add(_registry(), others("formats"))
+        _add(_registry(), others("formats", (Format,)))
         found = _with_ending(ending)
     return found
 

@@ -106,7 +106,8 @@ def read_with(reader: Reader, file: File) -> RawScene:
             "places the bodies, and no pair is proven apart"
         )
         scene = replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
-    if not file.flat or (len(scene.nodes) == 1 and scene.nodes[0].path is None):
+    is_one = len(scene.nodes) == 1 and scene.nodes[0].path is None and not scene.warnings
+    if not file.flat or is_one:
         return scene
     from satcheck.scene.loading.flatten import flattened
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Block, RawScene
@@ -70,10 +71,10 @@ class Reader(Struct, frozen=True):
     reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
     may begin, of those in `loading/source.py`. text: "plain": the reader is shown UTF-8 without a
     byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
-    read in this process, larger ones in a child process. by_name: it opens the file itself. chord:
-    the chord tolerance, if facets are made for it, in millimetres. up: the axis that points up, if
-    the format says so. complete: False: the reader may leave something out without a word, so that
-    no pair is proven apart.
+    read in this process, all others, and all of other packages, in a child process. by_name: it
+    opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.
+    up: the axis that points up, if the format says so. complete: False: the reader may leave
+    something out without a word, so that no pair is proven apart.
     """
 
     name: str
@@ -167,6 +168,9 @@ _BUILT_IN: tuple[Reader | RobotReader, ...] = (
 )
 
 
+KINDS = (Reader, RobotReader)
+
+
 class _Registry(Struct):
     """robots: by the tags of outermost elements."""
 
@@ -202,6 +206,15 @@ def readers() -> Mapping[str, Reader]:
 def robots() -> Mapping[str, RobotReader]:
     """Return the readers of robots, by the tags of outermost elements."""
     return _registry().robots
+
+
+def robots_of(ending: str) -> tuple[RobotReader, ...]:
+    """Return the readers of robots whose names end so."""
+    registry, ending = _registry(), ending.lower()
+    if not any(ending in robot.endings for robot in registry.robots.values()):
+        _found(registry.by_ending, ending)
+    known = dict.fromkeys(registry.robots.values())
+    return tuple(robot for robot in known if ending in robot.endings)
 
 
 def reader_of(ending: str) -> Reader | None:
@@ -255,5 +268,10 @@ def _known(formats: Iterable[str]) -> list[Reader]:
 def _found(among: Mapping[str, T], key: str) -> T | None:
     """Other packages are asked only for what this one does not have."""
     if key and key not in among:
-        _registry().add(others("readers"))
+        _registry().add(map(_isolated, others("readers", KINDS)))
     return among.get(key)
+
+
+def _isolated(reader: Reader | RobotReader) -> Reader | RobotReader:
+    """Return the reader of another package, which runs in a child process: it may fail."""
+    return replace(reader, here=0) if isinstance(reader, Reader) else reader

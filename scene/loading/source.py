@@ -11,7 +11,7 @@ from msgspec import Struct
 from satcheck._native.readers import read_file
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.readers import Reader, mesh_reader, reader_of, readers
+from satcheck.scene.loading.readers import KINDS, Reader, mesh_reader, reader_of, readers
 from satcheck.scene.loading.regular_file import size_of, without_padding
 from satcheck.scene.plugins import failures
 
@@ -101,7 +101,8 @@ def read_source(
     if reader is None:
         known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
         hint = _CONVERTIBLE.get(location.suffix.lower(), known)
-        message = f"unsupported format {location.suffix!r}: {hint}{failures('readers')}"
+        failed = failures("readers", KINDS)
+        message = f"unsupported format {location.suffix!r}: {hint}{failed}"
         raise MeshFileError("unsupported-format", message, file=path)
     _refuse_large(path, size, max_bytes)
     try:

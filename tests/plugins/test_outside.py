@@ -90,3 +90,48 @@ def test_a_package_that_fails_is_named_and_harms_nobody(tmp_path: Path) -> None:
     relations = {finding["relation"] for finding in ran.document["findings"]}
     assert relations == {"coincident", "indeterminate"}
     assert "tetra:NOTHING cannot be loaded" in ran.err
+
+
+def test_a_reader_that_is_not_complete_says_so_of_a_whole_file(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace('text="plain"', 'text="plain", complete=False'))
+    ran = satcheck("a.tetra", "far.tetra", "--format", "json", cwd=tmp_path, env=env)
+    assert ran.code == 3
+    assert [issue["code"] for issue in ran.document["issues"]] == ["incomplete", "incomplete"]
+
+
+def test_a_reader_that_fails_loses_its_file_alone(tmp_path: Path, env: dict[str, str]) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace("    try:", "    {}[1]\n    try:", 1))
+    ran = satcheck("a.tetra", "b.tetra", "--format", "json", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    assert "the TETRA reader failed: KeyError" in ran.err
+
+
+def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:
+    env = install(tmp_path / "odd", "[satcheck.readers]\nodd = tetra:_FACES\n")
+    (tmp_path / "a.tetra").write_text(UNIT)
+    ran = satcheck("a.tetra", "a.tetra", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    assert "tuple is not what registers there" in ran.err
+
+
+ROBOT = """
+from satcheck.scene.loading.readers import RobotReader
+ROBOT = RobotReader("rbx", "RBX", (".rbx",), ("rbx",), "satcheck.scene.robot.urdf:robot_of")
+"""
+
+
+def test_its_robots_are_assets_of_a_folder(tmp_path: Path) -> None:
+    env = install(tmp_path / "robots", "[satcheck.readers]\nrbx = robots:ROBOT\n")
+    (tmp_path / "robots" / "robots.py").write_text(ROBOT)
+    box = '<link name="{}"><collision><geometry><box size="1 1 1"/></geometry></collision></link>'
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="c"/></joint>'
+    joint += '<joint name="k" type="fixed"><parent link="c"/><child link="b"/></joint>'
+    links = box.format("a") + '<link name="c"/>' + box.format("b")
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.rbx").write_text(f'<rbx name="r">{links}{joint}</rbx>')
+    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    assert [asset["verdict"] for asset in ran.document["assets"]] == ["fail", "fail"]

@@ -80,3 +80,10 @@ def test_xml_is_an_asset_if_it_is_a_model_of_mujoco(tmp_path: Path) -> None:
     (tmp_path / "notes.xml").write_text("mujoco")
     (tmp_path / "arm.xml").write_text('<?xml version="1.0"?>\n<!-- a --><mujoco model="arm"/>')
     assert asset_files([str(tmp_path)]).files == [(tmp_path / "arm.xml").as_posix()]
+
+
+def test_a_pattern_with_a_root_can_be_excluded_from(tmp_path: Path) -> None:
+    for name in ("a.obj", "b.obj"):
+        (tmp_path / name).touch()
+    found = asset_files([str(tmp_path / "*.obj")], ["b.*"])
+    assert (found.files, found.excluded) == ([(tmp_path / "a.obj").as_posix()], 1)

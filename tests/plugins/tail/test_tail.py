@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import logging
 import zipfile
 from pathlib import Path
@@ -151,3 +152,20 @@ def test_the_packages_to_install_are_named(monkeypatch: pytest.MonkeyPatch) -> N
         read_tail(File("3dxml", "", "a.3dxml", threedxml(), 0))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[tail]'" in caught.value.message
+
+
+def test_a_scene_that_names_a_part_says_so_too(tmp_path: Path) -> None:
+    (tmp_path / "a.3dxml").write_bytes(threedxml())
+    ids = [body.id for body in load_scene([tmp_path / "a.3dxml"]).bodies]
+    bodies = [{"id": id_, "mesh": "a.3dxml", "part": id_} for id_ in ids]
+    (tmp_path / "s.json").write_text(json.dumps({"schema": "satcheck.scene/1", "bodies": bodies}))
+    ran = satcheck("s.json", "--format", "json", cwd=tmp_path)
+    assert ran.code == 3
+    assert [issue["code"] for issue in ran.document["issues"]].count("incomplete") == 1
+
+
+def test_what_boxes_find_apart_is_an_estimate(tmp_path: Path) -> None:
+    (tmp_path / "a.3dxml").write_bytes(threedxml())
+    words = ("a.3dxml", "--certificate", "--format", "json", "--accept", "incomplete")
+    (finding,) = satcheck(*words, cwd=tmp_path).document["findings"]
+    assert (finding["relation"], finding["quality"]) == ("separated", "estimate")
