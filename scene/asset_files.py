@@ -16,8 +16,9 @@ from satcheck.scene.loading.readers import mesh_reader, robots_of
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.path_kind import exists, is_folder
 
-# Most JSON and TOML is something else, unless it holds one of these texts.
-_SCENE_MARKS = (b"satcheck.scene/1", b"satcheck-scene-1")
+# Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
+# schemas of any version.
+_SCENE_MARKS = (b"satcheck.scen", b"satcheck-scen")
 _PATTERN = frozenset("*?[")
 _DEEP = "**"
 
@@ -76,6 +77,8 @@ class _LeftOut:
     """Leaves out the files that match a pattern, or lie in a folder that does, and counts them."""
 
     def __init__(self, patterns: Sequence[str]) -> None:
+        if not all(patterns):
+            raise SatcheckError("bad-pattern", "--exclude: an empty pattern")
         self._patterns = patterns
         self.count = 0
 

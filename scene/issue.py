@@ -111,7 +111,7 @@ _ALL = (
     Code("constraint-not-solved", "warning", "What connects bodies beside joints is not solved."),
     Code("keyframe-not-read", "warning", "Keyframes of the file are no states."),
     Code("joint-not-moved", "warning", "A joint of this kind, or of a loop, is not moved."),
-    Code("stored-state", "warning", "A stored state of a simulation is not applied."),
+    Code("stored-state", "warning", "A stored state is not applied.", blocks=True),
     Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),
     Code("beyond-limits", "warning", "A joint stands beyond its limits."),
     Code("not-at-zero", "note", "0 is beyond the limits of a joint without a value in the pose."),

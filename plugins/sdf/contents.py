@@ -178,9 +178,13 @@ class Contents:
         within = around._replace(version=_version(root), files=(*around.files, root.file))
         for model in root.all("model")[:1]:
             self._model(model, within, given)
+        others = [*root.all("model")[1:], *root.all("world")]
+        for other in others[:1]:
+            what = f"its <{other.tag}> of line {other.line} is not read: only a first model is"
+            self._lose(element, around, name or name_in(uri), "unsupported-feature", uri, what)
         for actor in root.all("actor"):
             self._actor(actor, within)
-        if not any(root.all(tag) for tag in ("model", "actor", "light")):
+        if not any(root.all(tag) for tag in ("model", "actor", "light", "world")):
             what = "it has no <model>"
             self._lose(element, around, name or name_in(uri), "not-this-format", uri, what)
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.collada_vocabulary import unread
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.polygons import triangles_of
@@ -113,14 +114,13 @@ class _Document:
         )
 
     def _beside(self) -> tuple[tuple[str, str], ...]:
-        """What stands beside the visual scene and is not read."""
-        warnings = []
-        scene = self._root.find("scene")
-        if scene is not None and (physics := scene.find("instance_physics_scene")) is not None:
-            message = (
-                f"line {physics.line}: <instance_physics_scene> is not read; it may hold bodies"
-            )
-            warnings.append(("unread", message))
+        """What is not read."""
+        elements = _without_extras(self._root)
+        warnings = [
+            ("unread", message)
+            for element in elements
+            for message in unread(element, element is self._root)
+        ]
         if self._root.find("library_animations") is not None:
             warnings.append(("time-sampled", "the file is animated; checked as stored"))
         return tuple(warnings)
@@ -275,7 +275,11 @@ def _points(mesh: Element) -> Floats:
         if source.attributes.get("id") == wanted:
             accessor = next((e for e in source.below() if e.tag == "accessor"), None)
             if accessor is not None and _makes_points(accessor):
-                return source.need("float_array").counted_floats().reshape(-1, 3)
+                numbers = source.need("float_array")
+                named = accessor.attributes.get("source", "").lstrip("#")
+                if named not in ("", numbers.attributes.get("id", named)):
+                    accessor.refuse(f"{named!r} is not the <float_array> beside it")
+                return numbers.counted_floats().reshape(-1, 3)
     message = "positions should be X, Y, Z after X, Y, Z from the first number on"
     return positions[0].refuse(message, "unsupported-feature")
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.vocabulary import Names
 
@@ -220,8 +221,11 @@ class _Look:
 
     def _extensions(self, owner: Any, kind: str, place: str) -> None:
         if isinstance(owner, dict) and "extensions" in owner:
-            names = EXTENSIONS_OF.get(kind, _NO_EXTENSIONS)
-            self._look(owner["extensions"], names, f"extension of {kind}", place)
+            names, given = EXTENSIONS_OF.get(kind, _NO_EXTENSIONS), owner["extensions"]
+            values = [given, *given.values()] if isinstance(given, dict) else [given]
+            if not all(isinstance(value, dict) for value in values):
+                raise MeshFileError("bad-record", f"{place}: extensions should be objects")
+            self._look(given, names, f"extension of {kind}", place)
 
     def _names(self, owner: Any, kind: str, place: str) -> None:
         self._look(owner, PLACES[kind], kind, place)

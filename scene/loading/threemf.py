@@ -311,6 +311,8 @@ class _ModelReader:
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
         self._look(short(name), attributes)
+        if local == "mesh" and namespace in CORE and self._object and self._object.vertices:
+            self._object.refusal = MeshFileError("bad-record", "an object with two <mesh>")
         handler = self._handlers.get(local) if namespace in CORE else None
         if handler is None:
             self._on_other(namespace, local)

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 18> no_area = {"p",    "l",    "cdc",  "c
                                                       "trim", "hole", "scrv", "sp",     "end", "con",  "ctech", "stech"};
 constexpr std::array<std::string_view, 4> surfaces = {"surf", "bsp", "bzp", "cdp"};
 constexpr std::array<std::string_view, 2> other_files = {"call", "csh"};
-constexpr std::array<std::string_view, 3> shapes = {"v", "f", "fo"};
+constexpr std::array<std::string_view, 4> shapes = {"v", "f", "fo", "o"};
 
 // More bodies than this are refused later; the last one has the other faces. So names take little memory.
 constexpr std::size_t most_objects = 1'000'001;
@@ -70,6 +70,7 @@ class ObjReader {
     } else if (contains(no_geometry, keyword)) {
       if (joined) check_swallowed(words, line);
     } else if (contains(no_area, keyword)) {
+      if (joined && keyword != "parm") check_swallowed(words, line);  // `parm v` is about a direction
       if (without_area_++ == 0) first_without_area_ = quoted(keyword) + " in line " + std::to_string(line);
     } else if (contains(surfaces, keyword)) {
       fail_at_line(code::unsupported_feature, "a free-form surface is not read", line);

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene import asset_files as module
 from satcheck.scene.asset_files import asset_files
 from tests.cli.process import on_posix
@@ -87,3 +88,15 @@ def test_a_pattern_with_a_root_can_be_excluded_from(tmp_path: Path) -> None:
         (tmp_path / name).touch()
     found = asset_files([str(tmp_path / "*.obj")], ["b.*"])
     assert (found.files, found.excluded) == ([(tmp_path / "a.obj").as_posix()], 1)
+
+
+def test_an_empty_pattern_excludes_nothing_and_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SatcheckError) as caught:
+        asset_files([str(tmp_path)], [""])
+    assert caught.value.code == "bad-pattern"
+
+
+@pytest.mark.parametrize("schema", ["satcheck.scene/2", "satcheck.scen/1", "satcheck-scene-2"])
+def test_a_scene_of_another_version_is_an_asset(tmp_path: Path, schema: str) -> None:
+    (tmp_path / "a.json").write_text(f'{{"schema": "{schema}"}}')
+    assert asset_files([str(tmp_path)]).files == [(tmp_path / "a.json").as_posix()]

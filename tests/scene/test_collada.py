@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from satcheck.scene import load_scene
 from tests.scene import files
 from tests.scene.loading import loaded, refusal, warnings
 
@@ -156,3 +157,25 @@ def test_an_animation_is_a_note(tmp_path):
     content = files.collada().replace(b"<scene>", b"<library_animations/><scene>")
     (issue,) = loaded(tmp_path, "a.dae", content).issues
     assert (issue.code, issue.severity) == ("time-sampled", "note")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        (b'meter="1"/>', b'meters="1"/>', "misspelt"),
+        (b"<scene>", b"<scene><instance_phsyics_scene/>", "unread"),
+        (b"<scene>", b"<scene><instance_kinematics_scene/>", "unread"),
+        (b"</COLLADA>", b"<scene/></COLLADA>", "unread"),
+        (b"<mesh>", b'<asset><unit meter="0.1"/></asset><mesh>', "unread"),
+        (b"</geometry>", b"<mesh/></geometry>", "unread"),
+        (b"</geometry>", b"<brep/></geometry>", "unread"),
+        (b'<node id="n">', b'<node id="n" matrix="2">', "unread"),
+        (b"</polylist>", b"<pp>0</pp></polylist>", "unread"),
+        (b'<accessor source="#a"', b'<accessor source="#b"', "bad-record"),
+    ],
+)
+def test_what_nobody_reads_blocks_a_pass_or_is_refused(tmp_path, old, new, code):
+    content = files.collada()
+    assert old in content
+    (tmp_path / "a.dae").write_bytes(content.replace(old, new, 1))
+    assert code in [issue.code for issue in load_scene([tmp_path / "a.dae"]).issues]

@@ -228,3 +228,11 @@ def test_an_unknown_extension_of_the_asset_blocks_a_pass(tmp_path: Path) -> None
     assert codes(read(tmp_path, made)) == []
     made["asset"]["extensions"] = {"FOO_units": {}}
     assert codes(read(tmp_path, made)) == ["unread"]
+
+
+@pytest.mark.parametrize("given", [[{"EXT_x": {}}], "EXT_x", {"EXT_mesh_gpu_instancing": []}])
+def test_extensions_that_are_no_objects_are_refused(tmp_path: Path, given: Any) -> None:
+    made = document()
+    made["nodes"][0]["extensions"] = given
+    (code,) = {body.issue.code for body in read(tmp_path, made).unreadable}
+    assert code == "bad-record"

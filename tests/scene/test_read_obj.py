@@ -76,3 +76,10 @@ def test_two_vertices_in_a_line_are_an_error(tmp_path):
     code, message = refusal(tmp_path, "a.obj", CUBE.replace(b"v 0 0 0\n", b"v 0 0 0 v 1 2 3\n"))
     assert code == "bad-record"
     assert "'v'" in message
+
+
+@pytest.mark.parametrize("statement", ["usemtl C:\\tex\\", "s off \\", "l 1 2 \\"])
+def test_a_backslash_takes_in_no_object(tmp_path, statement):
+    content = files.obj() + f"{statement}\no B\n".encode()
+    code, message = refusal(tmp_path, "a.obj", content)
+    assert (code, "takes in 'o'" in message) == ("bad-record", True)

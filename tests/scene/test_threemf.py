@@ -185,3 +185,9 @@ def test_a_part_of_a_slicer_is_material(tmp_path, content):
 def test_an_object_with_a_negative_volume_cannot_be_checked(tmp_path, content):
     code, _ = refusal(tmp_path, "a.3mf", content)
     assert code == "unsupported-feature"
+
+
+def test_an_object_with_two_meshes_is_refused(tmp_path):
+    mesh = CUBE[CUBE.index("<mesh>") : CUBE.index("</mesh>") + len("</mesh>")]
+    code, message = refusal(tmp_path, "a.3mf", package(CUBE.replace("</mesh>", f"</mesh>{mesh}")))
+    assert (code, "two <mesh>" in message) == ("bad-record", True)

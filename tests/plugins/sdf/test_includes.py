@@ -207,3 +207,12 @@ def test_a_model_of_a_server_lies_where_the_user_says(tmp_path: Path) -> None:
 def test_a_uri_that_leads_nowhere(tmp_path: Path, uri: str) -> None:
     (lost,) = unreadable(tmp_path, world(include(uri)))
     assert lost[1] in ("missing-resource", "unsupported-feature")
+
+
+@pytest.mark.parametrize("other", [model("b", "", link("l")), "<world name='w'/>"])
+def test_what_an_included_file_holds_beside_its_model_is_a_body_that_is_not_read(
+    tmp_path: Path, other: str
+) -> None:
+    write_model(tmp_path / "models", "crate", CRATE.replace("</sdf>", f"{other}</sdf>"))
+    ((_, code, message),) = unreadable(tmp_path, world(include("model://crate")))
+    assert (code, "only a first model is" in message) == ("unsupported-feature", True)
