@@ -162,9 +162,9 @@ def _is_asset(path: Path) -> bool:
     ending = path.suffix.lower()
     if ending in SCENE_SUFFIXES:
         return _holds(path, _SCENE_MARKS)
-    for reader in robots_of(ending):
-        marks = reader.marks
-        return marks is None or is_robot(path) or (bool(marks) and _holds(path, marks))
+    if robots := robots_of(ending):
+        marks = [each.marks for each in robots]
+        return None in marks or is_robot(path) or any(_holds(path, each) for each in marks if each)
     return mesh_reader(ending) is not None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NoReturn
 
@@ -43,7 +44,7 @@ def _json(text: str) -> Any:
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         values = dict(pairs)
         if len(values) < len(pairs):
-            twice = next(key for k, (key, _) in enumerate(pairs) if (key in dict(pairs[:k])))
+            twice = next(key for key, count in Counter(k for k, _ in pairs).items() if count > 1)
             raise MeshFileError("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
         return values
 

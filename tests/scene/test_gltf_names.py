@@ -222,6 +222,13 @@ def test_a_key_given_twice_is_refused() -> None:
     assert error.value.code == "bad-record"
 
 
+def test_many_keys_before_one_given_twice_take_no_time_of_their_own() -> None:
+    """They are counted in one pass: looking back from each key would take hours."""
+    keys = ", ".join(f'"{number}": 0' for number in [*range(300_000), 299_999])
+    with pytest.raises(MeshFileError, match="'299999' occurs twice"):
+        parse_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()))
+
+
 def test_an_unknown_extension_of_the_asset_blocks_a_pass(tmp_path: Path) -> None:
     made = document()
     made["asset"]["extensions"] = {"KHR_xmp_json_ld": {}}
