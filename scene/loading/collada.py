@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.collada_vocabulary import unread
+from satcheck.scene.loading.collada_vocabulary import look_at
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.polygons import triangles_of
@@ -29,6 +29,7 @@ from satcheck.scene.loading.raw_mesh import (
     strip_triangles,
 )
 from satcheck.scene.loading.readers import File
+from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
 Floats = NDArray[np.float64]
@@ -115,12 +116,10 @@ class _Document:
 
     def _beside(self) -> tuple[tuple[str, str], ...]:
         """What is not read."""
-        elements = _without_extras(self._root)
-        warnings = [
-            ("unread", message)
-            for element in elements
-            for message in unread(element, element is self._root)
-        ]
+        unknown = UnknownNames()
+        for element in _without_extras(self._root):
+            look_at(element, unknown, is_root=element is self._root)
+        warnings = list(unknown.warnings())
         if self._root.find("library_animations") is not None:
             warnings.append(("time-sampled", "the file is animated; checked as stored"))
         return tuple(warnings)

@@ -6,6 +6,7 @@ known: programs keep data of their own there.
 
 from __future__ import annotations
 
+from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.vocabulary import Names
 
@@ -45,6 +46,8 @@ CHILDREN = {
     "instance_node": _names(""),
     "vertices": _names("input"),
 }
+# Tag -> children of which only the first is read.
+_ONCE = {"COLLADA": ("asset", "scene"), "geometry": ("mesh",)}
 _ID = "id sid name"
 # Tag -> its attributes.
 ATTRIBUTES = {
@@ -62,18 +65,16 @@ ATTRIBUTES = {
 }
 
 
-def unread(element: Element, is_root: bool) -> list[str]:
-    """Return what nobody reads of an element, in words. Raises SatcheckError for a name that is
-    misspelt."""
-    found: list[str] = []
+def look_at(element: Element, unknown: UnknownNames, *, is_root: bool) -> None:
+    """Gather what nobody reads of an element. Raises MeshFileError for a name that is misspelt."""
     place = f"line {element.line}: <{element.tag}>"
     tags = [child.tag for child in element.children]
-    for table, names in ((CHILDREN, tags), (ATTRIBUTES, list(element.attributes))):
+    for table, names in ((CHILDREN, tags), (ATTRIBUTES, element.attributes)):
         if element.tag in table:
-            found += [each.message for each in table[element.tag].unread(names, place)]
-    twice = {"COLLADA": ("asset", "scene"), "geometry": ("mesh",), "scene": ()}.get(element.tag, ())
-    found += [f"{place}: a second <{tag}> is not read" for tag in twice if tags.count(tag) > 1]
+            unknown.look(table[element.tag], names, element.tag, place)
+    for tag in _ONCE.get(element.tag, ()):
+        if tags.count(tag) > 1:
+            unknown.note((element.tag, f"two {tag}"), f"{place}: a second <{tag}> is not read")
     asset = None if is_root else element.find("asset")
     if asset is not None and any(child.tag in ("unit", "up_axis") for child in asset.children):
-        found.append(f"{place}: units and axes of its own are not read")
-    return found
+        unknown.note(("asset", ""), f"{place}: units and axes of its own are not read")

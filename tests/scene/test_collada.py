@@ -179,3 +179,10 @@ def test_what_nobody_reads_blocks_a_pass_or_is_refused(tmp_path, old, new, code)
     assert old in content
     (tmp_path / "a.dae").write_bytes(content.replace(old, new, 1))
     assert code in [issue.code for issue in load_scene([tmp_path / "a.dae"]).issues]
+
+
+def test_a_name_that_many_elements_have_is_one_issue(tmp_path):
+    node = '<node id="n{}" matrix="2"><instance_geometry url="#g"/></node>'
+    nodes = "".join(map(node.format, range(100)))
+    found = warnings(loaded(tmp_path, "a.dae", files.collada(nodes=nodes)))
+    assert "(100 times)" in found["unread"]
