@@ -69,6 +69,7 @@ from satcheck.cli.scene_options import (
 )
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene
+from satcheck.scene.loading.readers import readers, robots
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Pose
@@ -129,13 +130,35 @@ class _DefaultCommand(Command):
             formatter.write_text("fish: _SATCHECK_COMPLETE=fish_source satcheck | source")
 
 
+def _help() -> str:
+    """Return the text above the options. The registry says which formats there are."""
+    titles: dict[str, dict[str, None]] = {"mesh": {}, "document": {}, "robot": {}}
+    for reader in readers().values():
+        titles[reader.kind][reader.title] = None
+    meshes, documents = ", ".join(titles["mesh"]), ", ".join(["TOML", "JSON", *titles["document"]])
+    known = ", ".join(dict.fromkeys(robot.title for robot in robots().values()))
+    return f"""Do these meshes collide? How deep, and which way out?
+
+    A, B ... are meshes ({meshes}), scenes ({documents}) or robots ({known}, SRDF). A body is a
+    file; of one file alone that has nodes, a node. Every pair of bodies is checked, in the
+    coordinates of the files. A body inside another collides with it. A LENGTH is in units of the
+    files, or has its own where these are known: 2mm.
+
+    \b
+      satcheck a.stl b.stl                   do they collide?
+      satcheck a.stl b.stl -o report.html    look at the overlap
+      satcheck assembly.glb                  the parts of one file
+      satcheck each models                   every file of a folder, by itself
+    """
+
+
 def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not ctx.resilient_parsing:
         Document().write(f"satcheck {__version__}\n")
         ctx.exit()
 
 
-@click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True)
+@click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True, help=_help())
 @paths_argument("A B [C ...]")
 @format_option(ALL)
 @output_option
@@ -283,20 +306,7 @@ def command(
     exit_zero: bool,
     **options: Any,
 ) -> int:
-    """Do these meshes collide? How deep, and which way out?
-
-    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, STEP, 3DXML, XAML, ZAE), scenes
-    (TOML, JSON, IFC, USD) or robots (URDF, SRDF, SDF, MJCF). A body is a file; of one file alone
-    that has nodes, a node. Every pair of bodies is checked, in the coordinates of the files. A body
-    inside another collides with it. A LENGTH is in units of the files, or has its own where these
-    are known: 2mm.
-
-    \b
-      satcheck a.stl b.stl                   do they collide?
-      satcheck a.stl b.stl -o report.html    look at the overlap
-      satcheck assembly.glb                  the parts of one file
-      satcheck each models                   every file of a folder, by itself
-    """
+    """Check bodies, or robots in many poses. The exit code is returned."""
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, output, baseline)
     form = form_of(form, output, ALL)

@@ -14,6 +14,7 @@ import pytest
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.formats.schema import text
 from satcheck.cli.help_sections import MANY, OTHER, SECTIONS, sections
+from satcheck.scene.loading.readers import readers, robots
 from tests.cli.process import (
     SAMPLES,
     satcheck,
@@ -110,3 +111,9 @@ def test_help_has_headings_and_stays_short() -> None:
     text = "".join(lines)
     assert "x<" not in text
     assert text.count("[") == text.count("]")
+
+
+def test_the_help_names_the_formats_of_the_registry() -> None:
+    known = {reader.title for reader in (*readers().values(), *robots().values())}
+    words = " ".join(satcheck("--help").out.split())
+    assert {title for title in known if title not in words} == set()
