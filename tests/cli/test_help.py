@@ -114,6 +114,7 @@ def test_help_has_headings_and_stays_short() -> None:
 
 
 def test_the_help_names_the_formats_of_the_registry() -> None:
-    known = {reader.title for reader in (*readers().values(), *robots().values())}
+    known = {reader.title for reader in readers().values()}
+    known |= {robot.title for robot in robots().values()}
     words = " ".join(satcheck("--help").out.split())
     assert {title for title in known if title not in words} == set()
