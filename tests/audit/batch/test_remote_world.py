@@ -12,6 +12,7 @@ import pytest
 
 from satcheck.audit.batch import remote_world
 from satcheck.audit.batch.remote_world import Copies, make_room
+from tests.plugin_marks import needs
 
 WORLD = ("memory://bucket/scenes/a.toml",)
 
@@ -68,9 +69,9 @@ def test_a_name_cannot_leave_the_folder_of_copies(tmp_path: Path) -> None:
     ("name", "fetched"),
     [
         ("a.urdf", True),
-        ("a.sdf", True),
-        ("a.WORLD", True),
-        ("a.xml", True),
+        pytest.param("a.sdf", True, marks=needs("sdf")),
+        pytest.param("a.WORLD", True, marks=needs("sdf")),
+        pytest.param("a.xml", True, marks=needs("mjcf")),
         ("a.toml", False),
         ("urdf", False),
     ],
