@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import tomllib
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 from itertools import takewhile
@@ -19,6 +21,7 @@ from satcheck.scene.path_kind import exists, is_folder
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.
 _SCENE_MARKS = (b"satcheck.scen", b"satcheck-scen")
+_SHAPES = frozenset(("mesh", "shape"))  # keys of a body
 _PATTERN = frozenset("*?[")
 _DEEP = "**"
 
@@ -161,11 +164,27 @@ def _below(folder: str, unlisted: list[str]) -> Iterator[str]:
 def _is_asset(path: Path) -> bool:
     ending = path.suffix.lower()
     if ending in SCENE_SUFFIXES:
-        return _holds(path, _SCENE_MARKS)
+        return _holds(path, _SCENE_MARKS) or _lacks_schema(path)
     if robots := robots_of(ending):
         marks = [each.marks for each in robots]
         return None in marks or is_robot(path) or any(_holds(path, each) for each in marks if each)
     return mesh_reader(ending) is not None
+
+
+def _lacks_schema(path: Path) -> bool:
+    """Return whether a file has bodies as a scene does, whose reader then asks for the schema."""
+    content = content_of(path) or b""
+    if b"bodies" not in content:
+        return False
+    try:
+        text = content.decode("utf-8-sig")
+        tree = tomllib.loads(text) if path.suffix.lower() == ".toml" else json.loads(text)
+    except (ValueError, RecursionError):
+        return False
+    bodies = tree.get("bodies") if isinstance(tree, dict) else None
+    return isinstance(bodies, list) and any(
+        isinstance(body, dict) and "id" in body and body.keys() & _SHAPES for body in bodies
+    )
 
 
 def _holds(path: Path, marks: tuple[bytes, ...]) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path, PurePath
 
 from satcheck.scene.bodies import Scene
 from satcheck.scene.issue import issue
-from satcheck.scene.loading.readers import reader_of
+from satcheck.scene.loading.readers import reader_of, robots_of
 
 # Program or format -> endings. Endings that other kinds of files share are left out.
 _ENDINGS = {
@@ -18,7 +18,7 @@ _ENDINGS = {
     "Maya": "ma mb",
     "Cinema 4D": "c4d",
     "SketchUp": "skp",
-    "Houdini": "hip hiplc hipnc bgeo",
+    "Houdini": "hip hiplc hipnc bgeo bgeo.sc usdnc usdlc",
     "LightWave": "lwo lws",
     "Modo": "lxo",
     "ZBrush": "ztl zpr",
@@ -26,19 +26,26 @@ _ENDINGS = {
     "OpenVDB": "vdb",
     "X3D": "x3d x3db x3dv x3dz",
     "VRML": "wrl vrml wrz",
-    "AMF": "amf",
+    "AMF": "amf amf.xml",
+    "DirectX": "x",
     "OpenCTM": "ctm",
-    "Ogre or Medit": "mesh",
+    "Nexus": "nxs nxz",
+    "Ogre or Medit": "mesh mesh.xml",
     "MilkShape": "ms3d",
-    "Quake": "md2 md3 md5mesh",
+    "Quake or Source": "md2 md3 md5mesh bsp vmf smd",
     "MikuMikuDance": "pmd pmx",
     "VRM": "vrm",
+    "RenderWare": "dff",
+    "NetImmerse": "nif",
+    "VoxelMax or MagicaVoxel": "vox",
     "Universal 3D": "u3d",
     "STEP in another form": "stpz stpx stpxz",
     "IGES": "igs iges",
-    "SolidWorks": "sldprt sldasm",
+    "IFC in another form": "ifcjson",
+    "dotbim": "bim",
+    "SolidWorks": "sldprt sldasm eprt easm",
     "CATIA": "catpart catproduct cgr",
-    "Creo or NX": "prt asm",
+    "Creo or NX": "prt asm neu pvz",
     "Solid Edge": "par psm",
     "Inventor": "ipt iam",
     "Parasolid": "x_t x_b xmt_txt xmt_bin",
@@ -48,29 +55,60 @@ _ENDINGS = {
     "FreeCAD": "fcstd",
     "Fusion": "f3d f3z",
     "Rhino": "3dm",
-    "AutoCAD": "dwg dxf",
+    "AutoCAD": "dwg dxf dwf dwfx",
     "MicroStation": "dgn",
     "Revit": "rvt rfa",
     "Archicad": "pln",
+    "AVEVA": "rvm",
     "Navisworks": "nwd nwc nwf",
     "OpenSCAD": "scad",
     "Draco": "drc",
-    "OpenSceneGraph": "osgb osgt ive",
+    "OpenSceneGraph": "osg osgb osgt ive",
+    "Open Inventor": "iv",
     "3D Tiles": "b3dm i3dm cmpt",
-    "VTK": "vtp vtu",
+    "CityGML": "gml city.json",
+    "VTK": "vtk vtp vtu vtm pvtp pvtu",
+    "finite elements": "msh nas bdf unv cgns exo",
+    "scanned points": "pcd e57 las laz",
     "LDraw": "ldr mpd lxf",
     "Google Earth": "kmz",
     "PRC": "prc",
     "PLMXML": "plmxml",
-    "MuJoCo, which satcheck reads by the ending .xml": "mjcf",
+    "POV-Ray": "pov",
+    "Babylon.js": "babylon",
+    "Unity": "unity prefab",
+    "Godot": "tscn escn scn",
+    "Unreal": "uasset umap t3d",
+    "Roblox": "rbxl rbxlx rbxm rbxmx",
+    "Webots": "wbt",
+    "CoppeliaSim": "ttt ttm",
+    "OpenRAVE": "kinbody.xml robot.xml env.xml",
+    "xacro, which `xacro FILE` expands to URDF,": "xacro",
+    "MuJoCo, which satcheck reads by the ending .xml": "mjcf mjb",
+    "archives": "zip 7z rar tar tgz tbz2 txz",
 }
 _PROGRAMS = {f".{end}": name for name, ends in _ENDINGS.items() for end in ends.split()}
+_PACKED = frozenset((".gz", ".bz2", ".xz", ".zst", ".lz4", ".lzma", ".br", ".z"))
+_VERSIONED = frozenset((".prt", ".asm"))  # Creo counts its files: bolt.prt.12
 
 
 def is_foreign(path: str | Path) -> bool:
     """Return whether a file holds geometry, and neither this package nor a plug-in reads it."""
-    ending = Path(path).suffix.lower()
-    return ending in _PROGRAMS and reader_of(ending) is None
+    return _program(path) is not None
+
+
+def _program(path: str | Path) -> str | None:
+    """What wrote the file, by the end of its name; None: another file, or one that is read."""
+    *others, ending = [""] + [each.lower() for each in Path(path).suffixes]
+    inner = others[-1] if others else ""
+    if ending in _PACKED:
+        packed = inner in _PROGRAMS or reader_of(inner) or robots_of(inner)
+        return f"the compression {ending[1:]}" if packed else None
+    if ending[1:].isdecimal() and inner in _VERSIONED:
+        ending = inner
+    if inner + ending in _PROGRAMS:
+        return _PROGRAMS[inner + ending]
+    return None if reader_of(ending) else _PROGRAMS.get(ending)
 
 
 def foreign_scene(folder: str, files: Iterable[str]) -> Scene:
@@ -78,7 +116,7 @@ def foreign_scene(folder: str, files: Iterable[str]) -> Scene:
     issues = [
         issue(
             "unread-file",
-            f"files of {_PROGRAMS[Path(file).suffix.lower()]} are not read: export it to a format "
+            f"files of {_program(file)} are not read: export it to a format "
             f"that is, --exclude {shlex.quote(PurePath(file).name)}, or accept it",
             file=file,
         )

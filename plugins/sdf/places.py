@@ -146,11 +146,19 @@ _MIMIC = Place(
     attributes("joint"),
     idle={"axis": "axis"},
 )
+_AXIS = Place(
+    elements("xyz limit mimic use_parent_model_frame", because(_FORCES, "dynamics")),
+    idle={"initial_position": 0.0},
+    inside={
+        "xyz": Place(attributes=attributes("expressed_in")),
+        "limit": _LIMIT,
+        "mimic": _MIMIC,
+    },
+)
 JOINT = Place(
     elements(
-        "parent child axis pose",
+        "parent child axis axis2 pose",
         _ANYWHERE,
-        because("a joint with two axes is not moved, and named", "axis2"),
         because(
             _FORCES,
             "physics gearbox_ratio gearbox_reference_body thread_pitch screw_thread_pitch "
@@ -163,15 +171,8 @@ JOINT = Place(
         "parent": _VALUE,
         "child": _VALUE,
         "pose": _POSE,
-        "axis": Place(
-            elements("xyz limit mimic use_parent_model_frame", because(_FORCES, "dynamics")),
-            idle={"initial_position": 0.0},
-            inside={
-                "xyz": Place(attributes=attributes("expressed_in")),
-                "limit": _LIMIT,
-                "mimic": _MIMIC,
-            },
-        ),
+        "axis": _AXIS,
+        "axis2": _AXIS,  # a joint with two axes is not moved, and named
     },
     moves=True,
 )

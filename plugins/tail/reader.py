@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import logging
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -56,7 +57,10 @@ def read_tail(file: File) -> RawScene:
         str,
         lambda name: _mesh(scene.geometry[name], units),
     )
-    return RawScene(read.parts, read.nodes, units=units)
+    models = len(re.findall(rb"<(?:\w+:)?GeometryModel3D[\s>]", file.data))
+    joined = ("unread", f"trimesh makes one body of its {models} models")
+    warnings = (joined,) if models > 1 and file.format == "xaml" else ()
+    return RawScene(read.parts, read.nodes, warnings, units)
 
 
 def _placed(scene: Any, node: str) -> tuple[str, tuple[float, ...]]:

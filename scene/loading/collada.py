@@ -122,6 +122,11 @@ class _Document:
         warnings = list(unknown.warnings())
         if self._root.find("library_animations") is not None:
             warnings.append(("time-sampled", "the file is animated; checked as stored"))
+        asset = self._root.find("asset")
+        axis = asset.find("up_axis") if asset else None
+        if axis is not None and axis.text.strip() != "Z_UP":  # the axis of robots
+            message = f"up_axis {axis.text.strip()} turns nothing: axes stay as in the file"
+            warnings.append(("left-out", message))
         return tuple(warnings)
 
     def _units(self) -> str:

@@ -101,6 +101,11 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
         offset += size
     if not chunks or chunks[0][0] != _JSON_CHUNK:
         raise MeshFileError("bad-record", "the first chunk of the GLB file is not JSON")
+    for kind, name in ((_JSON_CHUNK, "JSON"), (_BIN_CHUNK, "binary")):
+        places = [number for number, (each, _) in enumerate(chunks) if each == kind]
+        # Others are harmless: extensions name them (the glTF 2.0 specification, 4.4.3).
+        if places not in ([], [0 if kind == _JSON_CHUNK else 1]):
+            raise MeshFileError("bad-record", f"a {name} chunk of the GLB file is out of place")
     has_binary = len(chunks) > 1 and chunks[1][0] == _BIN_CHUNK
     return chunks[0][1], chunks[1][1] if has_binary else None
 

@@ -37,6 +37,9 @@ def read_native(file: File) -> RawScene:
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
     objects = [] if file.flat else outcome.objects()
+    if outcome.several_groups and len(objects) < 2 and not file.flat:
+        said = "left-out", "groups (g) are no bodies: all of the file is one"
+        whole = replace(whole, warnings=(*whole.warnings, said))
     return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
 
 

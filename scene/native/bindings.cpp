@@ -184,6 +184,7 @@ void satcheck::bind_readers(nb::module_& m) {
       .def_ro("rounding", &MeshData::rounding,
               "How far a coordinate may be off that the file stores as an integer: half a unit; else 0.")
       .def_ro("warnings", &MeshData::warnings)
+      .def_ro("several_groups", &MeshData::several_groups)
       .def("objects", [](const MeshData& mesh) {
         std::vector<Object> objects;
         {

@@ -1,6 +1,7 @@
 // Wavefront OBJ, after "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual.
 #include <array>
 #include <algorithm>
+#include <optional>
 
 #include "builder.hpp"
 #include "polygons.hpp"
@@ -13,12 +14,13 @@ namespace {
 // The meaning of each statement. Any other word is an error, because it could be misspelt geometry.
 //   v, f, fo                 vertices and faces: read
 //   o                        the faces that follow belong to another object: read
+//   g                        no object; whether faces have several groups is noted
 //   names and appearance     no geometry: accepted
 //   lines, points, curves    no area, so they cannot collide: accepted with a warning
 //   surfaces, other files    geometry that is not read: an error
 //   a whole number alone     a count that some exporters write: accepted with a warning
-constexpr std::array<std::string_view, 19> no_geometry = {
-    "vt",     "vn",     "vp",    "vw",       "g",        "s",   "t",          "mg",        "usemtl", "mtllib",
+constexpr std::array<std::string_view, 18> no_geometry = {
+    "vt",     "vn",     "vp",    "vw",       "s",   "t",          "mg",        "usemtl", "mtllib",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "res"};
 constexpr std::array<std::string_view, 18> no_area = {"p",    "l",    "cdc",  "cstype", "deg", "bmat", "step",  "curv",  "curv2", "parm",
                                                       "trim", "hole", "scrv", "sp",     "end", "con",  "ctech", "stech"};
@@ -66,7 +68,12 @@ class ObjReader {
       face(words, line);
     } else if (keyword == "o") {
       if (joined) check_swallowed(words, line);
-      object(words);
+      name_ = joined_words(words);
+      in_object_ = false;
+    } else if (keyword == "g") {
+      if (joined) check_swallowed(words, line);
+      group_ = joined_words(words);
+      in_group_ = false;
     } else if (contains(no_geometry, keyword)) {
       if (joined) check_swallowed(words, line);
     } else if (contains(no_area, keyword)) {
@@ -111,11 +118,11 @@ class ObjReader {
     }
   }
 
-  // Takes the name. The object begins with its first face.
-  void object(Words& words) {
-    name_.clear();
-    for (std::string_view word; words.next(word);) name_.append(name_.empty() ? "" : " ").append(word);
-    in_object_ = false;
+  // The name of an object or a group, which begins with its first face.
+  static std::string joined_words(Words& words) {
+    std::string name;
+    for (std::string_view word; words.next(word);) name.append(name.empty() ? "" : " ").append(word);
+    return name;
   }
 
   void face(Words& words, std::int64_t line) {
@@ -124,6 +131,11 @@ class ObjReader {
       mesh_.objects.push_back(name_);
     }
     in_object_ = true;
+    if (!in_group_) {
+      if (!first_group_) first_group_ = group_;
+      mesh_.several_groups |= *first_group_ != group_;
+    }
+    in_group_ = true;
     corners_.clear();
     std::string_view word;
     while (words.next(word)) corners_.push_back(corner(word, line));
@@ -184,8 +196,9 @@ class ObjReader {
   std::vector<Reference> forward_;
   std::int64_t without_area_ = 0, counts_ = 0;
   std::string first_without_area_, first_count_;
-  std::string name_;  // of the object
-  bool in_object_ = false;
+  std::string name_, group_;  // of the object, of the group
+  std::optional<std::string> first_group_;
+  bool in_object_ = false, in_group_ = true;
 };
 
 }  // namespace
