@@ -6,7 +6,7 @@ incomplete, until somebody says that it is meant to be so: by its code, and the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from fnmatch import fnmatchcase
 from glob import escape
 from pathlib import PurePath
@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
+from satcheck.scene.bodies import Accepted
 from satcheck.scene.issue import BLOCKING, CODES
 from satcheck.scene.words import meant
 
@@ -51,19 +52,24 @@ def acceptance(text: str) -> Acceptance:
     return Acceptance(code, name or "*")
 
 
-def with_states(issues: Iterable[Issue], accepted: Sequence[str]) -> list[Issue]:
+def with_states(issues: Iterable[Issue], accepted: Iterable[Accepted]) -> list[Issue]:
     """Return the issues with their states, and one for each acceptance that accepts nothing."""
-    known = {text: acceptance(text) for text in accepted}
+    known = {each: acceptance(each.text) for each in accepted}
     used: set[str] = set()
     judged = []
     for issue in issues:
         if issue.code in BLOCKING:
-            by = {text for text, each in known.items() if each.accepts(issue)}
+            place = {issue.file, issue.body}
+            by = {
+                each.text
+                for each, words in known.items()
+                if words.accepts(issue) and not (each.about and place.isdisjoint(each.about))
+            }
             used |= by
             judged.append(replace(issue, state="accepted" if by else "blocking"))
         else:
             judged.append(issue)
-    for text in known:
+    for text in dict.fromkeys(each.text for each in known):
         if text not in used:
             message = f'nothing is accepted by "{text}": no such issue'
             judged.append(Issue(UNUSED_ACCEPTANCE, "warning", None, None, message))

@@ -36,6 +36,7 @@ from satcheck.report.report import (
     Verdict,
 )
 from satcheck.report.settings import StatedReading
+from satcheck.scene.bodies import Accepted
 from satcheck.scene.loading.readers import stated_options
 
 if TYPE_CHECKING:
@@ -268,7 +269,7 @@ def issues_of(
     lone = len(bodies.ids) == 1
     empty = [] if asks or lone else [_nothing_to_check(scene, bodies, counts)]
     once = dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs))
-    return tuple(with_states(once, (*scene.accept, *accept)))
+    return tuple(with_states(once, (*scene.accept, *map(Accepted, accept))))
 
 
 def _nothing_to_check(scene: Scene, bodies: PlacedBodies, counts: PairCounts) -> Issue:

@@ -133,6 +133,14 @@ class Entry(Struct, frozen=True):
     line: int | None = None
 
 
+class Accepted(Struct, frozen=True):
+    """What a scene file accepts: text: CODE or CODE:NAME. about: the file, the files that it names,
+    and its bodies; None: all."""
+
+    text: str
+    about: frozenset[str] | None = None
+
+
 class Scene(Struct, frozen=True):
     """All inputs of a check, in the order given.
 
@@ -169,7 +177,7 @@ class Scene(Struct, frozen=True):
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     joint_path: JointPath | None = None
-    accept: tuple[str, ...] = ()
+    accept: tuple[Accepted, ...] = ()
 
     def __post_init__(self) -> None:
         if self.motions:

@@ -128,6 +128,13 @@ _ALL = (
     Code("bad-rule", "error", "A rule of a scene is malformed or has no effect."),
     Code("bad-motion", "error", "A motion of a scene is malformed, or moves a body twice."),
     Code("unknown-key", "warning", "A key at the top of the scene is unknown.", blocks=True),
+    Code("up-axis", "note", "The file says which axis points up: that turns nothing."),
+    Code(
+        "axes-unclear",
+        "warning",
+        "A file that says which axis points up stands beside one that does not.",
+        blocks=True,
+    ),
     Code("units-converted", "note", "Files in other units were converted to units of the check."),
     Code("units-unknown", "warning", "Only some bodies have a stated unit of length."),
     Code("unknown-units", "warning", "The declared units are not a known unit of length."),

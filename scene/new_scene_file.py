@@ -62,8 +62,8 @@ def new_scene_file(
         head["check_static"] = True
     if scene.ignore_within_groups:
         head["ignore_within_groups"] = sorted(scene.ignore_within_groups)
-    if scene.accept:
-        head["accept"] = list(scene.accept)
+    if accepted := [each.text for each in scene.accept if each.about is None]:
+        head["accept"] = accepted
     rules = list(map(_rule, scene.rules))
     if scene.body_rules or scene.statics:
         from satcheck.scene.statics import body_rule_values, terms_values

@@ -28,6 +28,7 @@ from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import BLOCKING, Issue, issue
 from satcheck.scene.loading.nodes import Node
 from satcheck.scene.loading.placing import multiply
+from satcheck.scene.loading.readers import mesh_reader
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
@@ -339,6 +340,12 @@ class SceneBuilder:
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
         scenes = self._scenes
+        issues = [
+            *self._issues,
+            *_of_lost(self._unreadable),
+            *_issues_of_files(self._bodies),
+            *common.issues,
+        ]
         return Scene(
             name=" ".join(self._names),
             units=common.label,
@@ -350,17 +357,12 @@ class SceneBuilder:
             body_rules=self._body_rules(common.scales),
             statics=scenes.statics(common.scales) if scenes else None,
             check_static=scenes is None or scenes.check_static,
-            accept=tuple(scenes.accepted if scenes else ()),
+            accept=scenes.accepted(alone=len(self._inputs) == 1) if scenes else (),
             motions=scenes.motions(common.scales) if scenes else (),
             entries=self._entries,
             reading=self._reading,
             composed=self._taken_apart or not self._only_meshes,
-            issues=(
-                *self._issues,
-                *_of_lost(self._unreadable),
-                *_issues_of_files(self._bodies),
-                *common.issues,
-            ),
+            issues=(*issues, *_unclear_axes(self._inputs, issues)),
         )
 
     def _rules(self, scales: Mapping[str, float]) -> tuple[Rule, ...]:
@@ -374,6 +376,19 @@ class SceneBuilder:
         if self._scenes is None:
             return ()
         return self._scenes.body_rules([*self._bodies, *self._unreadable], scales)
+
+
+def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[Issue]:
+    """A mesh file whose axis nothing turns, beside one that names no axis."""
+    meshes = [each.path for each in inputs if each.kind == "mesh"]
+    stated = {issue.file for issue in issues if issue.code == "up-axis"}.intersection(meshes)
+    for path in meshes:
+        reader = mesh_reader(Path(path).suffix)
+        if stated and path not in stated and (reader is None or reader.up is None):
+            other = min(filter(None, stated))
+            message = f"{path} does not say which axis points up, as {other} does: nothing is turned"
+            yield issue("axes-unclear", message, file=other)
+            return
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.scene.bodies import Body, Unreadable
+from satcheck.scene.bodies import Accepted, Body, Unreadable
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
@@ -29,14 +29,13 @@ class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
     group_names: makes names of groups unique in the check. check_static: whether any file requires
-    it. ignored: groups whose pairs are not checked. accepted: issues that may stay.
+    it. ignored: groups whose pairs are not checked.
     """
 
     def __init__(self, group_names: UniqueNames) -> None:
         self._group_names = group_names
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
-        self.accepted: list[str] = []
         self.check_static = False
         self._motions: list[tuple[str, Motion]] = []  # with the path of their file
 
@@ -52,11 +51,19 @@ class JoinedScenes:
         self._scenes.append((scene, ids))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
         self.check_static |= scene.check_static
-        self.accepted += scene.accept
         self._motions += [
             (scene.path, replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies)))
             for motion in scene.motions
         ]
+
+    def accepted(self, *, alone: bool) -> tuple[Accepted, ...]:
+        """Issues that may stay. alone: no input stands beside the file. What a file without bodies
+        accepts counts for all, as its rules do."""
+        return tuple(
+            Accepted(text, None if alone or not scene.bodies else _named_by(scene, ids))
+            for scene, ids in self._scenes
+            for text in scene.accept
+        )
 
     def motions(self, scales: Mapping[str, float]) -> tuple[Motion, ...]:
         """scales: path of a scene -> the factor of its lengths; 1 if missing."""
@@ -112,6 +119,10 @@ class JoinedScenes:
         from satcheck.scene.statics import joined_terms
 
         return joined_terms(stated)
+
+
+def _named_by(scene: SceneFile, ids: Mapping[str, str]) -> frozenset[str]:
+    return frozenset((scene.path, *ids.values(), *(body.mesh.path for body in scene.bodies)))
 
 
 def _own_body_rules(

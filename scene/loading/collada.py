@@ -126,7 +126,7 @@ class _Document:
         axis = asset.find("up_axis") if asset else None
         if axis is not None and axis.text.strip() != "Z_UP":  # the axis of robots
             message = f"up_axis {axis.text.strip()} turns nothing: axes stay as in the file"
-            warnings.append(("left-out", message))
+            warnings.append(("up-axis", message))
         return tuple(warnings)
 
     def _units(self) -> str:

@@ -12,6 +12,7 @@ from msgspec import convert
 from satcheck.audit.acceptance import words_to_accept
 from satcheck.report.report import Issue
 from tests.cli.process import SAMPLES, satcheck
+from tests.scene import files
 
 ROBOT = """<robot name="r">
 <link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision><fence/></link>
@@ -63,6 +64,26 @@ def test_rules_and_the_config_accept_too(robot: Path) -> None:
     (robot / "satcheck.toml").write_text(f'accept = ["{code}"]\n', encoding="utf-8")
     assert satcheck("r.urdf", cwd=robot).code == 0
     assert satcheck("each", "r.urdf", cwd=robot).code == 0
+
+
+def test_a_scene_accepts_for_the_files_that_it_names_alone(robot: Path) -> None:
+    tree, buffer = files.gltf_document()
+    tree["extensionsUsed"] = ["NEW_bodies"]
+    for name in ("own.glb", "other.glb"):
+        (robot / name).write_bytes(files.glb(tree, buffer))
+    scene = 'schema = "satcheck.scene/1"\nunits = "m"\naccept = ["unread"]\n'
+    for x in (5, 9):
+        scene += f'[[bodies]]\nid = "own{x}"\nmesh = "own.glb"\nposition = [{x}, 0, 0]\n'
+    (robot / "scene.toml").write_text(scene, encoding="utf-8")
+
+    def ran(*names: str) -> list[tuple[str, str]]:
+        issues = satcheck(*names, "--format", "json", cwd=robot).document["issues"]
+        return [(issue["file"], issue["state"]) for issue in issues if issue["code"] == "unread"]
+
+    assert ran("scene.toml") == [("own.glb", "accepted")]
+    assert ran("scene.toml", "other.glb") == [
+        ("own.glb", "accepted"), ("other.glb", "blocking")
+    ]  # fmt: skip
 
 
 def test_an_acceptance_need_not_be_about_every_asset(robot: Path) -> None:

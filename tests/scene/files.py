@@ -202,7 +202,7 @@ def collada(
     )
     return (
         f'<?xml version="1.0" encoding="utf-8"?>{doctype}<COLLADA xmlns="{_COLLADA}" '
-        'version="1.4.1"><asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>'
+        'version="1.4.1"><asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>'
         '<library_geometries><geometry id="g"><mesh><source id="s">'
         f'<float_array id="a" count="{count}">{floats}</float_array><technique_common>'
         f'<accessor source="#a" count="{len(points)}" stride="3">{params}</accessor>'

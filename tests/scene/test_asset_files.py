@@ -11,6 +11,7 @@ import pytest
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import asset_files as module
 from satcheck.scene.asset_files import asset_files
+from satcheck.scene.foreign_formats import is_foreign
 from tests.cli.process import on_posix
 from tests.plugin_marks import needs
 
@@ -47,6 +48,9 @@ def test_a_folder_that_cannot_be_listed_stands_for_itself(
     [
         (b'{"schema": "satcheck.scene/1"}', 1),
         (rb'{"schema": "satcheck.scene\/1"}', 1),
+        (b'{"bodies": [{"id": "a", "mesh": "a.obj"}]}', 1),
+        (b'{"bodies": [{"id": "a", "mass": 1}]}', 0),
+        (b'{"bodies": [{"id": "a", "mesh": "a.obj"}', 0),
         (b"{}", 0),
     ],
 )
@@ -100,3 +104,28 @@ def test_an_empty_pattern_excludes_nothing_and_is_refused(tmp_path: Path) -> Non
 def test_a_scene_of_another_version_is_an_asset(tmp_path: Path, schema: str) -> None:
     (tmp_path / "a.json").write_text(f'{{"schema": "{schema}"}}')
     assert asset_files([str(tmp_path)]).files == [(tmp_path / "a.json").as_posix()]
+
+
+@pytest.mark.parametrize(
+    ("name", "known"),
+    [
+        ("arm.urdf.xacro", True),
+        ("bolt.prt.12", True),
+        ("bolt.asm.1", True),
+        ("part.stl.gz", True),
+        ("part.FBX.xz", True),
+        ("arm.urdf.bz2", True),
+        ("level.tscn", True),
+        ("parts.tar.gz", True),
+        ("parts.zip", True),
+        ("town.city.json", True),
+        ("notes.txt.gz", False),
+        ("photo.12", False),
+        ("drawing.drw.3", False),
+        ("town.json", False),
+        ("scene.bin", False),
+        ("a.obj", False),
+    ],
+)
+def test_what_may_hold_geometry_is_known_by_the_end_of_its_name(name: str, known: bool) -> None:
+    assert is_foreign(name) == known

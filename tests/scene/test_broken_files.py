@@ -22,6 +22,13 @@ OFF = files.off()
 GLB = files.glb()
 
 
+def glb_of(*kinds: bytes) -> bytes:
+    """A GLB file with a chunk of each kind, which holds the JSON of a cube whose buffer is apart."""
+    text = GLB[20 : 20 + int.from_bytes(GLB[12:16], "little")]
+    chunks = b"".join(struct.pack("<I4s", len(text), kind) + text for kind in kinds)
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
 def with_document(**changes):
     document, buffer = files.gltf_document()
     for path, value in changes.items():
@@ -124,6 +131,9 @@ REFUSED = {
     "version.glb": (b"glTF" + struct.pack("<II", 1, 12), "unsupported-feature", "version 1"),
     "cut.glb": (GLB[:-8], "truncated", "bytes"),
     "more.glb": (GLB + b"1234", "trailing-data", "bytes"),
+    "two_json.glb": (glb_of(b"JSON", b"JSON"), "bad-record", "a JSON chunk"),
+    "two_binary.glb": (glb_of(b"JSON", b"BIN\0", b"BIN\0"), "bad-record", "a binary chunk"),
+    "late_binary.glb": (glb_of(b"JSON", b"MORE", b"BIN\0"), "bad-record", "a binary chunk"),
     "chunk.glb": (
         GLB[:12] + struct.pack("<I", 2**31 - 1) + GLB[16:],
         "truncated",

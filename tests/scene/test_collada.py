@@ -186,3 +186,23 @@ def test_a_name_that_many_elements_have_is_one_issue(tmp_path):
     nodes = "".join(map(node.format, range(100)))
     found = warnings(loaded(tmp_path, "a.dae", files.collada(nodes=nodes)))
     assert "(100 times)" in found["unread"]
+
+
+Y_UP = files.collada().replace(b"Z_UP", b"Y_UP")
+
+
+@pytest.mark.parametrize(("axis", "codes"), [("Y_UP", ["up-axis"]), ("Z_UP", [])])
+def test_an_axis_turns_nothing_and_is_named(tmp_path, axis, codes):
+    (tmp_path / "a.dae").write_bytes(files.collada().replace(b"Z_UP", axis.encode()))
+    assert [issue.code for issue in load_scene([tmp_path / "a.dae"]).issues] == codes
+
+
+@pytest.mark.parametrize(
+    ("other", "content", "unclear"),
+    [("b.obj", files.obj(), 1), ("b.dae", Y_UP, 0), ("b.glb", files.glb(), 0)],
+)
+def test_beside_a_file_that_names_no_axis_it_blocks_a_pass(tmp_path, other, content, unclear):
+    (tmp_path / "a.dae").write_bytes(Y_UP)
+    (tmp_path / other).write_bytes(content)
+    scene = load_scene([tmp_path / "a.dae", tmp_path / other])
+    assert [issue.code for issue in scene.issues].count("axes-unclear") == unclear

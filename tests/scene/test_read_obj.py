@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from satcheck.scene import load_scene
 from tests.scene import files
 from tests.scene.loading import loaded, refusal, warnings
 
@@ -83,3 +84,11 @@ def test_a_backslash_takes_in_no_object(tmp_path, statement):
     content = files.obj() + f"{statement}\no B\n".encode()
     code, message = refusal(tmp_path, "a.obj", content)
     assert (code, "takes in 'o'" in message) == ("bad-record", True)
+
+
+def test_groups_are_no_bodies_and_a_file_of_several_says_so(tmp_path):
+    one, two = (f"g {name}\n".encode() + files.obj() for name in "ab")
+    for content, codes in ((one + two, ["left-out"]), (one + one, []), (b"o a\n" + one, [])):
+        (tmp_path / "a.obj").write_bytes(content)
+        issues = load_scene([tmp_path / "a.obj"]).issues
+        assert [each.code for each in issues if each.code == "left-out"] == codes

@@ -176,3 +176,16 @@ def test_a_joint_with_the_name_world_still_has_the_world_as_its_parent(tmp_path:
     robot, issues = read(tmp_path, sdf(model("m", A, joint("world", "world", "a"))))
     assert issues == ()
     assert [(joint.parent, joint.child) for joint in robot.joints] == [("", "m::a")]
+
+
+@pytest.mark.parametrize("tag", ["axis", "axis2"])
+@pytest.mark.parametrize(("value", "codes"), [(0.0, []), (0.5, ["unread"])])
+def test_a_joint_that_does_not_stand_at_zero_blocks_a_pass(
+    tmp_path: Path, tag: str, value: float, codes: list[str]
+) -> None:
+    start = f"<initial_position>{value}</initial_position>"
+    axes = axis("0 0 1", start if tag == "axis" else "")
+    axes += axis("1 0 0", start).replace("axis>", "axis2>") if tag == "axis2" else ""
+    moving = joint("j", "a", "b", "universal", axes)
+    _, issues = read(tmp_path, sdf(model("m", A, B, moving)))
+    assert [each.code for each in issues if each.code != "joint-not-moved"] == codes

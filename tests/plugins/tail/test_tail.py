@@ -169,3 +169,13 @@ def test_what_boxes_find_apart_is_an_estimate(tmp_path: Path) -> None:
     words = ("a.3dxml", "--certificate", "--format", "json", "--accept", "incomplete")
     (finding,) = satcheck(*words, cwd=tmp_path).document["findings"]
     assert (finding["relation"], finding["quality"]) == ("separated", "estimate")
+
+
+def test_models_that_trimesh_joins_block_a_pass(tmp_path: Path) -> None:
+    first, model, last = xaml().partition(b"<GeometryModel3D>")
+    content, end, _ = last.partition(b"</GeometryModel3D>")
+    for models, codes in ((1, []), (2, ["unread"])):
+        text = first + models * (model + content + end) + last[len(content + end) :]
+        (tmp_path / "a.xaml").write_bytes(text)
+        issues = [issue.code for issue in load_scene([tmp_path / "a.xaml"]).issues]
+        assert [code for code in issues if code == "unread"] == codes
