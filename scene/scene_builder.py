@@ -386,7 +386,9 @@ def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[
         reader = mesh_reader(Path(path).suffix)
         if stated and path not in stated and (reader is None or reader.up is None):
             other = min(filter(None, stated))
-            message = f"{path} does not say which axis points up, as {other} does: nothing is turned"
+            message = (
+                f"{path} does not say which axis points up, as {other} does: nothing is turned"
+            )
             yield issue("axes-unclear", message, file=other)
             return
 

@@ -23,7 +23,7 @@ GLB = files.glb()
 
 
 def glb_of(*kinds: bytes) -> bytes:
-    """A GLB file with a chunk of each kind, which holds the JSON of a cube whose buffer is apart."""
+    """A GLB file with a chunk of each kind. Each holds the JSON of a cube."""
     text = GLB[20 : 20 + int.from_bytes(GLB[12:16], "little")]
     chunks = b"".join(struct.pack("<I4s", len(text), kind) + text for kind in kinds)
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
