@@ -30,7 +30,7 @@ def with_stated_places(report: Report, scene: Scene) -> Report:
     places = {}
     for id_, entry in entries.items():
         line = entry.line if entry.number is None else lines[entry.file][entry.number]
-        places[id_] = line and Place(entry.file, line)
+        places[id_] = Place(entry.file, line) if line else None
     bodies = (replace(body, stated_at=places.get(body.id)) for body in report.bodies)
     return replace(report, bodies=tuple(bodies))
 

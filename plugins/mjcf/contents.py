@@ -62,11 +62,7 @@ class _Contents:
             ),
             excludes=tuple((int(s) >> 16, int(s) & 0xFFFF) for s in m.exclude_signature),
             pairs=tuple(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True)),
-            keys=tuple(
-                key
-                for key in read.keys
-                if self._is_read(key) and not self._moves_mocap(key) and not read.aligned
-            ),
+            keys=tuple(key for key in read.keys if self._no_state(key) is None),
             parents_pass=not m.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT,
             notes=tuple(self._notes()),
         )
@@ -139,36 +135,37 @@ class _Contents:
         )
 
     def _notes(self) -> Iterator[tuple[str, str]]:
-        read = self._read
-        if read.constraints:
-            what = "constraint is" if read.constraints == 1 else "constraints are"
-            yield (
-                "constraint-not-solved",
-                f"{read.constraints} equality {what} not solved: joints stand where the pose says",
-            )
-        if read.aligned and read.keys:
-            why = "alignfree moves the frames of their values"
-            yield "keyframe-not-read", f"keyframes are no states, because {why}"
-        wrong = [key.name for key in read.keys if not self._is_read(key)]
-        if wrong:
-            names = ", ".join(wrong)
-            yield "keyframe-not-read", f"keyframes without a value for each joint: {names}"
+        unsolved = "not solved: joints stand where the pose says"
+        if count := self._read.constraints:
+            what = "constraint is" if count == 1 else "constraints are"
+            yield "constraint-not-solved", f"{count} equality {what} {unsolved}"
+        if self._has_spring():
+            yield "constraint-not-solved", f"springs that rest elsewhere are {unsolved}"
+        reasons = {key.name: self._no_state(key) for key in self._read.keys}
+        for reason in dict.fromkeys(filter(None, reasons.values())):
+            names = ", ".join(name for name, each in reasons.items() if each == reason)
+            yield "keyframe-not-read", f"keyframes are no states, because {reason}: {names}"
 
-        moving = [key.name for key in read.keys if self._moves_mocap(key)]
-        if moving:
-            names = ", ".join(moving)
-            yield "keyframe-not-read", f"keyframes that place mocap bodies are no states: {names}"
-
-    def _moves_mocap(self, key: Key) -> bool:
-        """Whether it places mocap bodies elsewhere than the file does."""
+    def _has_spring(self) -> bool:
+        """Whether a spring of a joint or tendon pulls bodies out of qpos0."""
         m = self._model
+        starts = m.jnt_qposadr[(m.jnt_stiffness > 0) & (m.jnt_type >= 2)]  # of slides and hinges
+        bent = m.qpos_spring[starts] != m.qpos0[starts]
+        low, high = m.tendon_lengthspring.T
+        slack = (m.tendon_length0 < low) | (m.tendon_length0 > high)
+        return bool(bent.any() or slack[m.tendon_stiffness > 0].any())
+
+    def _no_state(self, key: Key) -> str | None:
+        """Why a keyframe is no state; None: it is one."""
+        m = self._model
+        if self._read.aligned:
+            return "alignfree moves the frames of their values"
+        if len(key.qpos) not in (0, m.nq) or not all(map(math.isfinite, key.qpos)):
+            return "a joint has no value"
         bodies = [int(np.flatnonzero(m.body_mocapid == k)[0]) for k in range(m.nmocap)]
         stored = ((key.mpos, m.body_pos[bodies]), (key.mquat, m.body_quat[bodies]))
-        return any(given and list(given) != own.ravel().tolist() for given, own in stored)
-
-    def _is_read(self, key: Key) -> bool:
-        """Not if it lacks values, or has values that are not numbers."""
-        return len(key.qpos) in (0, self._model.nq) and all(map(math.isfinite, key.qpos))
+        moves = any(given and list(given) != own.ravel().tolist() for given, own in stored)
+        return "they place mocap bodies" if moves else None
 
 
 def own_meshes_of(read: Compiled) -> RawScene:

@@ -137,7 +137,7 @@ def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
 def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
     """The cause, with the number of bodies that it affects, and its first place in the file."""
     first, number = lost[0], len(lost)
-    place = f"line {first.line}"
+    place = f"line {first.line}" if first.line else "the file"
     if isinstance(first.geometry, MeshReference):
         place += f": {first.geometry.uri!r}" if number == 1 else f" ({first.geometry.uri})"
     start = place if number == 1 else f"{number} bodies, the first in {place}"

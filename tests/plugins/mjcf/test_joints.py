@@ -123,3 +123,23 @@ def test_a_keyframe_that_places_a_mocap_body_is_no_state(tmp_path: Path) -> None
     assert [state.name for state in scene.robots[0].states] == ["same"]
     (said,) = (issue for issue in scene.issues if issue.code == "keyframe-not-read")
     assert "far" in said.message
+
+
+@pytest.mark.parametrize(
+    ("stated", "tendon", "notes"),
+    [
+        ('springref="1" stiffness="9"', "", 1),
+        ('springref="1"', "", 0),
+        ('springref="1" ref="1" stiffness="9"', "", 0),
+        ("", 'springlength="1" stiffness="9"', 1),
+        ("", 'springlength="0" stiffness="9"', 0),
+        ("", 'stiffness="9"', 0),
+    ],
+)
+def test_springs_that_rest_elsewhere_are_named(
+    tmp_path: Path, stated: str, tendon: str, notes: int
+) -> None:
+    slide = f'<joint name="j" type="slide" axis="1 0 0" {stated}/>'
+    pulled = f'<tendon><fixed {tendon}><joint joint="j" coef="1"/></fixed></tendon>'
+    scene = load(tmp_path, model(body("a", slide, geom("g")), after=tendon and pulled))
+    assert codes(scene).count("constraint-not-solved") == notes

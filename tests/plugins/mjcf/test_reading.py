@@ -18,6 +18,7 @@ from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
+from tests.cli.process import satcheck
 from tests.plugins.mjcf.files import (
     TETRAHEDRON,
     body,
@@ -185,6 +186,15 @@ def test_a_flex_is_an_unreadable_body(tmp_path: Path) -> None:
     assert [(lost.id, lost.issue.code) for lost in scene.unreadable] == [
         ("flex cloth", "unsupported-feature")
     ]
+    assert "line 0" not in scene.unreadable[0].issue.message
+
+
+def test_a_body_without_a_line_is_part_of_the_report_of_a_folder(tmp_path: Path) -> None:
+    cloth = '<flexcomp name="cloth" type="grid" count="3 3 1" spacing="1 1 1" dim="2" radius=".1"/>'
+    write(tmp_path, model(body("b", geom("g")), body("c", cloth, pos="0 0 5")))
+    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path)
+    (asset,) = ran.document["assets"]
+    assert (ran.code, asset["report"]["bodies"][1]["stated_at"]) == (2, None)
 
 
 def test_points_alone_are_the_hull_that_mujoco_makes(tmp_path: Path) -> None:
