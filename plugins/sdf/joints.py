@@ -55,6 +55,11 @@ def moves_of(joint: JointEntry, frames: Frames, slips: Slips) -> Moves:
         slips.note("joint-not-moved", element, f"{why}: its links stay as the file places them")
         return Moves("fixed")
     kind = _KINDS[given]
+    dynamics = axis.only("dynamics")
+    spring = dynamics and [dynamics.only(tag) for tag in ("spring_stiffness", "spring_reference")]
+    if spring and all(each and each.text_numbers(1)[0] for each in spring):
+        cause = "a spring that rests elsewhere is not solved: joints stand where the pose says"
+        slips.note("constraint-not-solved", axis, cause)
     return Moves(
         kind,
         _axis(axis, joint, frames),

@@ -33,6 +33,7 @@ _ATTRIBUTES_ANYWHERE = dict.fromkeys(
     ("xmlns", "xmlns:*", "xml:*", "xsi:*"), "says how names are written"
 )
 _BODIES = ("collision", "include")
+_DRAWN = "visual"  # in a link whose colliders are checked
 
 
 def elements(read: str, *harmless: Mapping[str, str]) -> Names:
@@ -77,7 +78,9 @@ class Slips:
                 self._ask(place.elements, child.tag, f"<{element.tag}>", child, moves=place.moves)
             if child.tag in place.inside:
                 self.look(child, place.inside[child.tag])
-            elif place.elements is not None and child.tag in place.elements.harmless:
+            elif child.tag == _DRAWN or (
+                place.elements is not None and child.tag in place.elements.harmless
+            ):
                 self._look_for_bodies(child)
 
     def _look_for_bodies(self, harmless: Element) -> None:

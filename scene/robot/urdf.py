@@ -43,6 +43,7 @@ _KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"
+_LOOPS = ("loop_joint", "drake:ball_constraint")  # joints stand where the pose says
 _SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
     "box": {"size": 3},
     "sphere": {"radius": 1},
@@ -82,6 +83,9 @@ class _Reader:
             if joint.name in joints:
                 element.refuse(f"a second joint {joint.name!r}", "duplicate-id")
             joints[joint.name] = joint, element
+        for element in (each for tag in _LOOPS for each in root.all(tag)):
+            cause = f"<{element.tag}> is not solved: joints stand where the pose says"
+            self._slips.note("constraint-not-solved", element, cause)
         base, ordered = in_order(root, links, list(joints.values()))
         name = root.attributes.get("name") or Path(self._path).stem
         robot = Robot(name, self._path, {base: IDENTITY}, links, ordered, geometry=self._geometry)

@@ -189,3 +189,14 @@ def test_a_joint_that_does_not_stand_at_zero_blocks_a_pass(
     moving = joint("j", "a", "b", "universal", axes)
     _, issues = read(tmp_path, sdf(model("m", A, B, moving)))
     assert [each.code for each in issues if each.code != "joint-not-moved"] == codes
+
+
+@pytest.mark.parametrize(("stiffness", "reference", "notes"), [(9, 1, 1), (0, 1, 0), (9, 0, 0)])
+def test_a_spring_that_rests_elsewhere_is_named(
+    tmp_path: Path, stiffness: int, reference: int, notes: int
+) -> None:
+    spring = f"<spring_stiffness>{stiffness}</spring_stiffness>"
+    spring += f"<spring_reference>{reference}</spring_reference>"
+    bent = joint("j", "a", "b", "revolute", axis(inside=f"<dynamics>{spring}</dynamics>"))
+    _, issues = read(tmp_path, sdf(model("m", A, B, bent)))
+    assert [issue.code for issue in issues] == ["constraint-not-solved"] * notes

@@ -314,6 +314,7 @@ UNREAD = [
     (f'<gazebo reference="a">{BOX}</gazebo>', "<collision>: geometry is not read"),
     (f"<transmission><link>{BOX}</link></transmission>", "<link>: the collision in it is not"),
     (f"<gazebo><plugin>{BOX}</plugin></gazebo>", "<plugin>: the collision in it is not read"),
+    (f'<link name="b"><visual>{BOX}</visual></link>', "<visual>: the collision in it is not read"),
     ('<gazebo reference="a"><link name="x"/></gazebo>', "<gazebo>: link is not read"),
     ('<mujoco><worldbody><geom size="1"/></worldbody></mujoco>', "<mujoco>: worldbody is not read"),
 ]
@@ -326,6 +327,12 @@ def test_what_may_hold_or_move_a_body_blocks_a_pass(
     _, issues = read_with_issues(tmp_path, with_two_links(element))
     assert [issue.code for issue in issues] == ["unread"]
     assert said in issues[0].message
+
+
+@pytest.mark.parametrize("tag", ["loop_joint", "drake:ball_constraint"])
+def test_a_loop_that_is_not_solved_is_named(tmp_path: Path, tag: str) -> None:
+    _, issues = read_with_issues(tmp_path, with_two_links(f"<{tag}/>"))
+    assert [issue.code for issue in issues] == ["constraint-not-solved"]
 
 
 HARMLESS = [
