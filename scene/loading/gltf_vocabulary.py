@@ -123,6 +123,13 @@ PLACES = {
         samplers="appearance",
         cameras="no extent",
     ),
+    "asset": _names(
+        "version minVersion extensions",
+        **_reasons(
+            about_the_file="generator copyright author description license profile source title "
+            "premultipliedAlpha"
+        ),
+    ),
     "scene": _names("nodes extensions"),
     "node": _names(
         "children mesh skin matrix translation rotation scale weights extensions",
@@ -176,7 +183,7 @@ class _Look:
 
     def at_file(self, document: dict[str, Any]) -> None:
         self._object(document, "file", "the file")
-        self._extensions(document.get("asset"), "asset", "the asset")
+        self._object(document.get("asset"), "asset", "the asset")
         used = (_texts(document.get(key)) for key in ("extensionsUsed", "extensionsRequired"))
         declared = list(dict.fromkeys(name for names in used for name in names))
         self._unknown.look(EXTENSIONS, declared, "extension", "the file uses an extension")

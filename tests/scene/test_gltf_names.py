@@ -229,6 +229,20 @@ def test_many_keys_before_one_given_twice_take_no_time_of_their_own() -> None:
         parse_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()))
 
 
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [("upAxis", "unread"), ("minversion", "misspelt"), ("author", None), ("extras", None)],
+)
+def test_what_nobody_reads_in_the_asset_is_named(
+    tmp_path: Path, name: str, code: str | None
+) -> None:
+    made, buffer = files.gltf_document()
+    made["asset"][name] = "2.1"
+    (tmp_path / "a.glb").write_bytes(files.glb(made, buffer))
+    issues = load_scene([tmp_path / "a.glb"]).issues
+    assert [issue.code for issue in issues] == ([code] if code else [])
+
+
 def test_an_unknown_extension_of_the_asset_blocks_a_pass(tmp_path: Path) -> None:
     made = document()
     made["asset"]["extensions"] = {"KHR_xmp_json_ld": {}}
