@@ -38,7 +38,8 @@ def read_native(file: File) -> RawScene:
     )
     objects = [] if file.flat else outcome.objects()
     if outcome.several_groups and len(objects) < 2 and not file.flat:
-        said = "left-out", "groups (g) are no bodies: all of the file is one"
+        what = "solids" if file.format == "stl" else "groups (g)"
+        said = "left-out", f"{what} are no bodies: all of the file is one"
         whole = replace(whole, warnings=(*whole.warnings, said))
     return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
 

@@ -33,7 +33,7 @@ struct MeshData {
   std::vector<Warning> warnings;
   std::vector<std::string> objects;  // of an OBJ file: the names of those with faces
   std::vector<Span> spans;           // of these objects; all triangles
-  bool several_groups = false;       // of an OBJ file: faces belong to groups (`g`) of different names
+  bool several_groups = false;       // faces belong to groups (`g`) of OBJ with different names, or to several solids of STL
 };
 
 constexpr std::int64_t nowhere = -1;

@@ -123,12 +123,15 @@ class AsciiStlReader {
   MeshData read() {
     std::string_view word;
     bool open = false;
+    std::size_t start = 0;  // of a solid
     while (words_.next(word)) {
       if (!open && same_word(word, "solid")) {
         open = true;
+        start = mesh_.triangles.size();
         if (name_ends_in_facet()) facet_after_normal();
       } else if (open && ends(word, "endsolid")) {
         open = false;
+        mesh_.several_groups |= 0 < start && start < mesh_.triangles.size();
         if (name_ends_in_facet()) fail_at_line(code::trailing_data, "a facet after endsolid", words_.line());
       } else if (open && same_word(word, "facet")) {
         expect("normal");

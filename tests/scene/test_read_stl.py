@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from satcheck.scene import load_scene
 from tests.scene import files
 from tests.scene.loading import loaded, refusal
 
@@ -56,3 +57,14 @@ def test_several_solids_are_one_mesh(tmp_path):
 def test_no_facet_is_lost(tmp_path, content):
     code, _ = refusal(tmp_path, "a.stl", content)
     assert code in {"bad-record", "trailing-data"}
+
+
+def test_solids_are_no_bodies_and_a_file_of_several_says_so(tmp_path):
+    empty = b"solid a\nendsolid a\n"
+    for content, codes in (
+        (files.ascii_stl() * 2, ["left-out"]),
+        (empty + files.ascii_stl() + empty, []),
+    ):
+        (tmp_path / "a.stl").write_bytes(content)
+        issues = load_scene([tmp_path / "a.stl"]).issues
+        assert [each.code for each in issues if each.code == "left-out"] == codes
