@@ -100,22 +100,12 @@ class _Reader:
             )
 
     def _flex_links(self) -> list[Link]:
-        return [
-            Link(
-                f"flex {flex.name}",
-                (
-                    Collision(
-                        None,
-                        IDENTITY,
-                        _FLEX,
-                        0,
-                        groups=self._exemptions.groups(None, _mask(flex)),
-                    ),
-                ),
-                unused=False,
-            )
-            for flex in self._flexes
-        ]
+        links = []
+        for flex in self._flexes:
+            groups = self._exemptions.groups(None, _mask(flex))
+            lost = Collision(None, IDENTITY, _FLEX, 0, groups=groups)
+            links.append(Link(f"flex {flex.name}", (lost,), unused=False))
+        return links
 
     def _collision(self, number: int, geom: Geom) -> Collision:
         body = self._model.bodies[geom.body]
