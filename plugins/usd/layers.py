@@ -13,10 +13,12 @@ import numpy as np
 from msgspec import Struct
 from pxr import Usd, UsdGeom
 
+from satcheck.plugins.usd.remarks import Remarks
 from satcheck.plugins.usd.unknown import holds_geometry
 
 _SAME = 1e-4  # a share: programs write few digits of a scale
 _UP = {"Y": 1, "Z": 2}
+_METRES = UsdGeom.LinearUnits.centimeters  # where no layer states a unit
 
 
 class Stated(Struct, frozen=True):
@@ -32,28 +34,37 @@ class Stated(Struct, frozen=True):
         up = str(root.GetInfo("upAxis")) if root.HasInfo("upAxis") else None
         return cls(metres, up)
 
+    def missing(self, root: Stated) -> str:
+        """What it does not state although the root has another one than the default."""
+        default = Stated(_METRES, str(UsdGeom.GetFallbackUpAxis()))
+        words = ["metersPerUnit"] if self.metres is None and _ratio(default, root) else []
+        words += ["upAxis"] if self.up is None and root.up != default.up else []
+        return " and ".join(words)
 
-def in_other_units(stage: Any) -> Iterator[tuple[str, str]]:
-    """(code, message) of each layer with geometry that USD places in wrong units or axes."""
-    others = {
-        layer: stated
-        for layer in stage.GetUsedLayers()
-        if layer != stage.GetRootLayer()
-        and (stated := Stated.of(layer)) != Stated(None, None)
-        and any(map(holds_geometry, layer.rootPrims))
-    }
-    root = _of_root(stage, others.values())
-    differing = {layer: each for layer, each in others.items() if _differs(each, root)}
-    if not differing:
-        return
+
+def look_at_layers(stage: Any, said: Remarks) -> None:
+    """Names the layers with geometry that USD places in wrong units or axes, and those that state
+    none, where the stage has others than the default."""
     own = frozenset(stage.GetLayerStack(False))
+    stated = {
+        layer: Stated.of(layer)
+        for layer in stage.GetUsedLayers()
+        if layer != stage.GetRootLayer() and any(map(holds_geometry, layer.rootPrims))
+    }
+    root = _of_root(stage, stated.values())
     places = UsdGeom.XformCache(Usd.TimeCode.EarliestTime())
-    for layer, each in differing.items():
-        if layer in own or not all(
-            _is_resolved(places.GetLocalToWorldTransform(prim), each, root)
-            for prim in _tops(stage, layer)
+    for layer, each in stated.items():
+        name = f"layer {layer.GetDisplayName()}"
+        if _differs(each, root) and (
+            layer in own
+            or not all(
+                _is_resolved(places.GetLocalToWorldTransform(prim), each, root)
+                for prim in _tops(stage, layer)
+            )
         ):
-            yield "unread", f"layer {layer.GetDisplayName()} {_words(each, root)}"
+            said.add("unread", f"{_words(each, root)}; USD does not convert it", name)
+        elif missing := each.missing(root):
+            said.add("assumed-units", f"it states no {missing}: that of the stage counts", name)
 
 
 def _of_root(stage: Any, others: Any) -> Stated:
@@ -111,4 +122,4 @@ def _words(each: Stated, root: Stated) -> str:
         words.append(f"metersPerUnit {each.metres:g}, the stage {root.metres:g}")
     if each.up is not None and each.up != root.up:
         words.append(f"upAxis {each.up}, the stage {root.up}")
-    return f"has {' and '.join(words)}; USD does not convert it"
+    return " and ".join(words)

@@ -127,6 +127,8 @@ class Walk:
             raise MeshFileError("reference-cycle", "a prototype holds it: a cycle")
         instancer, time = UsdGeom.PointInstancer(prim), self._time
         numbers = instancer.GetProtoIndicesAttr().Get(time) or ()
+        if not numbers and instancer.GetPositionsAttr().Get(time):
+            raise MeshFileError("count-mismatch", "it has positions and no protoIndices")
         paths = instancer.GetPrototypesRel().GetForwardedTargets()
         used = sorted(set(numbers))
         if used and not 0 <= used[0] <= used[-1] < len(paths):
