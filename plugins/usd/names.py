@@ -100,6 +100,7 @@ TYPES = Names(
         "behaviour in augmented reality",
     ),
 )
+GEOMETRY = TYPES.read - named("Xform Scope SkelRoot")
 # APIs of colliders that shape them otherwise than `physics:approximation` says.
 SHAPES_OF_COLLIDERS = named(
     """PhysxConvexDecompositionCollisionAPI PhysxConvexHullCollisionAPI PhysxSDFMeshCollisionAPI

@@ -70,6 +70,8 @@ class _Look:
             return
         if kind == "PointInstancer":
             self._prototypes += UsdGeom.PointInstancer(prim).GetPrototypesRel().GetTargets()
+        if not _has_geometry_below(prim):
+            self._at_missing(prim, path)
         for clips in (prim.GetMetadata("clips") or {}).values():
             names.CLIPS.refuse_misspelt(clips, f"{path}: clips")
         self._unread(names.APIS, self._unknown_apis(prim), path, prim)
@@ -79,6 +81,13 @@ class _Look:
         self._at_cards(prim, path)
         if self._choice.collides(prim):
             self._at_collider(prim, path)
+
+    def _at_missing(self, prim: Any, path: str) -> None:
+        """USD says nothing of a class that is not there."""
+        for other in prim.GetInherits().GetAllDirectInherits():
+            if not prim.GetStage().GetPrimAtPath(other):
+                words = f"it inherits {other}, which is no prim: its geometry may be missing"
+                self._said.add("unread", words, path)
 
     def at_overs(self) -> None:
         """Name the prims that are only changed, and defined nowhere."""
@@ -273,6 +282,8 @@ def holds_geometry(spec: Any, kind: str = "") -> bool:
     if (kind or spec.typeName) not in names.LOOKS:
         if spec.hasReferences or spec.hasPayloads or spec.hasInheritPaths:
             return True
-        if any(each.name in _OF_GEOMETRY for each in spec.properties):
+        if spec.typeName in names.GEOMETRY or any(
+            each.name in _OF_GEOMETRY for each in spec.properties
+        ):
             return True
     return any(map(holds_geometry, spec.nameChildren))
