@@ -15,7 +15,6 @@ from satcheck.plugins.usd.layers import look_at_layers
 from satcheck.plugins.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
-from satcheck.plugins.usd.remarks import Remarks
 from satcheck.plugins.usd.shapes import (
     NoSuchShape,
     axis_turn,
@@ -25,7 +24,7 @@ from satcheck.plugins.usd.shapes import (
     shape_of,
 )
 from satcheck.plugins.usd.skinning import Skinning
-from satcheck.plugins.usd.stage import Stage, said, unknown_variants
+from satcheck.plugins.usd.stage import Remarks, Stage, said, unknown_variants
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of

@@ -12,7 +12,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.choice import Choice
-from satcheck.plugins.usd.remarks import Remarks
+from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.walk import type_of
 from satcheck.scene.vocabulary import Names
 
