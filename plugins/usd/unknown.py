@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.choice import Choice
@@ -22,6 +22,7 @@ _RESET, _INVERSE, _OP = "!resetXformStack!", "!invert!", "xformOp:"
 _TOKENS = names.named(
     "visibility purpose orientation subdivisionScheme axis physics:approximation physics:axis"
 )
+_JOINTS = UsdSkel.Tokens.primvarsSkelJointIndices
 _NOT_READ = "is not read; it may hold or move a body"
 _OF_GEOMETRY = names.named(
     "points faceVertexCounts size radius height width length xformOpOrder positions protoIndices"
@@ -79,14 +80,18 @@ class _Look:
         self._at_tokens(prim, path)
         self._at_ops(prim, path)
         self._at_cards(prim, path)
+        self._at_skeleton(prim, path)
         if self._choice.collides(prim):
             self._at_collider(prim, path)
 
     def _at_missing(self, prim: Any, path: str) -> None:
         """USD says nothing of a class that is not there."""
-        for other in prim.GetInherits().GetAllDirectInherits():
+        bases = prim.GetMetadata("specializes")
+        others = [*prim.GetInherits().GetAllDirectInherits()]
+        others += bases.GetAddedOrExplicitItems() if bases and prim.IsA(UsdGeom.Imageable) else []
+        for other in others:
             if not prim.GetStage().GetPrimAtPath(other):
-                words = f"it inherits {other}, which is no prim: its geometry may be missing"
+                words = f"it is like {other}, which is no prim: its geometry may be missing"
                 self._said.add("unread", words, path)
 
     def at_overs(self) -> None:
@@ -152,7 +157,8 @@ class _Look:
             stated = [name for name in found if not prim.GetProperty(name).IsCustom()]
             self._unread(own, stated, path, prim)
         elif prim.IsA(UsdGeom.Imageable):
-            for name in _OF_GEOMETRY.intersection(found):
+            moves = names.OPS.read if _has_geometry_below(prim) else frozenset()
+            for name in sorted((_OF_GEOMETRY | moves).intersection(found)):
                 words = f"{name}: a prim of the type {prim.GetTypeName()} has none"
                 self._said.add("unread", words, path)
 
@@ -210,7 +216,7 @@ class _Look:
         """At the ops that the order does not list, so that they move nothing."""
         moving = [name for name in sorted(idle) if self._moves(prim.GetAttribute(name))]
         if moving and _has_geometry_below(prim):
-            has_order = prim.GetAttribute(_ORDER).HasAuthoredValue()
+            has_order = prim.GetAttribute(_ORDER).Get() is not None
             where = f"not in {_ORDER}" if has_order else f"without {_ORDER}"
             words = f"{', '.join(moving)} {where}: not applied"
             self._said.add("left-out" if has_order else "unread", words, path)
@@ -226,6 +232,14 @@ class _Look:
         if not attribute.HasAuthoredValue():
             self._said.add("unread", f"the op {name} has no value", str(prim.GetPath()))
 
+    def _at_skeleton(self, prim: Any, path: str) -> None:
+        if not prim.IsA(UsdGeom.Gprim) or not prim.HasAPI(UsdSkel.BindingAPI):
+            return
+        is_bound = prim.GetAttribute(_JOINTS).HasAuthoredValue()
+        if is_bound and not (prim.IsA(UsdGeom.Mesh) and UsdSkel.Root.Find(prim)):
+            words = "it is bound to a skeleton, which moves only meshes below a SkelRoot"
+            self._said.add("left-out", words, path)
+
     def _at_cards(self, prim: Any, path: str) -> None:
         if not prim.HasAPI(UsdGeom.ModelAPI) and not prim.HasAttribute("model:drawMode"):
             return
@@ -234,9 +248,11 @@ class _Look:
             self._said.add("unread", f"it is drawn as its extent ({mode}), which is no body", path)
 
     def _at_variants(self, prim: Any, path: str) -> None:
-        for name in prim.GetVariantSets().GetNames():
-            variants = prim.GetVariantSet(name)
-            if not variants.GetVariantSelection() and any(
+        declared = prim.GetVariantSets().GetNames()
+        written = {name for spec in prim.GetPrimStack() for name in spec.variantSets.keys()}  # noqa: SIM118
+        for name in sorted(written.union(declared)):
+            is_composed = name in declared and prim.GetVariantSet(name).GetVariantSelection()
+            if not is_composed and any(
                 holds_geometry(spec, type_of(prim)) for spec in _variants(prim, name)
             ):
                 words = f"no variant of the set {name!r} is selected, and they hold bodies"
@@ -283,7 +299,7 @@ def holds_geometry(spec: Any, kind: str = "") -> bool:
         if spec.hasReferences or spec.hasPayloads or spec.hasInheritPaths:
             return True
         if spec.typeName in names.GEOMETRY or any(
-            each.name in _OF_GEOMETRY for each in spec.properties
+            each.name in _OF_GEOMETRY or each.name.startswith(_OP) for each in spec.properties
         ):
             return True
     return any(map(holds_geometry, spec.nameChildren))

@@ -93,8 +93,13 @@ def test_a_field_of_an_inner_layer_that_is_misspelt_is_refused(
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        ("point3f[] positions = [(0, 0, 0)]", "no protoIndices"),
-        ("int[] protoIndices = []\npoint3f[] positions = [(0, 0, 0)]", "no protoIndices"),
+        ("point3f[] positions = [(0, 0, 0)]", "0 protoIndices"),
+        ("int[] protoIndices = []\npoint3f[] positions = [(0, 0, 0)]", "0 protoIndices"),
+        (
+            "int[] protoIndices = [0]\npoint3f[] positions = [(0, 0, 0)]\n"
+            "float3[] scales = [(9, 9, 9), (1, 1, 1)]",
+            "2 scales",
+        ),
         ("int[] protoIndices = [0]", "0 placements"),
     ],
 )
@@ -118,6 +123,8 @@ def test_an_instancer_whose_indices_come_from_elsewhere_blocks_a_pass(tmp_path: 
         (cube("B", head="active = false"), "inactive"),
         (f'over "B" {{\n{cube("C")}\n}}', "an over that no prim defines"),
         (f'over "B" {{\n{at(1)}\n}}', "an over that no prim defines"),
+        ('over "B" {\n double3 xformOp:translate = (1, 0, 0)\n}', "an over that no prim defines"),
+        ('def Cube "B" (active = false) {\n}', "inactive"),
     ],
 )
 def test_a_prim_that_is_not_there_is_named(tmp_path: Path, text: str, words: str) -> None:
@@ -180,6 +187,17 @@ def test_a_layer_that_states_no_unit_is_named(
         cube("A", at(1) + "double3 xformOp:translate.connect = </B.p>"),
         cube("A", "token visibility.connect = </B.p>"),
         cube("A", "rel skel:skeleton = </K>"),
+        f'def Xform "X" {{\n double3 translate = (1, 0, 0)\n{cube("A")}\n}}',
+        cube(
+            "A",
+            "double3 xformOp:translate = (1, 0, 0)\n"
+            'token[] xformOpOrder.timeSamples = {\n 0: ["xformOp:translate"],\n}',
+        ),
+        'def Xform "X" (inherits = </C>) {\n}\n' + cube("B"),
+        'def Xform "X" (specializes = </C>) {\n}\n' + cube("B"),
+        f'def Xform "X" {{\n variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
+        'def "Set" (prepend variantSets = "v") {\n variantSet "v" = {\n "near" {\n'
+        ' def Cube "A" {\n}\n}\n}\n}\n' + cube("B"),
         'def "Made" (prepend apiSchemas = ["GeneratorAPI"]) {\n}\n' + cube("B"),
         f'def Camera "C" {{\n double3 xformOp:translate = (1, 0, 0)\n{cube("A")}\n}}',
         f'def Material "M" {{\n{cube("A", "double bulge = 3")}\n}}',
@@ -348,3 +366,23 @@ def test_geometry_in_a_type_without_any_blocks_a_pass(tmp_path: Path, kind: str)
 def test_an_old_name_about_subdivision_is_harmless(tmp_path: Path) -> None:
     old = 'uniform token boundaryInterpolation = "edgeAndCorner"'
     assert "unread" not in said(load(tmp_path, stage(cube("A", old))))
+
+
+def test_value_clips_without_files_are_lost(tmp_path: Path) -> None:
+    clips = """clips = {
+        dictionary default = {
+            string templateAssetPath = "./none.#.usda"
+            double templateStartTime = 1
+            double templateEndTime = 2
+            double templateStride = 1
+            string primPath = "/P"
+        }
+    }"""
+    text = stage(cube("A"), f'def Xform "X" (\n{clips}\n) {{\n}}')
+    ((code, message),) = refusals(load(tmp_path, text))
+    assert (code, "value clip" in message) == ("missing-resource", True)
+
+
+def test_a_mesh_that_no_skeleton_can_move_is_named(tmp_path: Path) -> None:
+    bound = cube("A", "int[] primvars:skel:jointIndices = [0]", api='"SkelBindingAPI"')
+    assert "SkelRoot" in said(load(tmp_path, stage(bound)))["left-out"]
