@@ -161,16 +161,18 @@ def unknown_variants(stage: Any) -> dict[str, Refusal]:
 
 
 def _lost_clips(stage: Any) -> dict[str, Refusal]:
-    lost = {}
-    for prim in stage.Traverse():
-        api = Usd.ClipsAPI(prim)
-        for name in (api.GetClips() or ()) if prim.HasAuthoredMetadata("clips") else ():
-            paths = api.ComputeClipAssetPaths(name)
-            missing = [path.path for path in paths if not path.resolvedPath]
-            if missing or (api.GetClipTemplateAssetPath(name) and not paths):
-                message = f"missing value clip {missing[0]!r}" if missing else "no value clip"
-                lost[str(prim.GetPath())] = Refusal("missing-resource", f"{message} of {name!r}")
-    return lost
+    return {
+        str(prim.GetPath()): Refusal("missing-resource", f"missing value clip {path.path!r}")
+        for prim in stage.Traverse()
+        if prim.HasAuthoredMetadata("clips")
+        for path in _clips(Usd.ClipsAPI(prim))
+        if not path.resolvedPath
+    }
+
+
+def _clips(api: Any) -> Iterator[Any]:
+    for name in api.GetClips() or ():
+        yield from api.GetClipAssetPaths(name) or ()
 
 
 def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:

@@ -92,7 +92,7 @@ class _Look:
         for other in others:
             if not prim.GetStage().GetPrimAtPath(other):
                 words = f"it is like {other}, which is no prim: its geometry may be missing"
-                self._said.add("unread", words, path)
+                self._said.add("left-out", words, path)
 
     def at_overs(self) -> None:
         """Name the prims that are only changed, and defined nowhere."""

@@ -193,8 +193,6 @@ def test_a_layer_that_states_no_unit_is_named(
             "double3 xformOp:translate = (1, 0, 0)\n"
             'token[] xformOpOrder.timeSamples = {\n 0: ["xformOp:translate"],\n}',
         ),
-        'def Xform "X" (inherits = </C>) {\n}\n' + cube("B"),
-        'def Xform "X" (specializes = </C>) {\n}\n' + cube("B"),
         f'def Xform "X" {{\n variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
         'def "Set" (prepend variantSets = "v") {\n variantSet "v" = {\n "near" {\n'
         ' def Cube "A" {\n}\n}\n}\n}\n' + cube("B"),
@@ -368,19 +366,10 @@ def test_an_old_name_about_subdivision_is_harmless(tmp_path: Path) -> None:
     assert "unread" not in said(load(tmp_path, stage(cube("A", old))))
 
 
-def test_value_clips_without_files_are_lost(tmp_path: Path) -> None:
-    clips = """clips = {
-        dictionary default = {
-            string templateAssetPath = "./none.#.usda"
-            double templateStartTime = 1
-            double templateEndTime = 2
-            double templateStride = 1
-            string primPath = "/P"
-        }
-    }"""
-    text = stage(cube("A"), f'def Xform "X" (\n{clips}\n) {{\n}}')
-    ((code, message),) = refusals(load(tmp_path, text))
-    assert (code, "value clip" in message) == ("missing-resource", True)
+@pytest.mark.parametrize("arc", ["inherits", "specializes"])
+def test_a_class_that_is_missing_is_named(tmp_path: Path, arc: str) -> None:
+    text = f'def Xform "X" ({arc} = </C>) {{\n}}\n'
+    assert "/C" in said(load(tmp_path, stage(text, cube("B"))))["left-out"]
 
 
 def test_a_mesh_that_no_skeleton_can_move_is_named(tmp_path: Path) -> None:
