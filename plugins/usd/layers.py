@@ -54,8 +54,8 @@ def look_at_layers(stage: Any, said: Remarks) -> None:
         missing = ["metersPerUnit"] if each.metres is None and _ratio(default, root) else []
         missing += ["upAxis"] if each.up is None and root.up != default.up else []
         if missing:
-            words = f"it states no {' and '.join(missing)}: that of the stage counts"
-            said.add("assumed-units", words, name)
+            what = " and ".join(missing)
+            said.add("assumed-units", f"it states no {what}: that of the stage counts", name)
 
 
 def _stated(layer: Any) -> Metrics:
