@@ -216,10 +216,8 @@ class _Look:
         """At the ops that the order does not list, so that they move nothing."""
         moving = [name for name in sorted(idle) if self._moves(prim.GetAttribute(name))]
         if moving and _has_geometry_below(prim):
-            has_order = prim.GetAttribute(_ORDER).Get() is not None
-            where = f"not in {_ORDER}" if has_order else f"without {_ORDER}"
-            words = f"{', '.join(moving)} {where}: not applied"
-            self._said.add("left-out" if has_order else "unread", words, path)
+            words = f"{', '.join(moving)} not in {_ORDER}: not applied"
+            self._said.add("left-out", words, path)
 
     def _moves(self, op: Any) -> bool:
         if op.GetName().split(":")[1] not in names.OPS.read or not op.HasAuthoredValue():
