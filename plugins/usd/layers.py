@@ -1,7 +1,8 @@
 """Layers of a stage that state another unit or up axis than its root. USD does not convert them.
 
 Where the prim that brings in the layer scales and turns it, as programs do that resolve units, all
-is well. Else its bodies are too large, too small, or lie on their side.
+is well. Else its bodies are too large, too small, or lie on their side. A layer that states nothing
+may be meant in the units of the stage: it is named.
 """
 
 from __future__ import annotations
@@ -13,67 +14,73 @@ import numpy as np
 from msgspec import Struct
 from pxr import Usd, UsdGeom
 
+from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.unknown import holds_geometry
 
 _SAME = 1e-4  # a share: programs write few digits of a scale
 _UP = {"Y": 1, "Z": 2}
 
 
-class Stated(Struct, frozen=True):
-    """metres, up: of a layer; None: it states none."""
+class Metrics(Struct, frozen=True):
+    """metres of a unit, and the up axis; None: a layer states none."""
 
     metres: float | None
     up: str | None
 
-    @classmethod
-    def of(cls, layer: Any) -> Stated:
-        root = layer.pseudoRoot
-        metres = root.GetInfo("metersPerUnit") if root.HasInfo("metersPerUnit") else None
-        up = str(root.GetInfo("upAxis")) if root.HasInfo("upAxis") else None
-        return cls(metres, up)
 
-
-def in_other_units(stage: Any) -> Iterator[tuple[str, str]]:
-    """(code, message) of each layer with geometry that USD places in wrong units or axes."""
-    others = {
-        layer: stated
-        for layer in stage.GetUsedLayers()
-        if layer != stage.GetRootLayer()
-        and (stated := Stated.of(layer)) != Stated(None, None)
-        and any(map(holds_geometry, layer.rootPrims))
-    }
-    root = _of_root(stage, others.values())
-    differing = {layer: each for layer, each in others.items() if _differs(each, root)}
-    if not differing:
-        return
+def look_at_layers(stage: Any, said: Remarks) -> None:
+    """Names the layers with geometry that USD places in wrong units or axes, and those that state
+    none, where the stage has others than the default."""
     own = frozenset(stage.GetLayerStack(False))
+    stated = {
+        layer: _stated(layer)
+        for layer in stage.GetUsedLayers()
+        if layer != stage.GetRootLayer() and any(map(holds_geometry, layer.rootPrims))
+    }
+    root = _of_root(stage, stated.values())
+    default = Metrics(UsdGeom.LinearUnits.centimeters, str(UsdGeom.GetFallbackUpAxis()))
     places = UsdGeom.XformCache(Usd.TimeCode.EarliestTime())
-    for layer, each in differing.items():
-        if layer in own or not all(
-            _is_resolved(places.GetLocalToWorldTransform(prim), each, root)
-            for prim in _tops(stage, layer)
+    for layer, each in stated.items():
+        name, words = f"layer {layer.GetDisplayName()}", _words(each, root)
+        if words and (
+            layer in own
+            or not all(
+                _is_resolved(places.GetLocalToWorldTransform(prim), each, root)
+                for prim in _tops(stage, layer)
+            )
         ):
-            yield "unread", f"layer {layer.GetDisplayName()} {_words(each, root)}"
+            said.add("unread", f"{' and '.join(words)}; USD does not convert it", name)
+            continue
+        missing = ["metersPerUnit"] if each.metres is None and _ratio(default, root) else []
+        missing += ["upAxis"] if each.up is None and root.up != default.up else []
+        if missing:
+            what = " and ".join(missing)
+            said.add("assumed-units", f"it states no {what}: that of the stage counts", name)
 
 
-def _of_root(stage: Any, others: Any) -> Stated:
+def _stated(layer: Any) -> Metrics:
+    root = layer.pseudoRoot
+    metres = root.GetInfo("metersPerUnit") if root.HasInfo("metersPerUnit") else None
+    return Metrics(metres, str(root.GetInfo("upAxis")) if root.HasInfo("upAxis") else None)
+
+
+def _of_root(stage: Any, others: Any) -> Metrics:
     """What the root states. If it states none, what all others state alike, else the default."""
-    root = Stated.of(stage.GetRootLayer())
-    metres, up = root.metres, root.up
-    if metres is None:
-        known = {each.metres for each in others if each.metres is not None}
-        metres = known.pop() if len(known) == 1 else UsdGeom.GetStageMetersPerUnit(stage)
-    if up is None:
-        axes = {each.up for each in others if each.up is not None}
-        up = axes.pop() if len(axes) == 1 else str(UsdGeom.GetStageUpAxis(stage))
-    return Stated(metres, up)
+    own = _stated(stage.GetRootLayer())
+    metres = own.metres or _only(each.metres for each in others)
+    up = own.up or _only(each.up for each in others)
+    return Metrics(
+        metres or UsdGeom.GetStageMetersPerUnit(stage), up or str(UsdGeom.GetStageUpAxis(stage))
+    )
 
 
-def _differs(each: Stated, root: Stated) -> bool:
-    return _ratio(each, root) is not None or (each.up is not None and each.up != root.up)
+def _only(values: Any) -> Any:
+    """The one value among these; None: there are none, or others."""
+    known = {value for value in values if value is not None}
+    return known.pop() if len(known) == 1 else None
 
 
-def _ratio(each: Stated, root: Stated) -> float | None:
+def _ratio(each: Metrics, root: Metrics) -> float | None:
     """How much larger the unit of the layer is; None: it is the same."""
     if each.metres is None or not root.metres:
         return None
@@ -92,23 +99,24 @@ def _tops(stage: Any, layer: Any) -> Iterator[Any]:
             yield prim
 
 
-def _is_resolved(matrix: Any, each: Stated, root: Stated) -> bool:
+def _is_resolved(matrix: Any, each: Metrics, root: Metrics) -> bool:
     """Whether the placement has the scale and the turn between the units and axes."""
     rows = np.array(matrix)[:3, :3]
-    ratio = _ratio(each, root)
     scales = np.linalg.norm(rows, axis=1)
-    if ratio is not None and not np.allclose(scales, ratio, rtol=_SAME, atol=0):
+    if not np.allclose(scales, _ratio(each, root) or scales, rtol=_SAME, atol=0):
         return False
     if each.up is None or each.up == root.up:
         return True
-    up = rows[_UP.get(each.up, 0)] / (scales[_UP.get(each.up, 0)] or 1)
-    return bool(np.allclose(up, np.eye(3)[_UP.get(root.up or "Y", 1)], rtol=0, atol=_SAME))
+    axis = _UP.get(each.up, 0)
+    turned = rows[axis] / (scales[axis] or 1)
+    return bool(np.allclose(turned, np.eye(3)[_UP.get(root.up or "Y", 1)], rtol=0, atol=_SAME))
 
 
-def _words(each: Stated, root: Stated) -> str:
+def _words(each: Metrics, root: Metrics) -> list[str]:
+    """How the layer differs from the stage."""
     words = []
     if _ratio(each, root) is not None:
         words.append(f"metersPerUnit {each.metres:g}, the stage {root.metres:g}")
     if each.up is not None and each.up != root.up:
         words.append(f"upAxis {each.up}, the stage {root.up}")
-    return f"has {' and '.join(words)}; USD does not convert it"
+    return words

@@ -7,7 +7,8 @@ misspelt. Source: the schemas of UsdGeom, UsdPhysics and UsdSkel.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import cache
 
 from pxr import Usd
 
@@ -19,15 +20,22 @@ def named(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
+def _all(text: str, reason: str) -> dict[str, str]:
+    """Why the names of a text are harmless."""
+    return dict.fromkeys(text.split(), reason)
+
+
 # Properties of schemas that make, move, hide or shape a body.
-_SHAPING = named(
+SHAPING = named(
     """xformOpOrder visibility purpose points faceVertexCounts faceVertexIndices holeIndices
     orientation subdivisionScheme tetVertexIndices surfaceFaceVertexIndices size radius height axis
     width length radiusTop radiusBottom protoIndices prototypes positions orientations orientationsf
     scales ids invisibleIds inactiveIds velocities angularVelocities accelerations widths
     curveVertexCounts"""
 )
-OF_ALL_PRIMS = frozenset(("xformOpOrder", "visibility", "purpose"))
+OF_ALL_PRIMS = named("xformOpOrder visibility purpose")
+# Their geometry is none of the scene, unless it stands below them.
+LOOKS = named("Material Shader NodeGraph Camera")
 
 LAYER = Names(
     named(
@@ -41,6 +49,13 @@ PRIM = Names(
     apiSchemas clips clipSets relocates specifier typeName kind hidden"""
     )
 )
+PROPERTY = Names(named("elementSize interpolation"))
+CLIPS = Names(
+    named(
+        """assetPaths manifestAssetPath primPath active times interpolateMissingClipValues
+    templateAssetPath templateStride templateStartTime templateEndTime templateActiveOffset"""
+    )
+)
 # Kinds of ops, of UsdGeomXformOp.
 OPS = Names(
     named(
@@ -52,65 +67,40 @@ OPS = Names(
 PROPERTIES = {
     "boundaryInterpolation": "an old name about subdivision; the control cage is checked",
     "proxyPrim": "a prim that is drawn instead, and is a prim of its own",
-    "extent": "bounds of what is below",
-    "extentsHint": "bounds of what is below",
+    **_all("extent extentsHint", "bounds of what is below"),
 }
-PRIMVARS = Names(
-    named(
-        """widths skel:jointIndices skel:jointWeights skel:geomBindTransform skel:joints
-    skel:skinningMethod"""
-    )
-)
 APIS = Names(
     named(
         """PhysicsCollisionAPI PhysicsMeshCollisionAPI PhysicsRigidBodyAPI PhysicsFilteredPairsAPI
         SkelBindingAPI GeomModelAPI CollectionAPI"""
     ),
-    {
-        **dict.fromkeys(
-            ("Physx*", "Newton*", "Mjc*", "Isaac*", "Robot*", "Preliminary_Physics*"),
-            "of a simulator: materials, solvers, sensors, joints",
-        ),
-        **dict.fromkeys(
-            (
-                "Pxr*",
-                "RiMaterial*",
-                "RiSpline*",
-                "RiLight*",
-                "RiTexture*",
-                "RiRenderPass*",
-                "Karma*",
-                "HoudiniEditable*",
-                "HoudiniCamera*",
-                "HoudiniViewport*",
-                "HoudiniSelectable*",
-                "Arnold*",
-                "Redshift*",
-                "Light*",
-                "*LightAPI",
-                "*LightFilterAPI",
-            ),
-            "of a renderer",
-        ),
-        **dict.fromkeys(("Omni*", "Semantic*", "SceneGraph*", "Nv*"), "of a program: metadata"),
-    },
+    _all(
+        "Physx* Newton* Mjc* Isaac* Robot* Preliminary_Physics*",
+        "of a simulator: materials, solvers, sensors, joints",
+    )
+    | _all(
+        """Pxr* RiMaterial* RiSpline* RiLight* RiTexture* RiRenderPass* Karma* HoudiniEditable*
+        HoudiniCamera* HoudiniViewport* HoudiniSelectable* Arnold* Redshift* Light* *LightAPI
+        *LightFilterAPI""",
+        "of a renderer",
+    )
+    | _all("Omni* Semantic* SceneGraph* Nv*", "of a program: metadata"),
 )
 TYPES = Names(
     named(
-    """Mesh TetMesh Sphere Cube Cylinder Cylinder_1 Cone Capsule Capsule_1 Plane Xform Scope
-    PointInstancer SkelRoot"""
-),
-    {
-        **dict.fromkeys(("Omni*", "ComputeGraph*", "Backdrop"), "graphs and settings of a program"),
-        **dict.fromkeys(("Isaac*", "Physx*", "Newton*", "Mjc*"), "settings of a simulator"),
-        **dict.fromkeys(("Pxr*Filter", "Pxr*Light", "Pxr*Camera"), "of a renderer"),
-        **dict.fromkeys(
-            ("Preliminary_Action", "Preliminary_Behavior", "Preliminary_Trigger",
-             "Preliminary_ReferenceImage", "Preliminary_AnchoringAPI", "RealityKit*"),
-            "behaviour in augmented reality",
-        ),
-    },
-)  # fmt: skip
+        """Mesh TetMesh Sphere Cube Cylinder Cylinder_1 Cone Capsule Capsule_1 Plane Xform Scope
+        PointInstancer SkelRoot"""
+    ),
+    _all("Omni* ComputeGraph* Backdrop", "graphs and settings of a program")
+    | _all("Isaac* Physx* Newton* Mjc*", "settings of a simulator")
+    | _all("Pxr*Filter Pxr*Light Pxr*Camera", "of a renderer")
+    | _all(
+        """Preliminary_Action Preliminary_Behavior Preliminary_Trigger Preliminary_ReferenceImage
+        Preliminary_AnchoringAPI RealityKit*""",
+        "behaviour in augmented reality",
+    ),
+)
+GEOMETRY = TYPES.read - named("Xform Scope SkelRoot")
 # APIs of colliders that shape them otherwise than `physics:approximation` says.
 SHAPES_OF_COLLIDERS = named(
     """PhysxConvexDecompositionCollisionAPI PhysxConvexHullCollisionAPI PhysxSDFMeshCollisionAPI
@@ -118,23 +108,26 @@ SHAPES_OF_COLLIDERS = named(
 )
 
 
+@cache
 def of_type(names: Iterable[str]) -> Names:
     """The names of a prim without a name space. names: those of its schemas."""
     own = frozenset(names)
-    harmless = {**PROPERTIES, **dict.fromkeys(own - _SHAPING, "of its schema")}
-    return Names((own & _SHAPING) | OF_ALL_PRIMS, harmless)
+    harmless = PROPERTIES | dict.fromkeys(own - SHAPING, "of its schema")
+    return Names((own & SHAPING) | OF_ALL_PRIMS, harmless)
 
 
-def of_physics() -> Names:
-    """The names in the name space `physics:`, without it."""
+@cache
+def of_spaces() -> Mapping[str, Names]:
+    """The names in each name space whose properties move, shape or exempt bodies, without it."""
     registry = Usd.SchemaRegistry()
-    schemas = ("CollisionAPI", "MeshCollisionAPI", "RigidBodyAPI", "FilteredPairsAPI")
-    known = {
-        name.partition(":")[2]
-        for schema in schemas
-        for name in registry.FindAppliedAPIPrimDefinition(f"Physics{schema}").GetPropertyNames()
-    }
+    apis = ("Collision", "MeshCollision", "RigidBody", "FilteredPairs")
+    schemas = [registry.FindAppliedAPIPrimDefinition(f"Physics{api}API") for api in apis]
+    schemas.append(registry.FindAppliedAPIPrimDefinition("SkelBindingAPI"))
     for kind in ("RevoluteJoint", "PrismaticJoint", "CollisionGroup"):
-        names = registry.FindConcretePrimDefinition(f"Physics{kind}").GetPropertyNames()
-        known |= {name.partition(":")[2] for name in names if name.startswith("physics:")}
-    return Names(frozenset(known))
+        schemas.append(registry.FindConcretePrimDefinition(f"Physics{kind}"))
+    found = {"primvars": {"widths"}, "xformOp": set(OPS.read)}
+    for name in (name for schema in schemas for name in schema.GetPropertyNames()):
+        space, _, rest = name.partition(":")
+        if rest:
+            found.setdefault(space, set()).add(rest)
+    return {space: Names(frozenset(known)) for space, known in found.items()}

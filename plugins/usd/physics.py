@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
-from satcheck.plugins.usd.remarks import Remarks
+from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.walk import WORLD, Frame, PlacedPrim, of_prototype
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
 

@@ -1,15 +1,35 @@
-"""What the registry knows of USD files."""
+"""What the registry knows of USD files: usda, usdc and usdz, read with usd-core. A body for each
+geometric prim, named by its path."""
 
 from __future__ import annotations
 
-from satcheck.scene.loading.readers import Reader
+import os
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.extras import imported
+from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.readers import File, Reader
+
+
+def read_usd(file: File) -> RawScene:
+    """Return the bodies of a stage. Raises MeshFileError."""
+    os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
+    tf = imported("pxr.Tf", "usd", "USD files")
+    from satcheck.plugins.usd.reading import read_scene  # imports usd-core
+    from satcheck.plugins.usd.stage import open_stage, said
+
+    try:
+        return read_scene(open_stage(file.location, file.permitted), file.options)
+    except tf.ErrorException as error:
+        raise MeshFileError("bad-record", f"not a valid USD file: {said(error)}") from None
+
 
 READERS = (
     Reader(
         "usd",
         "USD",
         (".usd", ".usda", ".usdc", ".usdz"),
-        "satcheck.plugins.usd.reader:read_usd",
+        "satcheck.plugins.usd.readers:read_usd",
         kind="document",
         options=("time", "geometry", "purpose"),
         marks=(b"PK\x03\x04",),

@@ -11,11 +11,10 @@ from satcheck.core.shapes import HalfSpace, Primitive
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.choice import Choice
 from satcheck.plugins.usd.joints import Joints
-from satcheck.plugins.usd.layers import in_other_units
+from satcheck.plugins.usd.layers import look_at_layers
 from satcheck.plugins.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
-from satcheck.plugins.usd.remarks import Remarks
 from satcheck.plugins.usd.shapes import (
     NoSuchShape,
     axis_turn,
@@ -25,7 +24,7 @@ from satcheck.plugins.usd.shapes import (
     shape_of,
 )
 from satcheck.plugins.usd.skinning import Skinning
-from satcheck.plugins.usd.stage import Stage, said, unknown_variants
+from satcheck.plugins.usd.stage import Remarks, Stage, said, unknown_variants
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
@@ -60,6 +59,7 @@ class _Reading:
     def scene(self) -> RawScene:
         self._refuse_lost_in_instances()
         look_at_stage(self._stage.stage, self._choice, self._said)
+        look_at_layers(self._stage.stage, self._said)
         self._lost |= unknown_variants(self._stage.stage)
         for placed in Walk(self._stage.stage, self._choice.time).prims():
             self._take(placed)
@@ -68,7 +68,6 @@ class _Reading:
         warnings = (
             *self._stage.warnings,
             *self._of_time(),
-            *in_other_units(self._stage.stage),
             *self._said.warnings(),
         )
         if not self._nodes:

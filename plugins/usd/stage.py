@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
+from pxr import Ar, Sdf, Usd, UsdGeom
 
 from satcheck.core.transform import Transform
+from satcheck.plugins.usd.names import LOOKS
+from satcheck.plugins.usd.outside import Closed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -56,12 +59,24 @@ class Stage(Struct, frozen=True):
         return (*scaled, *columns[3])
 
 
+class Remarks:
+    """Collects prims by what is said of them, for one warning each."""
+
+    def __init__(self) -> None:
+        self._names: dict[tuple[str, str], list[str]] = {}
+
+    def add(self, code: str, words: str, name: str) -> None:
+        """words: after the name of prims and a colon."""
+        self._names.setdefault((code, words), []).append(name)
+
+    def warnings(self) -> Iterator[tuple[str, str]]:
+        for (code, words), names in self._names.items():
+            others = f" and {len(names) - 1} more" if len(names) > 1 else ""
+            yield code, f"{names[0]}{others}: {words}"
+
+
 def open_stage(location: Path, permitted: Permitted) -> Stage:
     """permitted: where its layers may lie. Raises MeshFileError, and what the library raises."""
-    from pxr import Sdf, Usd, UsdGeom
-
-    from satcheck.plugins.usd.outside import Closed
-
     closed = Closed(permitted, location.parent)
     root = Sdf.Layer.FindOrOpen(str(location))
     if root is not None and not permitted.anywhere:
@@ -96,8 +111,6 @@ def said(error: Exception) -> str:
 
 def _note_files(layers: list[Any]) -> None:
     """The layers, and those that they name, even if they are not there."""
-    from pxr import Ar, Sdf
-
     for layer in layers:
         note(Ar.SplitPackageRelativePathOuter(layer.realPath)[0])
         for name in filter(None, layer.GetCompositionAssetDependencies()):
@@ -128,17 +141,11 @@ def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str,
 
 def _may_hold_bodies(prim: Any) -> bool:
     """Whether geometry may be missing below a prim with an unresolved reference."""
-    if not prim:
-        return True
-    if prim.IsAbstract():
-        return False
-    return prim.GetTypeName() not in ("Material", "Shader", "NodeGraph", "Camera")
+    return not prim or not (prim.IsAbstract() or prim.GetTypeName() in LOOKS)
 
 
 def unknown_variants(stage: Any) -> dict[str, Refusal]:
     """Prim -> why a variant that it selects is missing. USD says nothing of these."""
-    from pxr import Usd
-
     lost: dict[str, Refusal] = {}
     for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
         if not prim.HasVariantSets() or not _may_hold_bodies(prim):
@@ -154,8 +161,6 @@ def unknown_variants(stage: Any) -> dict[str, Refusal]:
 
 
 def _lost_clips(stage: Any) -> dict[str, Refusal]:
-    from pxr import Usd
-
     return {
         str(prim.GetPath()): Refusal("missing-resource", f"missing value clip {path.path!r}")
         for prim in stage.Traverse()
@@ -172,8 +177,6 @@ def _clips(api: Any) -> Iterator[Any]:
 
 def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
     """(unit, factor from stage units to it). Only the root layer's value counts."""
-    from pxr import UsdGeom
-
     metres = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)  # some files store it as float32
     if not (isinstance(metres, float) and math.isfinite(metres) and metres > 0):
         raise MeshFileError("bad-record", f"metersPerUnit is {metres}")

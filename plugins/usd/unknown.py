@@ -4,26 +4,25 @@ are none, ops that are not there."""
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from functools import cache
 from typing import Any
 
-from pxr import Sdf, Usd, UsdGeom, UsdShade
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.choice import Choice
-from satcheck.plugins.usd.remarks import Remarks
+from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.walk import type_of
 from satcheck.scene.vocabulary import Names
 
-# What is below these shapes no body.
-_OF_LOOKS = frozenset(("Material", "Shader", "NodeGraph", "Camera"))
 _ORDER = UsdGeom.Tokens.xformOpOrder
 _RESET, _INVERSE, _OP = "!resetXformStack!", "!invert!", "xformOp:"
 # Tokens that place, hide or shape a body.
 _TOKENS = names.named(
     "visibility purpose orientation subdivisionScheme axis physics:approximation physics:axis"
 )
+_JOINTS = UsdSkel.Tokens.primvarsSkelJointIndices
 _NOT_READ = "is not read; it may hold or move a body"
 _OF_GEOMETRY = names.named(
     "points faceVertexCounts size radius height width length xformOpOrder positions protoIndices"
@@ -33,46 +32,76 @@ _OF_GEOMETRY = names.named(
 def look_at_stage(stage: Any, choice: Choice, said: Remarks) -> None:
     """Says what the stage holds that is not read. Raises SatcheckError for names that are
     misspelt."""
+    for layer in stage.GetUsedLayers():
+        alone = Usd.Stage.OpenMasked(layer, Usd.StagePopulationMask())
+        root = layer == stage.GetRootLayer()
+        place = "the root layer" if root else f"layer {layer.GetDisplayName()}"
+        names.LAYER.refuse_misspelt(_unregistered(alone.GetPseudoRoot()), place)
     look = _Look(choice, said)
-    look.at_layer(stage)
-    prims = iter(Usd.PrimRange.AllPrims(stage.GetPseudoRoot()))
-    for prim in prims:
-        if prim.IsPseudoRoot():
-            continue
-        if type_of(prim) == "Material" and prim.IsActive():
-            look.at_material(prim)
-        if not prim.IsActive() or prim.IsAbstract() or type_of(prim) in _OF_LOOKS:
-            prims.PruneChildren()
-        else:
-            look.at(prim)
-    for prototype in stage.GetPrototypes():
-        for prim in Usd.PrimRange.AllPrims(prototype):
-            if prim != prototype:
+    for top in (stage.GetPseudoRoot(), *stage.GetPrototypes()):
+        prims = iter(Usd.PrimRange.AllPrims(top))
+        for prim in prims:
+            if prim.IsAbstract() or not prim.IsActive():
+                prims.PruneChildren()
+            if prim != top and not prim.IsAbstract():
                 look.at(prim)
+    look.at_overs()
 
 
 class _Look:
     def __init__(self, choice: Choice, said: Remarks) -> None:
         self._choice = choice
         self._said = said
-        self._physics = names.of_physics()
-
-    def at_layer(self, stage: Any) -> None:
-        names.LAYER.refuse_misspelt(_unregistered(stage.GetPseudoRoot()), "the root layer")
+        self._overs: list[Any] = []
+        self._prototypes: list[Any] = []  # paths
 
     def at(self, prim: Any) -> None:
-        path = str(prim.GetPath())
+        path, kind = str(prim.GetPath()), type_of(prim)
+        if not prim.IsActive():
+            if any(map(holds_geometry, prim.GetPrimStack())):
+                self._said.add("not-a-body", "inactive", path)
+            return
+        if not prim.IsDefined() and prim.GetParent().IsDefined():
+            self._overs.append(prim)
         names.PRIM.refuse_misspelt(_unregistered(prim), path)
+        self._at_variants(prim, path)
+        if kind == "Material":
+            self._at_material(prim)
+        if kind in names.LOOKS and not _has_geometry_below(prim):
+            return
+        if kind == "PointInstancer":
+            self._prototypes += UsdGeom.PointInstancer(prim).GetPrototypesRel().GetTargets()
+        if not _has_geometry_below(prim):
+            self._at_missing(prim, path)
+        for clips in (prim.GetMetadata("clips") or {}).values():
+            names.CLIPS.refuse_misspelt(clips, f"{path}: clips")
         self._unread(names.APIS, self._unknown_apis(prim), path, prim)
         self._at_properties(prim, path)
         self._at_tokens(prim, path)
         self._at_ops(prim, path)
         self._at_cards(prim, path)
-        self._at_variants(prim, path)
+        self._at_skeleton(prim, path)
         if self._choice.collides(prim):
             self._at_collider(prim, path)
 
-    def at_material(self, prim: Any) -> None:
+    def _at_missing(self, prim: Any, path: str) -> None:
+        """USD says nothing of a class that is not there."""
+        bases = prim.GetMetadata("specializes")
+        others = [*prim.GetInherits().GetAllDirectInherits()]
+        others += bases.GetAddedOrExplicitItems() if bases and prim.IsA(UsdGeom.Imageable) else []
+        for other in others:
+            if not prim.GetStage().GetPrimAtPath(other):
+                words = f"it is like {other}, which is no prim: its geometry may be missing"
+                self._said.add("left-out", words, path)
+
+    def at_overs(self) -> None:
+        """Name the prims that are only changed, and defined nowhere."""
+        for prim in self._overs:
+            is_placed = any(path.HasPrefix(prim.GetPath()) for path in self._prototypes)
+            if not is_placed and any(map(holds_geometry, prim.GetPrimStack())):
+                self._said.add("not-a-body", "an over that no prim defines", str(prim.GetPath()))
+
+    def _at_material(self, prim: Any) -> None:
         """A preview surface may displace the surface. Connections for single renderers are written
         by habit, and say nothing."""
         if self._choice.colliders:
@@ -86,8 +115,9 @@ class _Look:
 
     def _unread(self, known: Names, found: Iterable[str], path: str, prim: Any) -> None:
         """Says which of these names nobody knows. Raises SatcheckError for one that is misspelt."""
+        takes_space = prim.IsA(UsdGeom.Imageable) or not prim.GetTypeName()
         for name in found:
-            if list(known.unread([name], path)) and prim.IsA(UsdGeom.Imageable):
+            if list(known.unread([name], path)) and takes_space:
                 self._said.add("unread", f"{name} {_NOT_READ}", path)
 
     def _unknown_apis(self, prim: Any) -> Iterator[str]:
@@ -98,32 +128,52 @@ class _Look:
                 yield kind
 
     def _at_properties(self, prim: Any, path: str) -> None:
-        authored = prim.GetAuthoredPropertyNames()
         known = frozenset(prim.GetPrimDefinition().GetPropertyNames())
-        plain, physics, primvars = [], [], []
-        for name in authored:
+        unknown = defaultdict(list)
+        spaces = names.of_spaces()
+        for name in prim.GetAuthoredPropertyNames():
             space, _, rest = name.partition(":")
-            if name in known:
-                continue
-            if not rest:
-                plain.append(name)
-            elif space == "physics":
-                physics.append(rest)
-            elif space == "primvars":
-                primvars.append(rest)
-        if plain:
-            own = _names_of(known)
-            custom = {name for name in plain if prim.GetProperty(name).IsCustom()}
-            own.refuse_misspelt(plain, path)
-            if prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdGeom.PointInstancer):
-                self._unread(own, [name for name in plain if name not in custom], path, prim)
-            elif prim.IsA(UsdGeom.Imageable):
-                for name in _OF_GEOMETRY.intersection(plain):
-                    kind = prim.GetTypeName()
-                    self._said.add("unread", f"{name}: a prim of the type {kind} has none", path)
-        self._physics.refuse_misspelt(physics, path)
-        if prim.IsA(UsdGeom.Gprim):
-            names.PRIMVARS.refuse_misspelt(primvars, path)
+            if name not in known:
+                unknown[space if rest else ""].append(rest or name)
+            is_read = space + ":" == _OP or (space in spaces and rest in spaces[space].read)
+            if is_read or name in names.SHAPING:
+                self._at_fields(prim.GetProperty(name), path)
+        self._at_plain(prim, path, unknown.pop("", []), known)
+        for space, found in unknown.items():
+            self._at_space(prim, path, space, found)
+
+    def _at_fields(self, found: Any, path: str) -> None:
+        place = f"{path}: {found.GetName()}"
+        names.PROPERTY.refuse_misspelt(_unregistered(found), place)
+        if isinstance(found, Usd.Attribute) and found.HasAuthoredConnections():
+            words = f"{found.GetName()} is connected to another value, which is not read"
+            self._said.add("unread", words, path)
+
+    def _at_plain(self, prim: Any, path: str, found: list[str], known: frozenset[str]) -> None:
+        """At the properties without a name space that no schema of the prim has."""
+        own = names.of_type(known)
+        own.refuse_misspelt(found, path)
+        if prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdGeom.PointInstancer):
+            stated = [name for name in found if not prim.GetProperty(name).IsCustom()]
+            self._unread(own, stated, path, prim)
+        elif prim.IsA(UsdGeom.Imageable):
+            moves = names.OPS.read if _has_geometry_below(prim) else frozenset()
+            for name in sorted((_OF_GEOMETRY | moves).intersection(found)):
+                words = f"{name}: a prim of the type {prim.GetTypeName()} has none"
+                self._said.add("unread", words, path)
+
+    def _at_space(self, prim: Any, path: str, space: str, found: list[str]) -> None:
+        """At the properties of a name space that no schema of the prim has."""
+        spaces = names.of_spaces()
+        if space == "skel" and prim.IsA(UsdGeom.Imageable):
+            words = f"skel:{found[0]} is of no concern without SkelBindingAPI"
+            self._said.add("unread", words, path)
+        if space in spaces and space + ":" != _OP:
+            spaces[space].refuse_misspelt(found, path)
+        elif any(
+            name.partition(":")[0] in known.read for known in spaces.values() for name in found
+        ):
+            Names(frozenset(spaces)).refuse_misspelt([space], path)
 
     def _at_tokens(self, prim: Any, path: str) -> None:
         definition = prim.GetPrimDefinition()
@@ -139,34 +189,54 @@ class _Look:
 
     def _at_ops(self, prim: Any, path: str) -> None:
         attribute = prim.GetAttribute(_ORDER)
-        order = attribute.Get() if attribute else None
-        if not order:
-            return
+        present = frozenset(
+            name for name in prim.GetAuthoredPropertyNames() if name.startswith(_OP)
+        )
+        order = [str(each) for each in (attribute.Get() if attribute else None) or ()]
         if not prim.IsA(UsdGeom.Xformable):
-            if _has_geometry_below(prim):
+            if (order or present) and _has_geometry_below(prim):
                 kind = prim.GetTypeName() or "no type"
                 words = f"a prim of {kind} is not moved by its ops; it may be meant to be an Xform"
                 self._said.add("unread", words, path)
             return
-        present = frozenset(
-            name for name in prim.GetAuthoredPropertyNames() if name.startswith(_OP)
-        )
         place = f"{path}: {_ORDER}"
-        for op in dict.fromkeys(str(each) for each in order):
+        for op in dict.fromkeys(order):
             name = op.removeprefix(_INVERSE)
             if op == _RESET:
                 continue
             if not name.startswith(_OP):
                 self._unread(Names(frozenset((_RESET, *present))), [name], place, prim)
             elif name not in present and not prim.HasAttribute(name):
-                self._unread(Names(present - set(map(str, order))), [name], place, prim)
+                self._unread(Names(present - set(order)), [name], place, prim)
             else:
                 self._at_op(prim.GetAttribute(name), name, place, prim)
+        self._at_idle_ops(prim, path, present.difference(op.removeprefix(_INVERSE) for op in order))
+
+    def _at_idle_ops(self, prim: Any, path: str, idle: Iterable[str]) -> None:
+        """At the ops that the order does not list, so that they move nothing."""
+        moving = [name for name in sorted(idle) if self._moves(prim.GetAttribute(name))]
+        if moving and _has_geometry_below(prim):
+            words = f"{', '.join(moving)} not in {_ORDER}: not applied"
+            self._said.add("left-out", words, path)
+
+    def _moves(self, op: Any) -> bool:
+        if op.GetName().split(":")[1] not in names.OPS.read or not op.HasAuthoredValue():
+            return False
+        matrix = UsdGeom.XformOp(op).GetOpTransform(self._choice.time)
+        return bool(matrix != Gf.Matrix4d(1.0))
 
     def _at_op(self, attribute: Any, name: str, place: str, prim: Any) -> None:
         self._unread(names.OPS, [name.split(":")[1]], place, prim)
         if not attribute.HasAuthoredValue():
             self._said.add("unread", f"the op {name} has no value", str(prim.GetPath()))
+
+    def _at_skeleton(self, prim: Any, path: str) -> None:
+        if not prim.IsA(UsdGeom.Gprim) or not prim.HasAPI(UsdSkel.BindingAPI):
+            return
+        is_bound = prim.GetAttribute(_JOINTS).HasAuthoredValue()
+        if is_bound and not (prim.IsA(UsdGeom.Mesh) and UsdSkel.Root.Find(prim)):
+            words = "it is bound to a skeleton, which moves only meshes below a SkelRoot"
+            self._said.add("left-out", words, path)
 
     def _at_cards(self, prim: Any, path: str) -> None:
         if not prim.HasAPI(UsdGeom.ModelAPI) and not prim.HasAttribute("model:drawMode"):
@@ -176,12 +246,12 @@ class _Look:
             self._said.add("unread", f"it is drawn as its extent ({mode}), which is no body", path)
 
     def _at_variants(self, prim: Any, path: str) -> None:
-        if not prim.HasVariantSets():
-            return
-        for name in prim.GetVariantSets().GetNames():
-            variants = prim.GetVariantSet(name)
-            if not variants.GetVariantSelection() and any(
-                holds_geometry(spec) for spec in _variants(prim, name)
+        declared = prim.GetVariantSets().GetNames()
+        written = {name for spec in prim.GetPrimStack() for name in spec.variantSets.keys()}  # noqa: SIM118
+        for name in sorted(written.union(declared)):
+            is_composed = name in declared and prim.GetVariantSet(name).GetVariantSelection()
+            if not is_composed and any(
+                holds_geometry(spec, type_of(prim)) for spec in _variants(prim, name)
             ):
                 words = f"no variant of the set {name!r} is selected, and they hold bodies"
                 self._said.add("unread", words, path)
@@ -199,18 +269,13 @@ class _Look:
             self._said.add("unread", f"its restOffset of {value:g} is not applied", path)
 
 
-def _unregistered(prim: Any) -> list[str]:
-    """The fields of the prim that no schema and no plugin defines."""
+def _unregistered(found: Any) -> list[str]:
+    """The fields of a prim or property that no schema and no plugin defines."""
     return [
         name
-        for name, value in prim.GetAllAuthoredMetadata().items()
+        for name, value in found.GetAllAuthoredMetadata().items()
         if isinstance(value, Sdf.UnregisteredValue)
     ]
-
-
-@cache
-def _names_of(known: frozenset[str]) -> Names:
-    return names.of_type(known)
 
 
 def _has_geometry_below(prim: Any) -> bool:
@@ -226,12 +291,13 @@ def _variants(prim: Any, name: str) -> Iterator[Any]:
                 yield variant.primSpec
 
 
-def holds_geometry(spec: Any) -> bool:
-    """Whether a prim spec, or one below it, may make or move a body."""
-    if spec.typeName in _OF_LOOKS:
-        return False
-    if spec.hasReferences or spec.hasPayloads or spec.hasInheritPaths:
-        return True
-    if any(each.name in _OF_GEOMETRY for each in spec.properties):
-        return True
-    return any(holds_geometry(child) for child in spec.nameChildren)
+def holds_geometry(spec: Any, kind: str = "") -> bool:
+    """Whether a prim spec, or one below it, may make or move a body. kind: the type of its prim."""
+    if (kind or spec.typeName) not in names.LOOKS:
+        if spec.hasReferences or spec.hasPayloads or spec.hasInheritPaths:
+            return True
+        if spec.typeName in names.GEOMETRY or any(
+            each.name in _OF_GEOMETRY or each.name.startswith(_OP) for each in spec.properties
+        ):
+            return True
+    return any(map(holds_geometry, spec.nameChildren))

@@ -127,6 +127,11 @@ class Walk:
             raise MeshFileError("reference-cycle", "a prototype holds it: a cycle")
         instancer, time = UsdGeom.PointInstancer(prim), self._time
         numbers = instancer.GetProtoIndicesAttr().Get(time) or ()
+        for name in ("positions", "orientations", "orientationsf", "scales"):
+            count = len(prim.GetAttribute(name).Get(time) or ())
+            if count not in (0, len(numbers)):
+                message = f"it has {len(numbers)} protoIndices and {count} {name}"
+                raise MeshFileError("count-mismatch", message)
         paths = instancer.GetPrototypesRel().GetForwardedTargets()
         used = sorted(set(numbers))
         if used and not 0 <= used[0] <= used[-1] < len(paths):

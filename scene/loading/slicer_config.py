@@ -1,8 +1,8 @@
 """Which volumes of a 3MF project are no material, as the configs of slicers state.
 
 PrusaSlicer and SuperSlicer write Metadata/Slic3r_PE_model.config, with volumes as ranges of
-triangles of an object. Bambu Studio and OrcaSlicer write Metadata/model_settings.config, with parts
-that are components of an object.
+triangles of an object; SuperSlicer has further names for it. Bambu Studio and OrcaSlicer write
+Metadata/model_settings.config, with parts that are components of an object.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from msgspec import Struct
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.xml_tree import Element
 
-PRUSA, BAMBU = "metadata/slic3r_pe_model.config", "metadata/model_settings.config"
+CONFIGS = "metadata/*model*.config"  # in lower case
 _SOLID = frozenset({"ModelPart", "normal_part"})
 _NEGATIVE = frozenset({"NegativeVolume", "negative_part"})
 _SETTINGS = frozenset(

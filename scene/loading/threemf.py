@@ -8,13 +8,16 @@ build. Supports count like any other object.
 
 from __future__ import annotations
 
+import fnmatch
 import math
 import posixpath
 import zipfile
 from array import array
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import IO
+from urllib.parse import unquote
 
 from msgspec.structs import replace
 
@@ -23,13 +26,16 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.readers import File
-from satcheck.scene.loading.slicer_config import BAMBU, PRUSA, Volume, volumes
+from satcheck.scene.loading.slicer_config import CONFIGS, Volume, volumes
 from satcheck.scene.loading.threemf_vocabulary import (
     ATTRIBUTES,
     CHILDREN,
     CORE,
     CURA_VOLUMES,
     PREFIXES,
+    RELATIONSHIP,
+    RELATIONSHIPS,
+    TYPES,
     UNITS,
     short,
 )
@@ -50,12 +56,12 @@ _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
 _OBJECT = frozenset(f"{namespace} object" for namespace in CORE)
 _BUILD = frozenset(f"{namespace} build" for namespace in CORE)
-_PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 # Extensions that a model may require: what they add is read, or looked at where it stands.
 _REQUIRED = frozenset({"p", "m", "s", "t"})
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
 _MESH = frozenset({"vertex", "triangle"})  # errors in them refuse only their object
+_ONCE = frozenset({"mesh", "vertices", "triangles", "components"})  # in an object
 # Elements of extensions that define geometry other than triangles.
 _OTHER_GEOMETRY = frozenset(
     {"beamlattice", "booleanshape", "displacementmesh", "levelset", "volumedata"}
@@ -72,7 +78,11 @@ def read_3mf(file: File) -> RawScene:
 class _Package:
     def __init__(self, package: zipfile.ZipFile) -> None:
         self._package = package
-        self._names = {name.lower(): name for name in package.namelist()}
+        parts = [(part_name(name).lower(), name) for name in package.namelist()]
+        self._names = dict(parts)
+        self._twice = {
+            part for part, count in Counter(part for part, _ in parts).items() if count > 1
+        }
         self._models: dict[str, Model] = {}
         self._used: set[tuple[str, str]] = set()
         self._settings: list[str] = []
@@ -113,6 +123,12 @@ class _Package:
             for id_ in model.objects
             if (part, id_) not in self._used
         ]
+        opened = {part.lower() for part in self._models}
+        unused += [
+            f"part {name!r}"
+            for part, name in self._names.items()
+            if part.endswith(".model") and part not in opened
+        ]
         said = [f"{listed(unused)} not in the build"] if unused else []
         if self._settings:
             said.append(f"{listed(self._settings)} of a slicer, which print nothing")
@@ -121,9 +137,7 @@ class _Package:
     def _apply_config(self, root: Model) -> None:
         """Leave out the volumes that the config of a slicer makes settings; refuse an object that
         one of them is taken away from."""
-        for name in (PRUSA, BAMBU):
-            if name not in self._names:
-                continue
+        for name in fnmatch.filter(self._names, CONFIGS):
             with self._open(name) as stream:
                 config = read_elements(stream)
             for volume in volumes(config):
@@ -144,11 +158,20 @@ class _Package:
             return _DEFAULT_PART
         with self._open(relationships) as stream:
             root = read_elements(stream, encodings=_ENCODINGS)
-        targets = [
-            element.attributes.get("Target", _DEFAULT_PART)
-            for element in root.below()
-            if element.tag == "Relationship" and element.attributes.get("Type") == _START_PART
-        ]
+        targets = []
+        for element in root.children:
+            place = f"{relationships}, line {element.line}"
+            self._unknown.look(RELATIONSHIPS, (element.tag,), "relationships", place)
+            self._unknown.look(RELATIONSHIP, [*element.attributes], "relationship", place)
+            target = element.attributes.get("Target", _DEFAULT_PART)
+            if element.attributes.get("Type") == _START_PART:
+                targets.append(target)
+                if element.attributes.get("TargetMode") == "External":
+                    message = f"{place}: the start part {target!r} is not in the package"
+                    raise MeshFileError("unsupported-feature", message)
+            elif target.lower().endswith(".model"):
+                message = f"{place}: {target} is no start part by its type, and is not read"
+                self._unknown.note(("start part", target), message)
         if len(set(targets)) > 1:
             message = f"of the start parts {', '.join(targets)} only the first is read"
             self._unknown.note(("start part", ""), message)
@@ -156,6 +179,8 @@ class _Package:
 
     def _open(self, part: str) -> IO[bytes]:
         name = self._names.get(part.lower())
+        if part.lower() in self._twice:
+            raise MeshFileError("bad-record", f"the package has two parts {part!r}")
         if name is None:
             raise MeshFileError("missing-resource", f"the package has no part {part!r}")
         return open_part(self._package, name)
@@ -170,13 +195,29 @@ class _Package:
                 with self._open(part) as stream:
                     model = read_model(part, stream, undeclared_prefixes=True)
             self._models[part] = model
+            self._refuse_other_unit(part, model)
         return model
+
+    def _refuse_other_unit(self, part: str, model: Model) -> None:
+        """Programs disagree whether the unit of the build or that of the part counts."""
+        unit = next(iter(self._models.values())).unit
+        if model.unit == unit:
+            return
+        message = f"part {part!r} is in the unit {model.unit}, the build in {unit}: use one"
+        for object_ in model.objects.values():
+            if object_.triangles:
+                object_.refusal = MeshFileError("unsupported-feature", message)
 
     def _object(self, part: str, id_: str) -> Object:
         self._used.add((part, id_))
         object_ = self._model(part).objects.get(id_)
         if object_ is None:
             raise MeshFileError("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
+        if object_.kind not in TYPES - {"other"}:
+            message = (
+                f"object {id_!r} of the build has the type {object_.kind!r}, which has no place"
+            )
+            self._unknown.note(("type", id_), f"{message} there; it is checked as a model")
         return object_
 
 
@@ -185,6 +226,7 @@ class Object:
     """decimals, significant: as in RawMesh. refusal: the first thing wrong with its mesh."""
 
     name: str
+    kind: str
     vertices: array[float] = field(default_factory=lambda: array("d"))
     triangles: array[int] = field(default_factory=lambda: array("I"))
     references: list[Reference] = field(default_factory=list)
@@ -255,7 +297,8 @@ def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = Fals
 
 
 def part_name(target: str) -> str:
-    return posixpath.normpath(posixpath.join("/", target)).lstrip("/")
+    path = unquote(target).replace("\\", "/")
+    return posixpath.normpath(posixpath.join("/", path)).lstrip("/")
 
 
 class _ModelReader:
@@ -268,6 +311,8 @@ class _ModelReader:
         self._in_object = self._in_build = False
         self._unknown = UnknownNames()
         self._around: list[str] = []  # the elements that are open
+        self._given: set[str] = set()  # elements of the object
+        self._usual: set[tuple[str, ...]] = set()  # parent, element and attributes, all known
         self._parser = guarded_parser(_ENCODINGS, namespaces=not undeclared_prefixes)
         self._prefixes: dict[str | None, str] = {}
         self._undeclared: UndeclaredPrefixes | None = None
@@ -311,8 +356,11 @@ class _ModelReader:
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
         self._look(short(name), attributes)
-        if local == "mesh" and namespace in CORE and self._object and self._object.vertices:
-            self._object.refusal = MeshFileError("bad-record", "an object with two <mesh>")
+        if local in _ONCE and namespace in CORE and self._object:
+            if local in self._given:
+                twice = MeshFileError("bad-record", f"an object with two <{local}>")
+                self._object.refusal = self._object.refusal or twice
+            self._given.add(local)
         handler = self._handlers.get(local) if namespace in CORE else None
         if handler is None:
             self._on_other(namespace, local)
@@ -328,19 +376,24 @@ class _ModelReader:
         """Gather the element, if it is unknown there, and its attributes."""
         around = self._around[-1] if self._around else ""
         self._around.append(name)
-        children = CHILDREN.get(around)
-        is_known = children is None or children.knows(name)
-        if is_known and name not in ATTRIBUTES and name != "metadata":
+        if (around, name, *attributes) in self._usual:
             return  # as nearly all elements of a mesh
         place = f"{self._part}, line {self._parser.CurrentLineNumber}"
+        children, own = CHILDREN.get(around), ATTRIBUTES.get(name)
+        given = [short(key) for key in attributes] if own else []
         if children is not None:
             self._unknown.look(children, (name,), f"in {around}", f"{place}: <{around}>")
-        if name in ATTRIBUTES:
-            given = [short(key) for key in attributes]
-            self._unknown.look(ATTRIBUTES[name], given, name, f"{place}: <{name}>")
-        elif name == "metadata" and self._in_object and attributes.get("name") in CURA_VOLUMES:
-            message = f"{place}: {attributes['name']} is not read; it may make a body none"
-            self._unknown.note((name, attributes["name"]), message)
+        if own is not None:
+            self._unknown.look(own, given, name, f"{place}: <{name}>")
+        elif name == "metadata":
+            if self._in_object and attributes.get("name") in CURA_VOLUMES:
+                message = f"{place}: {attributes['name']} is not read; it may make a body none"
+                self._unknown.note((name, attributes["name"]), message)
+            return
+        if (children is None or children.knows(name)) and (
+            own is None or all(map(own.knows, given))
+        ):
+            self._usual.add((around, name, *attributes))
 
     def _on_end(self, name: str) -> None:
         self._around.pop()
@@ -394,8 +447,9 @@ class _ModelReader:
         if id_ in self._model.objects:
             raise self._fail("bad-record", f"object id {id_!r} occurs twice")
         name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
-        self._object = self._model.objects[id_] = Object(name)
+        self._object = self._model.objects[id_] = Object(name, attributes.get("type", "model"))
         self._in_object = True
+        self._given.clear()
 
     def _current(self) -> Object:
         if self._object is None:
@@ -423,7 +477,7 @@ class _ModelReader:
         self._model.items.append(self._reference(attributes))
 
     def _reference(self, attributes: dict[str, str]) -> Reference:
-        path = attributes.get(_PRODUCTION_PATH)
+        path = next((text for key, text in attributes.items() if short(key) == "p:path"), None)
         part = part_name(path) if path else self._part
         return Reference(part, attributes["objectid"], self._matrix(attributes))
 

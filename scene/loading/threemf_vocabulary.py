@@ -17,6 +17,7 @@ CORE = frozenset(
         "http://schemas.microsoft.com/3dmanufacturing/2013/01",
     }
 )
+TYPES = frozenset({"model", "solidsupport", "support", "surface", "other"})
 UNITS = frozenset({"micron", "millimeter", "centimeter", "inch", "foot", "meter"})
 PREFIXES = {
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06": "p",
@@ -63,11 +64,33 @@ ATTRIBUTES = {
     ),
     "component": _names("objectid transform p:path"),
     "item": _names("objectid transform p:path"),
-    "build": _names(""),
+    "vertex": _names("x y z"),
+    "triangle": _names(
+        "v1 v2 v3",
+        pid="appearance",
+        p1="appearance",
+        p2="appearance",
+        p3="appearance",
+        paint_color="printing",
+        paint_seam="printing",
+        paint_supports="printing",
+        paint_fuzzy_skin="printing",
+        face_property="printing",
+    ),
+    **dict.fromkeys(
+        ("build", "resources", "mesh", "vertices", "triangles", "components"), _names("")
+    ),
 }
 _DATA = {"metadata": "data", "metadatagroup": "data", "slic3rpe:*": "printing"}
+# Those without a prefix are of the core specification, and of drafts of it.
+_LOOKS = """basematerials color colorgroup compositematerials material multiproperties texture
+    texture2d texture2dgroup"""
 CHILDREN = {
     "model": Names(frozenset({"resources", "build"}), _DATA),
+    "resources": Names(
+        frozenset({"object"}),
+        dict.fromkeys(_LOOKS.split(), "appearance") | {"*:*": "it counts where an object names it"},
+    ),
     "object": Names(frozenset({"mesh", "components"}), _DATA),
     "mesh": Names(frozenset({"vertices", "triangles"}), {"t:trianglesets": "names of triangles"}),
     "vertices": Names(frozenset({"vertex"})),
@@ -75,6 +98,8 @@ CHILDREN = {
     "components": Names(frozenset({"component"})),
     "build": Names(frozenset({"item"}), _DATA),
 }
+RELATIONSHIPS = Names(frozenset({"Relationship"}))
+RELATIONSHIP = Names(frozenset({"Target", "Type", "TargetMode"}), {"Id": "a name"})
 # Settings of Cura for an object that is no body, or takes from one.
 _CURA = ("anti_overhang", "cutting", "infill", "support")
 CURA_VOLUMES = frozenset(f"cura:{kind}_mesh" for kind in _CURA)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
+
 import pytest
 
 from tests.scene import files
@@ -9,6 +12,8 @@ from tests.scene.loading import load, loaded, refusal, warnings
 
 CUBE = files.object_3mf(1)
 ITEM = '<item objectid="1"/>'
+SLICES = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"
+PLACED = f'xmlns:x="http://example.com/x" xmlns:s="{SLICES}"'
 
 
 def package(resources: str = CUBE, items: str = ITEM, **keys: str) -> bytes:
@@ -19,7 +24,7 @@ def package(resources: str = CUBE, items: str = ITEM, **keys: str) -> bytes:
     "content",
     [
         package(CUBE + '<my:settings speed="3"><my:nozzle/></my:settings>'),
-        package(CUBE.replace("<triangle ", '<triangle my:paint="4" ')),
+        package(CUBE.replace("<triangle ", '<triangle slic3rpe:mmu_segmentation="4" ')),
         package(f'<my:group id="9"><multi pindices="0"/></my:group>{CUBE}'),
         package(f'<my:config xmlns="urn:other"><vertex/></my:config>{CUBE}'),
     ],
@@ -78,8 +83,120 @@ def test_a_misspelt_element_could_be_geometry(tmp_path, content):
     assert "did you mean" in message
 
 
-SLICES = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"
-PLACED = f'xmlns:x="http://example.com/x" xmlns:s="{SLICES}"'
+def two_parts(
+    root: str, other: str, item: str = '<item objectid="1" p:path="/3D/other.model"/>', **keys: str
+) -> bytes:
+    """A package whose build places object 1 of another part."""
+    model = files.model_3mf(CUBE, item, attributes=root)
+    inner = files.model_3mf(CUBE, "", attributes=other)
+    return files.package_3mf({"3D/3dmodel.model": model, "3D/other.model": inner}, **keys)
+
+
+@pytest.mark.parametrize(
+    ("root", "other"),
+    [('unit="inch"', 'unit="meter"'), ('unit="inch"', ""), ("", 'unit="micron"')],
+)
+def test_an_object_in_a_part_of_another_unit_is_refused(tmp_path, root, other):
+    code, message = refusal(tmp_path, "a.3mf", two_parts(root, other))
+    assert (code, "in the unit" in message) == ("unsupported-feature", True)
+
+
+def test_a_part_of_the_same_unit_that_is_not_written(tmp_path):
+    assert loaded(tmp_path, "a.3mf", two_parts("", 'unit="millimeter"')).health.volume == 1.0
+
+
+def test_a_path_whose_prefix_is_not_declared_is_followed(tmp_path):
+    item = '<item objectid="1" p:path="/3D/other.model"/>'
+    model = files.model_3mf(CUBE, item).replace(b"xmlns:p=", b"xmlns:q=")
+    far = [(x + 5, y, z) for x, y, z in files.CUBE_POINTS]
+    other = files.model_3mf(files.object_3mf(1, far), "")
+    content = files.package_3mf({"3D/3dmodel.model": model, "3D/other.model": other})
+    assert loaded(tmp_path, "a.3mf", content).mesh.bounds == ((5, 0, 0), (6, 1, 1))
+
+
+def more(content: bytes, **parts: str) -> bytes:
+    """A package with further parts, by their names."""
+    stream = io.BytesIO(content)
+    with zipfile.ZipFile(stream, "a") as archive:
+        for name, text in parts.items():
+            archive.writestr(name, text)
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "3D/3dmodel.model",
+        "3D/3DModel.model",
+        "/3D/3dmodel.model",
+        "3D/3dmodel%2Emodel",
+        "_rels/.rels",
+    ],
+)
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_two_parts_of_one_name_are_refused(tmp_path, name):
+    code, message = refusal(tmp_path, "a.3mf", more(package(), **{name: "<model/>"}))
+    assert (code, "two parts" in message) == ("bad-record", True)
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_two_pictures_of_one_name_are_harmless(tmp_path):
+    content = more(more(package(), **{"Metadata/a.png": ""}), **{"Metadata/a.png": ""})
+    assert warnings(loaded(tmp_path, "a.3mf", content)) == {}
+
+
+def test_a_part_that_nothing_names_is_a_note(tmp_path):
+    scene = load(tmp_path, "a.3mf", more(package(), **{"3D/other.model": ""}))
+    (issue,) = scene.issues
+    assert (issue.code, "3D/other.model" in issue.message) == ("left-out", True)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        ("3dmodel", "3dmodell", "unread"),
+        ("Type=", "Tpye=", "misspelt"),
+        ("<Relationship ", "<Relationshp ", "misspelt"),
+        ("<Relationship ", '<Relationship TargetMode="External" ', "unsupported-feature"),
+    ],
+)
+def test_a_start_part_that_is_not_read_is_named(tmp_path, old, new, code):
+    start = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+    line = f'<Relationship Id="r" Type="{start}" Target="/3D/other.model"/>'
+    rels = f"<Relationships>{line.replace(old, new, 1)}</Relationships>"
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr("_rels/.rels", rels)
+        for name in ("3D/3dmodel.model", "3D/other.model"):
+            archive.writestr(name, files.model_3mf(CUBE, ITEM))
+    if code == "unread":
+        scene = load(tmp_path, "a.3mf", content.getvalue())
+        assert [issue.code for issue in scene.issues] == ["unread", "left-out"]
+    else:
+        assert refusal(tmp_path, "a.3mf", content.getvalue())[0] == code
+
+
+@pytest.mark.parametrize("tag", ["vertices", "triangles", "components"])
+def test_a_list_that_an_object_has_twice_is_refused(tmp_path, tag):
+    component = files.components_3mf(2, '<component objectid="1"/>')
+    twice = CUBE + component.replace(f"</{tag}>", f"</{tag}><{tag}/>")
+    twice = twice.replace(f"</{tag}><triangles>", f"</{tag}><{tag}/><triangles>")
+    twice = twice.replace(f"</{tag}></mesh>", f"</{tag}><{tag}/></mesh>")
+    code, message = refusal(tmp_path, "a.3mf", package(twice, items='<item objectid="2"/>'))
+    assert (code, f"two <{tag}>" in message) == ("bad-record", True)
+
+
+@pytest.mark.parametrize("kind", ["solidsupport", "support", "surface"])
+def test_an_object_of_a_type_of_the_specification(tmp_path, kind):
+    content = package(CUBE.replace('type="model"', f'type="{kind}"'))
+    assert warnings(loaded(tmp_path, "a.3mf", content)) == {}
+
+
+@pytest.mark.parametrize("name", ["basematerials", "colorgroup", "x:thing", "m:colorgroup"])
+def test_a_resource_that_no_object_names_is_harmless(tmp_path, name):
+    keys = PLACED + ' xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"'
+    content = package(CUBE + f'<{name} id="9"/>', attributes=keys)
+    assert warnings(loaded(tmp_path, "a.3mf", content)) == {}
 
 
 @pytest.mark.parametrize(
@@ -92,6 +209,15 @@ PLACED = f'xmlns:x="http://example.com/x" xmlns:s="{SLICES}"'
         package(items=ITEM + "<x:item/>", attributes=PLACED),
         package(items='<item objectid="1" x:offset="1 0 0"/>', attributes=PLACED),
         package(items='<item objectid="1" offset="1 0 0"/>'),
+        package(CUBE.replace("<triangle ", '<triangle my:paint="4" ')),
+        package(CUBE.replace("<vertex ", '<vertex dx="4" ')),
+        package(CUBE.replace("<triangle ", '<triangle v4="4" ')),
+        package(CUBE.replace("<triangle ", '<triangle x:d1="4" '), attributes=PLACED),
+        package(CUBE.replace("<mesh>", '<mesh scale="20">')),
+        package(CUBE.replace("<vertices>", '<vertices x:offset="20">'), attributes=PLACED),
+        package(CUBE.replace('type="model"', 'type="modle"')),
+        package(CUBE.replace('type="model"', 'type="other"')),
+        package(CUBE + "<volume/>"),
         package(CUBE.replace("<mesh>", '<metadata name="cura:cutting_mesh">True</metadata><mesh>')),
     ],
 )

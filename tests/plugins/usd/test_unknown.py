@@ -39,6 +39,24 @@ def refusals(scene: Scene) -> list[tuple[str, str]]:
         (cube("A", 'uniform token physics:approxmation = "convexHull"'), "approximation"),
         (cube("A", "float[] primvars:width = [1]"), "widths"),
         ('def Sphere "A" {\n double radus = 3\n}\n', "radius"),
+        ('def Camera "C" {\n def Sphere "A" {\n double radus = 3\n}\n}\n', "radius"),
+        (cube("A", "rel skel:skeletn = </K>", api='"SkelBindingAPI"'), "skeleton"),
+        (cube("A", 'uniform token physic:approximation = "convexHull"'), "physics"),
+        (cube("A", "float[] primvar:widths = [1]"), "primvars"),
+        (
+            cube("A", "int[] primvars:skel:jointIndices = [0] (\n elementSiz = 2\n)"),
+            "elementSize",
+        ),
+        (
+            cube(
+                "A", head="clips = {\n dictionary default = {\n asset[] assetPath = [@c.usd@]\n}\n}"
+            ),
+            "assetPaths",
+        ),
+        (
+            'def PhysicsCollisionGroup "G" {\n rel collection:colliders:include = </A>\n}',
+            "includes",
+        ),
     ],
 )
 def test_a_name_that_is_misspelt_is_refused(tmp_path: Path, text: str, near: str) -> None:
@@ -53,6 +71,118 @@ def test_a_field_of_the_layer_that_is_misspelt_is_refused(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
+    ("arc", "head"),
+    [
+        ("references", 'upAxs = "Z"'),
+        ("payload", "metersPerUnits = 1"),
+        ("subLayers", "subLayer = 1"),
+    ],
+)
+def test_a_field_of_an_inner_layer_that_is_misspelt_is_refused(
+    tmp_path: Path, arc: str, head: str
+) -> None:
+    inner = stage(f'def Xform "P" {{\n{cube("M")}\n}}', head=f'defaultPrim = "P"\n{head}')
+    (tmp_path / "part.usda").write_text(inner)
+    text = stage(f'def Xform "R" ({arc} = @part.usda@) {{\n}}')
+    if arc == "subLayers":
+        text = stage(cube("A"), head=f"{_HEAD}\nsubLayers = [@part.usda@]")
+    ((code, message),) = refusals(load(tmp_path, text))
+    assert (code, "part.usda" in message) == ("misspelt", True)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("point3f[] positions = [(0, 0, 0)]", "0 protoIndices"),
+        ("int[] protoIndices = []\npoint3f[] positions = [(0, 0, 0)]", "0 protoIndices"),
+        (
+            "int[] protoIndices = [0]\npoint3f[] positions = [(0, 0, 0)]\n"
+            "float3[] scales = [(9, 9, 9), (1, 1, 1)]",
+            "2 scales",
+        ),
+        ("int[] protoIndices = [0]", "0 placements"),
+    ],
+)
+def test_an_instancer_that_lacks_a_list_cannot_be_read(
+    tmp_path: Path, more: str, words: str
+) -> None:
+    text = f'def PointInstancer "I" {{\n rel prototypes = </I/P>\n{more}\n{cube("P")}\n}}'
+    ((code, message),) = refusals(load(tmp_path, stage(text)))
+    assert (code, words in message) == ("count-mismatch", True)
+
+
+def test_an_instancer_whose_indices_come_from_elsewhere_blocks_a_pass(tmp_path: Path) -> None:
+    more = "rel prototypes = </I/P>\nint[] protoIndices.connect = </A.o>"
+    text = f'def PointInstancer "I" {{\n{more}\n{cube("P")}\n}}'
+    assert len(unread(load(tmp_path, stage(cube("A"), text)))) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (cube("B", head="active = false"), "inactive"),
+        (f'over "B" {{\n{cube("C")}\n}}', "an over that no prim defines"),
+        (f'over "B" {{\n{at(1)}\n}}', "an over that no prim defines"),
+        ('over "B" {\n double3 xformOp:translate = (1, 0, 0)\n}', "an over that no prim defines"),
+        ('def Cube "B" (active = false) {\n}', "inactive"),
+    ],
+)
+def test_a_prim_that_is_not_there_is_named(tmp_path: Path, text: str, words: str) -> None:
+    assert said(load(tmp_path, stage(cube("A"), text))) == {"not-a-body": f"/B: {words}"}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f'class "B" {{\n{cube("C")}\n}}',
+        'def Material "B" (active = false) {\n}',
+        f'over "B" {{\n{cube("C")}\n}}\ndef PointInstancer "I" {{\n rel prototypes = </B/C>\n}}',
+    ],
+)
+def test_a_prim_that_needs_no_name(tmp_path: Path, text: str) -> None:
+    assert said(load(tmp_path, stage(cube("A"), text))) == {}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        cube("A", "double3 xformOp:translate = (1, 0, 0)"),
+        cube("A", at(1).replace("xformOpOrder = [", "xformOpOrder = [] #")),
+        cube(
+            "A", at(1).replace("uniform", "").replace("Order =", "Order.timeSamples = {\n0:") + "}"
+        ),
+        f'def Camera "C" {{\n double3 xformOp:translate = (1, 0, 0)\n{cube("A")}\n}}',
+        cube("A", at(1, 0, 0).replace('translate"', 'scale"') + "float3 xformOp:scale = (1, 1, 1)"),
+    ],
+)
+def test_an_op_that_the_order_leaves_out_is_named(tmp_path: Path, text: str) -> None:
+    words = "xformOp:translate not in xformOpOrder: not applied"
+    assert words in said(load(tmp_path, stage(text)))["left-out"]
+
+
+@pytest.mark.parametrize("arc", ["references", "subLayers"])
+@pytest.mark.parametrize(
+    ("root", "inner", "words"),
+    [
+        (_HEAD, "", "metersPerUnit and upAxis"),
+        (_HEAD, 'upAxis = "Z"', "metersPerUnit"),
+        (_HEAD, "metersPerUnit = 1", "upAxis"),
+        ('metersPerUnit = 0.01\nupAxis = "Y"', "", None),
+    ],
+)
+def test_a_layer_that_states_no_unit_is_named(
+    tmp_path: Path, arc: str, root: str, inner: str, words: str | None
+) -> None:
+    part = stage(f'def Xform "P" {{\n{cube("M")}\n}}', head=f'defaultPrim = "P"\n{inner}')
+    (tmp_path / "part.usda").write_text(part)
+    text = stage(f'def Xform "R" ({arc} = @part.usda@) {{\n}}', head=root)
+    if arc == "subLayers":
+        text = stage(head=f"{root}\nsubLayers = [@part.usda@]")
+    named = f"layer part.usda: it states no {words}: that of the stage counts"
+    assert said(load(tmp_path, text)) == ({"assumed-units": named} if words else {})
+
+
+@pytest.mark.parametrize(
     "text",
     [
         cube("A", _ORDER.format("xformOp:translate")),
@@ -63,6 +193,18 @@ def test_a_field_of_the_layer_that_is_misspelt_is_refused(tmp_path: Path) -> Non
         cube("A", api='"FrobnicateAPI"'),
         f'def "Holder" {{\n{at(1)}\n{cube("A")}\n}}',
         f'def "Set" (prepend variantSets = "v") {{\n'
+        f' variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
+        cube("A", "point3f[] points.connect = </B.p>"),
+        cube("A", at(1) + "double3 xformOp:translate.connect = </B.p>"),
+        cube("A", "token visibility.connect = </B.p>"),
+        cube("A", "rel skel:skeleton = </K>"),
+        f'def Xform "X" {{\n double3 translate = (1, 0, 0)\n{cube("A")}\n}}',
+        f'def Xform "X" {{\n variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
+        'def "Set" (prepend variantSets = "v") {\n variantSet "v" = {\n "near" {\n'
+        ' def Cube "A" {\n}\n}\n}\n}\n' + cube("B"),
+        'def "Made" (prepend apiSchemas = ["GeneratorAPI"]) {\n}\n' + cube("B"),
+        f'def Material "M" {{\n{cube("A", "double bulge = 3")}\n}}',
+        'def Camera "C" (prepend variantSets = "v") {\n'
         f' variantSet "v" = {{\n "near" {{\n{cube("A")}\n}}\n}}\n}}\n{cube("B")}',
         'def Xform "Card" (kind = "component") {\n uniform token model:drawMode = "cards"\n}\n'
         + cube("B"),
@@ -75,8 +217,13 @@ def test_what_nobody_reads_blocks_a_pass(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        cube("A", "double3 xformOp:translate = (1, 0, 0)"),  # without an order, USD ignores it
+        cube("A", "double3 xformOp:translate = (0, 0, 0)"),  # without an order, as with one
         cube("A", "custom double note = 3"),
+        cube("A", "float[] primvars:displayOpacity.connect = </B.o>"),
+        'def Camera "C" {\n double3 xformOp:translate = (1, 0, 0)\n}\n' + cube("A"),
+        'def Material "M" {\n def Shader "S" {\n float inputs:size.connect = </M.x>\n'
+        " double size = 3\n}\n}\n" + cube("A"),
+        'def PointInstancer "I" {\n rel prototypes = </I/P>\n def "P" {\n}\n}\n' + cube("A"),
         cube("A", 'string userProperties:note = "x"\nfloat physics:mass = 3'),
         cube("A", "texCoord2f[] primvars:st1 = [(0, 0)]"),
         cube("A", api='"PhysxCollisionAPI", "SemanticsAPI:x", "OmniNodeAPI"'),
@@ -222,3 +369,14 @@ def test_geometry_in_a_type_without_any_blocks_a_pass(tmp_path: Path, kind: str)
 def test_an_old_name_about_subdivision_is_harmless(tmp_path: Path) -> None:
     old = 'uniform token boundaryInterpolation = "edgeAndCorner"'
     assert "unread" not in said(load(tmp_path, stage(cube("A", old))))
+
+
+@pytest.mark.parametrize("arc", ["inherits", "specializes"])
+def test_a_class_that_is_missing_is_named(tmp_path: Path, arc: str) -> None:
+    text = f'def Xform "X" ({arc} = </C>) {{\n}}\n'
+    assert "/C" in said(load(tmp_path, stage(text, cube("B"))))["left-out"]
+
+
+def test_a_mesh_that_no_skeleton_can_move_is_named(tmp_path: Path) -> None:
+    bound = cube("A", "int[] primvars:skel:jointIndices = [0]", api='"SkelBindingAPI"')
+    assert "SkelRoot" in said(load(tmp_path, stage(bound)))["left-out"]
