@@ -199,8 +199,8 @@ def _corners(body: PlacedBody, plane: Plane) -> Floats:
 
 def _prism(corners: Floats) -> core.Hull:
     """Two prisms of one height are apart, touch, or overlap as their outlines do."""
-    low = np.column_stack((corners, np.zeros(len(corners))))
-    return core.Hull(np.concatenate((low, low + (0.0, 0.0, 1.0))))
+    ends = [np.column_stack((corners, np.full(len(corners), z))) for z in (0.0, 1.0)]
+    return core.Hull(np.concatenate(ends))
 
 
 def _outlined(body: PlacedBody, corners: int) -> AxesBody:

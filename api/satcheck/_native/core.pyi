@@ -271,6 +271,7 @@ def check_pairs(
     method: str,
     threads: int,
 ) -> PairResults: ...
+
 class OpenHole:
     @property
     def of_a(self) -> bool: ...
