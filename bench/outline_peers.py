@@ -72,13 +72,21 @@ def flat(pairs: list[PolygonPair]) -> tuple[Floats, NDArray[np.uint32]]:
 
 
 def satcheck(pairs: list[PolygonPair]) -> Ask:
-    polygons = core.Polygons(*flat(pairs))
+    """As hulls of prisms, which a check in a plane makes of convex outlines."""
+    widest = max(float(np.abs(polygon).max()) for pair in pairs for polygon in pair)
+
+    def made(polygon: Floats, height: float) -> core.Hull:
+        ends = [np.column_stack((polygon, np.full(len(polygon), z))) for z in (-height, height)]
+        return core.Hull(np.concatenate(ends))
+
+    shapes = [hull for a, b in pairs for hull in (made(a, 8 * widest), made(b, 12 * widest))]
     first = np.arange(0, 2 * len(pairs), 2, dtype=np.uint32)
     second = first + np.uint32(1)
+    poses = np.tile((0.0, 0, 0, 0, 0, 0, 1), (len(pairs), 1))
 
     def ask(query: Query) -> Answer:
         start = time.process_time_ns()
-        results = core.check_polygons(polygons, first, second, query=query, threads=1)
+        results = core.check_pairs(shapes, first, second, poses, poses, query=query, threads=1)
         spent = time.process_time_ns() - start
         if query == "overlap":
             penetrating = results.outcome == core.OUTCOMES.index("penetrating")

@@ -26,7 +26,6 @@ from satcheck._native.core import (
     PairResult,
     PairResults,
     PlacedGeometry,
-    Polygons,
     Polytope,
     PosedBody,
     Shape,
@@ -73,8 +72,6 @@ from satcheck.core.conventions import OUTCOMES
 from satcheck.core.pairs import (
     check_pair,
     check_pairs,
-    check_polygon_pair,
-    check_polygons,
     compare_signed_distance,
 )
 from satcheck.core.signature import Signature
@@ -103,7 +100,6 @@ __all__ = [
     "PairResult",
     "PairResults",
     "PlacedGeometry",
-    "Polygons",
     "Polytope",
     "PosedBody",
     "Shape",
@@ -116,8 +112,6 @@ __all__ = [
     "box_gap",
     "check_pair",
     "check_pairs",
-    "check_polygon_pair",
-    "check_polygons",
     "climb",
     "close_pairs",
     "compare_gap",

@@ -1,4 +1,4 @@
-"""Checks pairs of convex shapes and of convex polygons, with clear messages for wrong arguments.
+"""Checks pairs of convex shapes, with clear messages for wrong arguments.
 
 For a wrong argument, the compiled functions list all types that they accept. The functions here
 call them first, and inspect the arguments only if a call fails.
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeAlias, get_args
 
 from satcheck._native import core as native
-from satcheck._native.core import PairResult, PairResults, Polygons, Shape
+from satcheck._native.core import PairResult, PairResults, Shape
 
 if TYPE_CHECKING:
     from numpy import float64, uint32
@@ -112,51 +112,6 @@ def check_pairs(
             _require_array(name, poses, "float64", (-1, 7))
         _require_words(query, method)
         _refuse("threads", "an integer >= 0", threads)
-
-
-def check_polygons(
-    polygons: Polygons,
-    index_a: NDArray[uint32],
-    index_b: NDArray[uint32],
-    *,
-    query: Query = "depth",
-    threads: int = 0,
-) -> PairResults:
-    """Check pairs of convex polygons in a plane, on `threads` threads (0: one for each core),
-    without the GIL.
-
-    Pair i is polygons[index_a[i]] against polygons[index_b[i]]; index_a, index_b: uint32 (n,). The
-    results are as of check_pairs, with z = 0, and exact: every outcome, and every figure to a few
-    roundoffs of itself.
-
-    Raises TypeError for other arrays, ValueError when lengths differ or an index is out of range.
-
-    Edges of the Minkowski difference, merged by direction (Guibas, Seidel 1987), with exact signs
-    (Shewchuk 1997) if float64 cannot decide.
-    """
-    try:
-        return native.check_polygons(polygons, index_a, index_b, query=query, threads=threads)
-    except TypeError:
-        if not isinstance(polygons, Polygons):
-            _refuse("polygons", "Polygons", polygons)
-        for name, indices in (("index_a", index_a), ("index_b", index_b)):
-            _require_array(name, indices, "uint32", (-1,))
-        _require_words(query, "auto")
-        _refuse("threads", "an integer >= 0", threads)
-
-
-def check_polygon_pair(
-    a: NDArray[float64], b: NDArray[float64], *, query: Query = "depth"
-) -> PairResult:
-    """check_polygons for a batch of one. a, b: the corners, (n, 2) float64."""
-    import numpy as np
-
-    for name, corners in (("a", a), ("b", b)):
-        _require_array(name, corners, "float64", (-1, 2))
-    starts = np.array([0, len(a), len(a) + len(b)], dtype=np.uint32)
-    polygons = Polygons(np.concatenate((a, b)), starts)
-    first = np.zeros(1, dtype=np.uint32)
-    return check_polygons(polygons, first, first + np.uint32(1), query=query, threads=1)[0]
 
 
 def _require_two_shapes(a: object, b: object, pose_a: Any, pose_b: Any) -> None:

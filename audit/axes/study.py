@@ -181,7 +181,7 @@ def _outlines(pair: Pair, plane: Plane) -> AxesReport:
         counted=np.full(m + n, True),
     )
     axes = axes_shown(made, Points(world), a, b, closer=pair.closer)
-    outcome = core.check_polygon_pair(corners_a, corners_b, query="overlap").outcome
+    outcome = core.check_pair(_prism(corners_a), _prism(corners_b), query="overlap").outcome
     known = not pair.closer or winner_of(axes) is not None
     unit = along / length[:, None]
     directions = direction_count(unit[:m], off[:m]), direction_count(unit[m:], off[m:]), 0
@@ -195,6 +195,12 @@ def _corners(body: PlacedBody, plane: Plane) -> Floats:
     from satcheck.scene.planar.region import convex_region
 
     return np.ascontiguousarray(convex_region(body.mesh, plane).points)
+
+
+def _prism(corners: Floats) -> core.Hull:
+    """Two prisms of one height are apart, touch, or overlap as their outlines do."""
+    ends = [np.column_stack((corners, np.full(len(corners), z))) for z in (0.0, 1.0)]
+    return core.Hull(np.concatenate(ends))
 
 
 def _outlined(body: PlacedBody, corners: int) -> AxesBody:

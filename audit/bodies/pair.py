@@ -121,11 +121,6 @@ class Pair(Struct, frozen=True):
         return self.a.shared.triangles + self.b.shared.triangles
 
     @property
-    def outlined(self) -> bool:
-        """In a check in a plane: both are convex polygons."""
-        return self.a.body.file.outline is not None and self.b.body.file.outline is not None
-
-    @property
     def both_solid(self) -> bool:
         return self.a.solid and self.b.solid
 

@@ -36,8 +36,6 @@ def climb_pair(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> co
     last = last or LAST[pair.settings.accuracy]
     if pair.curved:
         last = "aabb"
-    elif pair.outlined and first == "aabb" and last != "aabb":
-        last = "obb"  # the outlines come between the boxes and the hulls
     return core.climb(_request(pair), first, last, pair.settings.method)
 
 
@@ -48,7 +46,7 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
     A result is None if the climb failed, or if the pair has other steps; settle() then climbs
     again.
     """
-    plain = [k for k, pair in enumerate(pairs) if not (pair.curved or pair.outlined)]
+    plain = [k for k, pair in enumerate(pairs) if not pair.curved]
     last = LAST[pairs[0].settings.accuracy]
     alone = len(pairs) == 1 and pairs[0].alone
     climbing = core.Climbing(

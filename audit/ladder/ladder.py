@@ -6,12 +6,10 @@ that proves a gap beyond `gap_limit`. The highest allowed rung always answers. A
 cannot prove is an estimate, and can only err towards "penetrating".
 
 The core climbs and derives the verdict (`core/native/ladder/verdict.hpp`). This module adds the
-rungs that the core does not have: curved shapes, outlines in a plane, convex parts.
+rungs that the core does not have: curved shapes and convex parts.
 """
 
 from __future__ import annotations
-
-import math
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
@@ -45,10 +43,6 @@ def _settled(pair: Pair, trace: Trace, climb: core.Climb) -> Verdict:
         from satcheck.audit.ladder.curved import settle_curved
 
         return settle_curved(pair, trace)
-    if pair.outlined and climb.hulls is None:
-        if _outlines_apart(pair, trace):
-            return Verdict("separated", True, math.nextafter(pair.gap_limit, math.inf))
-        return _settled(pair, trace, climb_pair(pair, "hull"))
     if pair.may("parts"):
         from satcheck.audit.ladder.parts_only import settle_by_parts
 
@@ -84,25 +78,6 @@ def boxes_verdict(pair: Pair, trace: Trace) -> Verdict | None:
     climb = climb_pair(pair, last="aabb")
     trace.climbed(climb)
     return _verdict_of(pair, climb) if climb.settled else None
-
-
-def _outlines_apart(pair: Pair, trace: Trace) -> bool:
-    """With --planar: whether an edge of two convex outlines settles the pair."""
-    a, b = pair.a.body.file.outline, pair.b.body.file.outline
-    if a is None or b is None:
-        return False
-    import numpy as np
-
-    result = core.check_polygon_pair(np.array(a), np.array(b), query="distance")
-    trace.record("sat", result.outcome, _deciding_feature(result))
-    return result.lower is not None and result.lower > pair.gap_limit
-
-
-def _deciding_feature(result: core.PairResult) -> str:
-    if result.feature == "vertices":
-        return "outlines, a corner of each"
-    body, edge = ("A", result.index_a) if result.feature == "face-a" else ("B", result.index_b)
-    return f"outlines, edge {edge} of {body}"
 
 
 def _open(pair: Pair, hole: core.OpenHole) -> str:

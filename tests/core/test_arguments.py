@@ -12,9 +12,6 @@ from satcheck.core import Box, Capsule, Ellipsoid, Hull, Mesh, Sphere
 BOX, BALL = Box((1, 1, 1)), Sphere(1.0)
 POINTS = np.zeros((3, 3))
 CORNERS = np.zeros((1, 3), np.int32)
-SQUARE = core.Polygons(
-    np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), np.array([0, 4], dtype=np.uint32)
-)
 INDEX, POSES = np.zeros(1, np.uint32), np.array([[0.0, 0, 0, 0, 0, 0, 1]])
 
 
@@ -32,8 +29,6 @@ INDEX, POSES = np.zeros(1, np.uint32), np.array([[0.0, 0, 0, 0, 0, 0, 1]])
         ("check_pair", "a b pose_a pose_b query method"),
         ("compare_signed_distance", "a b length pose_a pose_b"),
         ("check_pairs", "shapes index_a index_b poses_a poses_b query method threads"),
-        ("check_polygons", "polygons index_a index_b query threads"),
-        ("check_polygon_pair", "a b query"),
     ],
 )
 def test_the_signature_names_the_parameters(name: str, parameters: str) -> None:
@@ -83,9 +78,6 @@ def test_the_last_number_of_a_pose_is_w() -> None:
         (core.check_pairs, ([BOX], [0], INDEX, POSES, POSES), {}, r"index_a: .* got \[0\]"),
         (core.check_pairs, ([BOX], INDEX, INDEX, POSES, POSES[:, :6]), {}, r"poses_b: .*\(1, 6\)"),
         (core.check_pairs, ([BOX], INDEX, INDEX, POSES, POSES), {"threads": -1}, "threads: an int"),
-        (core.check_polygons, (POINTS, INDEX, INDEX), {}, "polygons: Polygons expected"),
-        (core.check_polygons, (SQUARE, [0], INDEX), {}, r"index_a: .* got \[0\]"),
-        (core.check_polygon_pair, (POINTS, POINTS), {}, r"a: .*\(n, 2\) array of float64 expected"),
     ],
 )
 def test_what_does_not_fit_is_said_in_words(

@@ -6,6 +6,7 @@ corner from every edge. O(n m), without filters.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -32,6 +33,13 @@ def signed_square(a: NDArray[np.float64], b: NDArray[np.float64]) -> Fraction:
         for edge in _edges(one)
         for p in other
     )
+
+
+def convex(corners: Sequence[tuple[float, float]]) -> bool:
+    """Return whether each turn of the polygon is to the left, exactly."""
+    points = _exact(np.array(corners))
+    ahead, behind = [*points[1:], points[0]], [points[-1], *points[:-1]]
+    return all(_height((p, q), r) < 0 for p, q, r in zip(behind, points, ahead, strict=True))
 
 
 def _exact(corners: NDArray[np.float64]) -> list[Point]:

@@ -228,10 +228,6 @@ class PairResults:
     @property
     def axes_tested(self) -> NDArray[int32]: ...
 
-class Polygons:
-    def __init__(self, corners: NDArray[float64], starts: NDArray[uint32]) -> None: ...
-    def __len__(self) -> int: ...
-
 Box3 = tuple[Point, Point]
 
 def placed_bounds(
@@ -273,14 +269,6 @@ def check_pairs(
     *,
     query: str,
     method: str,
-    threads: int,
-) -> PairResults: ...
-def check_polygons(
-    polygons: Polygons,
-    index_a: NDArray[uint32],
-    index_b: NDArray[uint32],
-    *,
-    query: str,
     threads: int,
 ) -> PairResults: ...
 

@@ -19,7 +19,6 @@ using namespace satcheck;
 namespace {
 
 using Poses = nb::ndarray<const double, nb::shape<-1, 7>, nb::c_contig, nb::device::cpu>;
-using Points2 = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Indices = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 nb::tuple to_tuple(Vec3 v) { return nb::make_tuple(v.x, v.y, v.z); }
@@ -65,11 +64,6 @@ Pose pose_from(const std::optional<std::vector<double>>& values) {
   return pose_from(values->data());
 }
 
-// The numbers as they are now: the caller may change the array once the interpreter goes on.
-std::vector<std::uint32_t> copy_of(const Indices& indices) {
-  return {indices.data(), indices.data() + indices.shape(0)};
-}
-
 Query query_from(const std::string& name) {
   if (name == "overlap") return Query::overlap;
   if (name == "depth") return Query::depth;
@@ -101,7 +95,7 @@ normal       unit, from A to B. witness_a, witness_b: points on A and B with
              witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
 method       the stage that decided: "portal", "sat", "gjk", "epa" or "exact".
 feature      the feature that decides: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
-             or edge; -1: none), "vertices" or "curved". The faces of polygons in a plane are their edges.)";
+             or edge; -1: none), "vertices" or "curved".)";
 
 void bind_pair_result(nb::module_& m) {
   nb::class_<PairResult>(m, "PairResult", kPairResultDoc)
@@ -143,7 +137,7 @@ nb::object array(nb::handle self) {
 
 void bind_pair_results(nb::module_& m) {
   nb::class_<PairResults>(m, "PairResults",
-                          R"(The results of check_pairs and check_polygons: indexing gives a PairResult, the attributes are read-only
+                          R"(The results of check_pairs: indexing gives a PairResult, the attributes are read-only
 numpy arrays of shape (n,) or (n, 3), without a copy. Outcomes are 0 separated, 1 touching, 2 penetrating, 3 undecided;
 methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact, 5 portal. Distances and vectors are NaN for query "overlap".)")
       .def("__len__", &PairResults::size)
@@ -166,33 +160,6 @@ methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact, 5 portal. Distances and vectors ar
       .def_prop_ro("gjk_iterations", &array<&PairResult::gjk_iterations, int, 1>)
       .def_prop_ro("epa_iterations", &array<&PairResult::epa_iterations, int, 1>)
       .def_prop_ro("axes_tested", &array<&PairResult::axes_tested, int, 1>);
-}
-
-void bind_polygons(nb::module_& m) {
-  nb::class_<ConvexPolygons>(m, "Polygons", R"(Convex polygons in a plane, counter-clockwise, their corners in one array.
-
-corners: (n, 2) float64. starts: (m + 1,) uint32; polygon k has the corners starts[k] to starts[k + 1] - 1. ValueError if
-a corner is not finite, or for a polygon that has fewer than three corners, all corners on one line, two successive ones
-that are equal, is not convex, or clockwise. OverflowError for coordinates beyond 1e45 and sizes below 1e-45.)")
-      .def("__init__",
-           [](ConvexPolygons* self, const Points2& corners, const Indices& starts) {
-             const auto* first = reinterpret_cast<const Vec2*>(corners.data());
-             new (self) ConvexPolygons({first, first + corners.shape(0)}, {starts.data(), starts.data() + starts.shape(0)});
-           },
-           nb::arg("corners").noconvert(), nb::arg("starts").noconvert())
-      .def("__len__", &ConvexPolygons::size);
-  m.def(
-      "check_polygons",
-      [](const ConvexPolygons& polygons, const Indices& index_a, const Indices& index_b, const std::string& query,
-         unsigned threads) {
-        if (index_a.shape(0) != index_b.shape(0)) throw std::invalid_argument("index_a and index_b differ in length");
-        const Query goal = query_from(query);
-        const std::vector<std::uint32_t> a = copy_of(index_a), b = copy_of(index_b);
-        nb::gil_scoped_release release;
-        return check_polygons(polygons, a, b, goal, threads);
-      },
-      nb::arg("polygons"), nb::arg("index_a").noconvert(), nb::arg("index_b").noconvert(), nb::kw_only(),
-      nb::arg("query") = "depth", nb::arg("threads") = 0);
 }
 
 PairResults check_many(const nb::typed<nb::sequence, Shape>& given, const Indices& index_a, const Indices& index_b,
@@ -224,7 +191,6 @@ namespace satcheck {
 void bind_pairs(nb::module_& m) {
   bind_pair_result(m);
   bind_pair_results(m);
-  bind_polygons(m);
   m.def(
       "check_pair",
       [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "convex/polygon_difference.hpp"
 #include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 
@@ -81,7 +81,7 @@ bool some_edge_separates(const Outline& p, const Outline& q) {
   const std::size_t count = p.corners.size();
   for (std::size_t i = 0; count > 1 && i < count; ++i) {
     const Vec2 tail = p.corners[i], head = p.corners[i + 1 == count ? 0 : i + 1];
-    const auto beyond = [&](Vec2 corner) { return filtered_turn(tail, head, tail, corner) * p.turn < 0; };
+    const auto beyond = [&](Vec2 corner) { return orientation(tail, head, corner) * p.turn < 0; };
     if (std::all_of(q.corners.begin(), q.corners.end(), beyond)) return true;
   }
   return false;

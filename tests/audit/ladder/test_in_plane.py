@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
 from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.core import Mesh, Surface, check_polygon_pair
+from satcheck.core import Mesh, Surface
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Sphere
@@ -21,6 +21,7 @@ from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.shape_file import shape_file
+from tests.oracles.exact_polygons import convex, signed_square
 from tests.oracles.free_directions import along, is_free
 from tests.scene.planar.flat import Corners, scene, sheet
 
@@ -44,24 +45,22 @@ def polygon(rng: np.random.Generator, corners: int, about: tuple[float, float]) 
     return [(round(p * 1024) / 1024, round(q * 1024) / 1024) for p, q in zip(x, y, strict=True)]
 
 
-def test_convex_polygons_agree_with_the_planar_sat() -> None:
-    """Depth and normal too: two dimensions by edges, three by faces and edges of the prisms."""
+def test_convex_polygons_agree_with_rational_arithmetic() -> None:
+    """Depth too: of the polygons by their edges, and found on the prisms over them."""
     rng = np.random.default_rng(3)
     seen = set()
     for _ in range(150):
         a = polygon(rng, int(rng.integers(3, 9)), (0.0, 0.0))
         b = polygon(rng, int(rng.integers(3, 9)), tuple(rng.uniform(-3, 3, 2)))
-        try:
-            truth = check_polygon_pair(np.array(a), np.array(b))
-        except ValueError:  # rounded to a polygon that is not convex
+        if not (convex(a) and convex(b)):  # after rounding
             continue
         found = ask(scene(sheet(a), sheet(b)))
-        expected = {truth.outcome}
-        if truth.outcome == "penetrating":
-            expected |= {"contains", "inside"}
+        square = float(signed_square(np.array(a), np.array(b)))
+        expected = {"separated" if square > 0 else "touching"}
+        if square < 0:
+            expected = {"penetrating", "contains", "inside"}
             # As wide as the interval of an exact figure may be.
-            assert truth.distance is not None
-            assert found.depth == pytest.approx(-truth.distance, rel=EXACT_WIDTH)
+            assert found.depth == pytest.approx(math.sqrt(-square), rel=EXACT_WIDTH)
             assert found.mtv is not None
             assert found.mtv[2] == 0.0
             assert found.mtv_verified
@@ -215,10 +214,10 @@ def test_deep_outlines_have_narrow_intervals(plane: str) -> None:
             assert not is_free(a, other, t)
 
 
-def test_the_planar_sat_is_what_settles_convex_outlines() -> None:
+def test_convex_outlines_are_settled_by_their_boxes_or_hulls() -> None:
     far = [(x + 2.5, y + 0.5) for x, y in SQUARE]
     diamond = [(4.1, 1.0), (6.0, 3.0), (4.1, 5.0), (2.2, 3.0)]
-    for other, stages in ((far, ["aabb"]), (diamond, ["aabb", "obb", "sat"])):
+    for other, stages in ((far, ["aabb"]), (diamond, ["aabb", "obb", "hull"])):
         triangle = [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)]
         found = ask(scene(sheet(triangle if other is diamond else SQUARE), sheet(other)))
         assert [stage.stage for stage in found.plan] == stages
