@@ -18,13 +18,11 @@ from satcheck.audit.batch.check_options import World
 from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.remote_world import is_remote
-from satcheck.audit.batch.results import ResultsFile
+from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
+from satcheck.audit.batch.results import PART, ResultsFile
 from satcheck.audit.batch.run import ENGINES, Tally, run
 from satcheck.audit.batch.shard import Shard, parse_shard
 from satcheck.audit.batch.slot_server import Answer
-from satcheck.audit.batch.spool import spooled
-from satcheck.audit.batch.urls import at, is_url
 from satcheck.cli import exit_codes
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -194,7 +192,7 @@ def _refuse_existing(results: ResultsFile, output: str) -> None:
 
 def _local(output: str) -> AbstractContextManager[Path]:
     """The file that the run writes."""
-    return spooled(output) if is_url(output) else nullcontext(Path(output))
+    return local_results(output, PART) if is_url(output) else nullcontext(Path(output))
 
 
 def _worlds(
