@@ -9,15 +9,13 @@ from typing import Any
 import click
 from msgspec import Struct
 from msgspec.structs import astuple, replace
-from rich import box
-from rich.table import Table
 
 from satcheck.audit.summary import tool
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, form_option
-from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import at_most, duration
+from satcheck.cli.formats.tables import Column, fitted_each, joined, table
 from satcheck.cli.formats.words import counted, issue_line, with_unit
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
@@ -237,35 +235,32 @@ def _body_report(parts: _Parts) -> DecomposedBody:
 
 
 def _table(bodies: list[_Parts], scene: Scene, output: Path | None, page: Page) -> str:
-    canvas = Canvas(page)
     unit = unit_of(scene.units)
     named = f" ({unit})" if unit else ""
-    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
-    table.add_column("body", overflow="fold")
-    for name in (
-        "triangles",
-        "parts",
-        f"parts stick out{named}",
-        f"mesh sticks out{named}",
-        "time",
-    ):
-        table.add_column(name, justify="right")
-    for each in bodies:
-        if isinstance(each.result, Decomposition):
-            table.add_row(
-                each.body.id,
-                f"{each.body.file.mesh.triangle_count:,}",
-                f"{len(each.result.parts):,}",
-                _error(each.result.outside),
-                _error(each.result.missing),
-                "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
-            )
-    if table.row_count:
-        canvas.print(table)
-    for line in _remarks(bodies, scene):
-        canvas.print(line)
-    canvas.print(_summary(bodies, output, unit))
-    return canvas.text()
+    rows = [
+        (
+            each.body.id,
+            f"{each.body.file.mesh.triangle_count:,}",
+            f"{len(each.result.parts):,}",
+            _error(each.result.outside),
+            _error(each.result.missing),
+            "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
+        )
+        for each in bodies
+        if isinstance(each.result, Decomposition)
+    ]
+    lines = []
+    if rows:
+        body, *figures = zip(*rows, strict=True)
+        names = ("triangles", "parts", f"parts stick out{named}", f"mesh sticks out{named}", "time")
+        columns = [Column("body", body, named=True)]
+        columns += [
+            Column(name, cells, right=True, folds=True)
+            for name, cells in zip(names, figures, strict=True)
+        ]
+        lines += table(columns, page)
+    lines += fitted_each((*_remarks(bodies, scene), _summary(bodies, output, unit)), page)
+    return joined(lines, page)
 
 
 def _error(length: float) -> str:

@@ -19,8 +19,8 @@ from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import color_option, debug_option, output_option, root_option
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report_file import MOST_BYTES
 from satcheck.cli.scene_options import outside_option
+from satcheck.cli.stated_scene import MOST_BYTES
 from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool

@@ -29,9 +29,8 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
-from satcheck.cli.report_file import read_report
 from satcheck.cli.scene_options import outside_option
-from satcheck.cli.stated_scene import stated_scene
+from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from satcheck.audit.acceptance import words_to_accept
 from satcheck.audit.severity import is_failure
 from satcheck.audit.summary import unlisted_indeterminate
-from satcheck.cli.formats.limits import limits
 from satcheck.cli.formats.numbers import bounds, number
 from satcheck.cli.formats.order import severity, worst_first
 from satcheck.cli.formats.summary import counts_line, nothing_checked
@@ -22,6 +21,7 @@ from satcheck.cli.formats.words import (
     is_hit,
     is_unusable,
     joint_values,
+    limits,
     past_holes,
     with_unit,
 )

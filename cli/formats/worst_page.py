@@ -16,7 +16,7 @@ from satcheck.cli.output import harmless
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.overview import Overview
+    from satcheck.cli.formats.assets import Overview
     from satcheck.report.assets import Asset
     from satcheck.report.report import Finding
 

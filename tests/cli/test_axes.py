@@ -11,9 +11,9 @@ from jsonschema import Draft202012Validator
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.axes_plot import MOST_LINES, WIDTH
 from satcheck.cli.formats.plot_style import DARK
-from satcheck.cli.formats.schema import text
 from tests.cli.process import APART, PUSHED, satcheck
 
 SCHEMA = Draft202012Validator(json.loads(text("axes")))
