@@ -10,22 +10,14 @@ import click
 
 from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.stored import StoredResults
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats import worst_page
 from satcheck.cli.formats.assets import Assets, overview, summary_line, tell_issues, written
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    exit_zero_option,
-    output_option,
-    root_option,
-)
 from satcheck.cli.output import Document, talk
-from satcheck.cli.scene_options import outside_option
 from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
 
 # Scenes that a table lists without --top, and findings with a picture.
@@ -47,7 +39,7 @@ _PAGE = {"html": "a page of the worst findings with their pictures"}
     help="Expect a result for each scene that FILE names, one per line, as satcheck batch does.",
 )
 @format_option(REPORTS, also=_PAGE)
-@output_option
+@option.output
 @click.option(
     "--top",
     type=click.IntRange(min=1),
@@ -63,11 +55,11 @@ _PAGE = {"html": "a page of the worst findings with their pictures"}
     metavar="DIR",
     help="Also write images of the worst findings into DIR, as PNG.",
 )
-@root_option
-@outside_option
-@exit_zero_option
-@color_option
-@debug_option
+@option.root
+@scene_option.outside
+@option.exit_zero
+@option.color
+@option.debug
 def command(
     results: tuple[Path, ...],
     manifest: str | None,
