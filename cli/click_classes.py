@@ -25,7 +25,7 @@ class Command(click.Command):
         except click.BadParameter as error:
             if not ctx.default_map:
                 raise
-            from satcheck.cli.config.source import refuse_value
+            from satcheck.cli.config import refuse_value
 
             refuse_value(ctx, error)
 

@@ -232,7 +232,7 @@ def _take_config(ctx: click.Context, _: click.Parameter, path: str | None) -> No
     if ctx.resilient_parsing:
         return
     if not ctx.meta.get(_NO_CONFIG):
-        from satcheck.cli.config.source import take_config
+        from satcheck.cli.config import take_config
 
         take_config(ctx, path)
     elif path is not None:

@@ -11,9 +11,8 @@ from satcheck.audit import Report
 from satcheck.audit.sampled import Samples
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.titles import in_one_line_each, with_titles
 from satcheck.cli.formats.verdict import next_step, verdict_line
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.cli.formats.words import counted, in_one_line_each, issue_line, with_titles
 from satcheck.cli.output import Page, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json

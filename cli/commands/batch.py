@@ -27,7 +27,7 @@ from satcheck.cli import exit_codes, option
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end

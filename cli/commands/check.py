@@ -20,7 +20,7 @@ from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
@@ -29,12 +29,14 @@ from satcheck.cli.output import Document
 from satcheck.cli.pictures import (
     Pictures,
     files_line,
+    refuse_certificate,
+    refuse_of_poses,
+    refuse_of_worlds,
     refuse_pictures,
     taken_pictures,
     write_pictures,
 )
 from satcheck.cli.progress import Bar
-from satcheck.cli.refusals import refuse_certificate, refuse_of_poses, refuse_of_worlds
 from satcheck.cli.rendering import Delivery, Shown, rendered, tell
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene

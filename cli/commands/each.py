@@ -15,7 +15,7 @@ from satcheck.cli import option
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early

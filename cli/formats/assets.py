@@ -13,7 +13,6 @@ from msgspec import Struct, field
 from satcheck.audit.summary import tool
 from satcheck.cli.formats.beside_baseline import BesideBaseline
 from satcheck.cli.formats.ci.problems import problems
-from satcheck.cli.formats.config import config_lines
 from satcheck.cli.formats.order import asset_rank, worst_of
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.tables import (
@@ -25,7 +24,7 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.cli.formats.words import config_lines, counted, issue_line
 from satcheck.cli.output import talk
 from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, worst_verdict
 from satcheck.report.assets import counted as counts_of

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.config import config_line
 from satcheck.cli.formats.summary import doubts, nothing_checked
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
@@ -16,7 +15,14 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import counted, in_motion, interval, issue_line, with_unit
+from satcheck.cli.formats.words import (
+    config_line,
+    counted,
+    in_motion,
+    interval,
+    issue_line,
+    with_unit,
+)
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 

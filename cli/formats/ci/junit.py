@@ -13,9 +13,8 @@ from xml.etree import ElementTree
 
 from satcheck.audit.severity import fails, is_unmet
 from satcheck.cli.formats.ci.problems import kind_of, sentence
-from satcheck.cli.formats.config import config_line
 from satcheck.cli.formats.verdict import summary_line
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.cli.formats.words import config_line, counted, issue_line
 from satcheck.cli.output import harmless
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
