@@ -157,18 +157,22 @@ def refuse_value(ctx: click.Context, error: click.BadParameter) -> NoReturn:
 
 
 def _nearest() -> Path | None:
-    """Return the file that counts in the current folder, relative to it: the nearest satcheck.toml
-    or pyproject.toml with [tool.satcheck], from there upward. In one folder satcheck.toml comes
-    first. Raises SatcheckError: `bad-config`."""
+    """Return the file that counts in the current folder, relative to it."""
     try:
         here = Path.cwd()
     except OSError:  # the folder is gone, and what it was in is unknown
         return None
-    for folder in (here, *here.parents):
-        for path in (folder / CONFIG, folder / PROJECT):
-            # A link that leads nowhere counts: its options are not passed over, reading it fails.
-            if (path.is_file() or path.is_symlink()) and (path.name == CONFIG or _has_table(path)):
-                return Path(os.path.relpath(path, here))
+    path = nearest_config(here)
+    return None if path is None else Path(os.path.relpath(path, here))
+
+
+def nearest_config(folder: Path) -> Path | None:
+    """Return the nearest satcheck.toml or pyproject.toml with [tool.satcheck], from this folder
+    upward. In one folder satcheck.toml comes first. Raises SatcheckError: `bad-config`."""
+    for path in (place / name for place in (folder, *folder.parents) for name in (CONFIG, PROJECT)):
+        # A link that leads nowhere counts: its options are not passed over, reading it fails.
+        if (path.is_file() or path.is_symlink()) and (path.name == CONFIG or _has_table(path)):
+            return path
     return None
 
 
