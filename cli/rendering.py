@@ -9,9 +9,9 @@ from msgspec import Struct
 
 from satcheck.audit import Report
 from satcheck.audit.sampled import Samples
+from satcheck.cli.formats.messages import next_step, verdict_line
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.verdict import next_step, verdict_line
 from satcheck.cli.formats.words import counted, in_one_line_each, issue_line, with_titles
 from satcheck.cli.output import Page, talk
 from satcheck.report.json import document as json_document

@@ -11,10 +11,10 @@ import click
 from msgspec import Struct, field
 
 from satcheck.audit.summary import tool
-from satcheck.cli.formats.beside_baseline import BesideBaseline
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.order import asset_rank, worst_of
 from satcheck.cli.formats.registry import kind_of, pieces
+from satcheck.cli.formats.summary import BesideBaseline
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,

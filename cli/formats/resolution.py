@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.formats.numbers import number, vector
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.verdict import verdict_line
 from satcheck.cli.formats.words import counted
 from satcheck.scene.units import unit_of
 

@@ -7,6 +7,7 @@ from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
 from satcheck.audit.request.settings import LISTED_PAIRS
+from satcheck.cli.formats.messages import next_step, verdict_line
 from satcheck.cli.formats.numbers import after_rounding, bounds, duration, number, vector
 from satcheck.cli.formats.order import groups_of, severity, worst_first
 from satcheck.cli.formats.remarks import remarks
@@ -24,7 +25,6 @@ from satcheck.cli.formats.tables import (
     joined,
     stacked,
 )
-from satcheck.cli.formats.verdict import next_step, verdict_line
 from satcheck.cli.formats.words import (
     config_line,
     contacts,
