@@ -79,14 +79,19 @@ def regions_of(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Region
 def _answer(
     asked: InsideFinding, bodies: PlacedBodies, places: Mapping[str, int], tolerance: float
 ) -> InsideFinding:
+    """Return the finding with an answer that is proven, or open for a reason."""
     if asked.region not in places:
         return replace(asked, reason=f"no body has the id {asked.region!r}")
     k, region = places[asked.body], places[asked.region]
     for number in (k, region):
         if number in bodies.unusable:
             return replace(asked, reason=bodies.unusable[number].reason)
+    body, space = bodies.placed[k], bodies.placed[region]
     try:
-        return _decided(asked, bodies.placed[k], bodies.placed[region], tolerance)
+        finding = _proposed(asked, body, space, tolerance)
+        if finding.answer != "open":
+            check_answer(finding, body.checked(), space.checked(), tolerance)
+        return finding
     except (Rejected, NotCertified) as why:
         return replace(asked, reason=f"not decided: {why}")
     except Exception as error:  # noqa: BLE001  the other bodies are still decided
@@ -94,29 +99,15 @@ def _answer(
         return replace(asked, reason=f"internal error: {type(error).__name__}: {error}")
 
 
-def _decided(
+def _proposed(
     asked: InsideFinding, body: PlacedBody, space: PlacedBody, tolerance: float
 ) -> InsideFinding:
-    """Raises Rejected or NotCertified for what is not proven."""
+    """Return an answer that is to be proven."""
     if space.curved is not None or not space.checked().world or not space.solid:
         return replace(asked, reason=f"{asked.region} is not a closed mesh or a box")
-    decide = _in_convex if space.checked().convex else _in_concave
-    finding = decide(asked, body, space, tolerance)
-    if finding.answer != "open":
-        check_answer(finding, body.checked(), space.checked(), tolerance)
-    return finding
-
-
-def _in_convex(
-    asked: InsideFinding, body: PlacedBody, space: PlacedBody, tolerance: float
-) -> InsideFinding:
-    beyond = float(_beyond(body, _planes(_corners(space))).max())
-    return replace(asked, answer="yes") if beyond <= tolerance else _outside(asked, beyond)
-
-
-def _in_concave(
-    asked: InsideFinding, body: PlacedBody, space: PlacedBody, tolerance: float
-) -> InsideFinding:
+    if space.checked().convex:
+        beyond = float(_beyond(body, _planes(_corners(space))).max())
+        return replace(asked, answer="yes") if beyond <= tolerance else _outside(asked, beyond)
     if body.curved is not None:
         return replace(asked, reason="a curved shape in a region that is not convex")
     for shift in (NO_SHIFT, _shift(body, space, tolerance)):
@@ -124,26 +115,31 @@ def _in_concave(
         if core.mesh_relation(moved, space.surface()).relation in ("inside", "coincident"):
             return replace(asked, answer="yes", shift=shift)
     distance, point = _farthest_outside(body, space)
-    if point is None or distance <= tolerance:
-        return replace(
-            asked, reason="it does not lie in the region, or by no more than the tolerance"
-        )
-    return replace(_outside(asked, distance), point=point)
+    if point is not None and distance > tolerance:
+        return _outside(asked, distance, point)
+    reason = "it does not lie in the region, or by no more than the tolerance"
+    return replace(asked, reason=reason)
 
 
-def _reach(body: PlacedBody, normal: Floats) -> float:
-    """How far the body reaches along a unit vector, from the origin."""
-    curved = body.checked().curved
-    if curved is None:
-        return float((np.asarray(body.mesh.vertices) @ normal).max())
-    x, y, z = map(Fraction, normal.tolist())
-    reach = curved.reach((x, y, z))
-    return float(reach.q) + math.sqrt(reach.p)
+def _outside(asked: InsideFinding, by: float, point: OnBody | None = None) -> InsideFinding:
+    """Return that the body sticks out, by a little less than measured: that is proven in spite of
+    rounding."""
+    reason = f"it sticks out by {by:.6g}"
+    return replace(asked, answer="no", sticks_out=by * (1 - SPARE), reason=reason, point=point)
 
 
 def _beyond(body: PlacedBody, planes: Floats) -> Floats:
-    """How far the body reaches beyond each plane."""
-    return np.array([_reach(body, plane[:3]) for plane in planes]) - planes[:, 3]
+    """Return how far the body reaches beyond each plane."""
+    curved, points = body.checked().curved, np.asarray(body.mesh.vertices)
+    reaches = []
+    for normal in planes[:, :3]:
+        if curved is None:
+            reaches.append(float((points @ normal).max()))
+        else:
+            x, y, z = map(Fraction, normal.tolist())
+            reach = curved.reach((x, y, z))
+            reaches.append(float(reach.q) + math.sqrt(reach.p))
+    return np.array(reaches) - planes[:, 3]
 
 
 def _corners(body: PlacedBody) -> Floats:
@@ -192,10 +188,3 @@ def _farthest_outside(body: PlacedBody, space: PlacedBody) -> tuple[float, OnBod
             weights = (f"1/{len(vertices)}",) * len(vertices)
             best = distance, OnBody(vertices=tuple(vertices), weights=weights)
     return best
-
-
-def _outside(asked: InsideFinding, by: float) -> InsideFinding:
-    """By a little less than measured, so that it is proven in spite of rounding."""
-    return replace(
-        asked, answer="no", sticks_out=by * (1 - SPARE), reason=f"it sticks out by {by:.6g}"
-    )

@@ -10,7 +10,7 @@ import sys
 import click
 
 from satcheck.cli import exit_codes
-from satcheck.cli.command import satcheck
+from satcheck.cli.click_classes import satcheck
 from satcheck.cli.interrupts import end, hear_interrupts
 from satcheck.cli.output import abandon, cannot_write, harmless, talk
 from satcheck.core.errors import SatcheckError

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import click
 from click.core import ParameterSource
+from msgspec import Struct
 
 from satcheck.cli.formats.registry import (
     PLAIN,
@@ -17,6 +18,9 @@ from satcheck.cli.formats.registry import (
     format_of,
     formats,
 )
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.output import Document, Page
+from satcheck.report.json import document as json_document
 from satcheck.scene.loading.readers import reader_of
 from satcheck.scene.plugins import failures
 
@@ -102,4 +106,30 @@ def _is_overridden(name: str, typed: str) -> bool:
         ctx is not None
         and ctx.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
         and ctx.get_parameter_source(typed) is ParameterSource.COMMANDLINE
+    )
+
+
+def plain_call(
+    options: dict[str, Any], form: str | None, output: Path | None
+) -> tuple[Inputs, str, Document]:
+    """Return what a command begins with that writes JSON and a table: its inputs, which it takes
+    from the options, the format, and standard output. Raises click.UsageError for what can be seen
+    to fail."""
+    inputs, form = Inputs.taken_from(options), form_of(form, output)
+    refuse_early(inputs, output)
+    return inputs, form, Document()
+
+
+def deliver(
+    document: Document,
+    stated: Struct,
+    form: str,
+    output: Path | None,
+    render: Callable[[Page], str],
+) -> None:
+    """Deliver what such a command has made. stated: as JSON. render: the table."""
+    document.deliver(
+        lambda page: json_document(stated) if form == "json" else render(page),
+        output,
+        utf8=form == "json",
     )

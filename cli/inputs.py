@@ -156,10 +156,11 @@ def is_same_file(output: Path, path: str | Path) -> bool:
         return output.absolute() == Path(path).absolute()
 
 
-def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
+def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool = False) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr.
 
     hashed: whether the document states the SHA-256 of files. least: how many bodies are needed.
+    tell_all: warnings and notes, too, as no document has them.
     UsageError for fewer, for several worlds, and for a split of what says itself what its bodies
     are; ClickException where no input is left.
     """
@@ -176,7 +177,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed)
-    for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
+    told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
+    for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
     advice = _advice(paths)
     if scene.asks_for_support or scene.asks_for_regions:

@@ -53,7 +53,7 @@ def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _origin(name: str) -> str:
-    from satcheck.cli.config.source import origin
+    from satcheck.cli.config import origin
 
     ctx = click.get_current_context(silent=True)
     return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"

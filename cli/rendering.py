@@ -9,12 +9,10 @@ from msgspec import Struct
 
 from satcheck.audit import Report
 from satcheck.audit.sampled import Samples
+from satcheck.cli.formats.messages import next_step, verdict_line
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.titles import in_one_line_each, with_titles
-from satcheck.cli.formats.verdict import next_step, verdict_line
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.cli.formats.words import counted, in_one_line_each, issue_line, with_titles
 from satcheck.cli.output import Page, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
@@ -90,6 +88,8 @@ def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -
             talk(files)
         return
     if isinstance(result, Samples):
+        from satcheck.cli.formats.samples import samples_counts, samples_verdict
+
         talk(samples_counts(result))
         summary = samples_verdict(result)
     else:

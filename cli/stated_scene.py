@@ -6,12 +6,16 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import msgspec
 from msgspec import to_builtins
 
-from satcheck.report.report import Issue
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import AssetsReport
+from satcheck.report.report import Issue, Report
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.nodes import CORNER
+from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
@@ -86,3 +90,19 @@ def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
         if cause not in told:
             told.add(cause)
             yield issue
+
+
+MOST_BYTES = 1 << 30
+
+
+def read_report(path: Path) -> Report | AssetsReport:
+    """Raises SatcheckError: `bad-report`, or a code about the file."""
+    try:
+        data = read_whole(str(path), path, MOST_BYTES, SatcheckError)
+        head = msgspec.json.decode(data)
+        if isinstance(head, dict) and "assets" in head:
+            return msgspec.convert(head, AssetsReport)
+        return msgspec.convert(head, Report)
+    except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+        reason = f"no JSON report of this version of satcheck: {error}"
+        raise SatcheckError("bad-report", reason, file=str(path)) from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from itertools import chain
 from pathlib import Path
@@ -18,18 +18,24 @@ from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.slot_server import Answer, Wanted
 from satcheck.cli import exit_codes
-from satcheck.cli.formats.overview import Overview, overview
-from satcheck.cli.formats.registry import kind_of, pieces
+from satcheck.cli.formats.assets import (
+    Assets,
+    Overview,
+    overview,
+    summary_line,
+    tell_issues,
+    written,
+)
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.lengths import names_of_lengths
-from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.report.assets import Asset, AssetVerdict
 from satcheck.report.batch import Result
-from satcheck.report.json import read_line, render_assets
+from satcheck.report.json import read_line
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.loader import read_rules
@@ -157,8 +163,9 @@ def _deliver(
         return
     if delivery.output is None and delivery.form == "table" and not assets:
         return  # no asset changed, and stderr says so
+    made = Assets(lambda: assets, len(assets))
     document.deliver(
-        lambda page: _render(seen, assets, delivery, page, timings=timings),
+        lambda page: written(seen, made, delivery.form, page, timings=timings),
         delivery.output,
         utf8=delivery.form != "table",
     )
@@ -174,24 +181,6 @@ def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
                 talk(f"satcheck: {line}" if each.file in line else f"satcheck: {each.file}: {line}")
     if output is None:
         return
-    for issue in seen.issues:
-        talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(seen)
     if assets:
-        from satcheck.cli.formats.assets import summary_line
-
         talk(f"{summary_line(seen)} Report: {output}")
-
-
-def _render(
-    seen: Overview, assets: Sequence[Asset], delivery: Delivery, page: Page, *, timings: bool
-) -> str | Iterable[str]:
-    form = delivery.form
-    if form == "json":
-        return render_assets(seen.report(), assets, timings=timings)
-    if kind_of(form) == "reports":
-        return pieces({asset.file: asset.report for asset in assets}, form)
-    if not assets:
-        return "PASS: 0 assets.\n"
-    from satcheck.cli.formats.assets import render
-
-    return render(seen, page)

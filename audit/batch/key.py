@@ -15,7 +15,7 @@ from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck._version import __version__
-from satcheck.audit.batch import urls
+from satcheck.audit.batch import remote
 from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.limits import Limits
 from satcheck.report.batch import InputFile
@@ -32,8 +32,8 @@ def digest(name: str) -> str | None:
     """The SHA-256 of a file; of `folder/`: of the names of the folders in it. None: nothing is
     there. What is there and cannot be read has a digest that says why. Raises SatcheckError for a
     URL that cannot be reached."""
-    if urls.is_url(name):
-        return urls.digest(name)
+    if remote.is_url(name):
+        return remote.digest(name)
     try:
         if name.endswith("/"):
             return _sha256(
@@ -88,7 +88,7 @@ def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tupl
 
 def real_path(name: str) -> str:
     try:
-        return name if urls.is_url(name) else os.path.realpath(name)
+        return name if remote.is_url(name) else os.path.realpath(name)
     except ValueError:  # a NUL: no file has this name
         return name
 

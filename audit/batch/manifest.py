@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from satcheck.audit.batch.check_options import World
-from satcheck.audit.batch.urls import at, is_url
+from satcheck.audit.batch.remote import at, is_url
 from satcheck.core.errors import SatcheckError
 
 _JSON_LIST = "["
@@ -21,7 +21,7 @@ def read_manifest(name: str) -> Iterator[World]:
     """A scene for each line: the name of a file, relative to the working directory, or a JSON list
     of files that are one scene together. Empty lines are skipped. name: a path or a URL.
 
-    Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.urls`.
+    Raises SatcheckError: `unreadable-file`, `bad-manifest`, and those of `batch.remote`.
     """
     for number, line in enumerate(_lines(name), 1):
         text = os.fsdecode(line.removeprefix(codecs.BOM_UTF8) if number == 1 else line)

@@ -21,7 +21,7 @@ from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.check_world import check_world
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.audit.batch.limits import Limits
-from satcheck.audit.batch.remote_world import Copies, is_remote, make_room
+from satcheck.audit.batch.remote import Copies, is_remote, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error

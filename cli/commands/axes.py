@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,44 +10,24 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.axes import axes_of
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import form_of, form_option
-from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    open_option,
-    output_option,
-    pair_option,
-    paths_argument,
-    planar_option,
-)
-from satcheck.cli.output import Document, Page
+from satcheck.cli.format_option import deliver, form_option, plain_call
+from satcheck.cli.formats.axes import render
+from satcheck.cli.inputs import load
 from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
-from satcheck.cli.scene_options import (
-    geometry_options,
-    merge_option,
-    one_pose_options,
-    package_option,
-    reading_options,
-    split_option,
-    units_option,
-)
-from satcheck.report.json import document as json_document
-from satcheck.scene import Scene
+from satcheck.cli.posing import posed_once
 
 if TYPE_CHECKING:
     from satcheck.core.conventions import Plane
-    from satcheck.report.axes import AxesReport
 
 # Rows of a table; JSON has all axes.
 TABLE_ROWS = 20
 
 
 @click.command("axes", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("A B")
-@pair_option
+@option.paths("A B")
+@option.pair
 @click.option(
     "--top",
     type=click.IntRange(min=1),
@@ -56,19 +37,19 @@ TABLE_ROWS = 20
 )
 @plot_option("Draw the shadows on each axis")
 @dark_option
-@planar_option
+@option.planar
 @form_option
-@output_option
-@split_option
-@merge_option
-@units_option
-@open_option
-@reading_options
-@package_option
-@geometry_options
-@one_pose_options
-@color_option
-@debug_option
+@option.output
+@scene_option.split
+@scene_option.merge
+@scene_option.units
+@option.open_meshes
+@scene_option.reading
+@scene_option.package
+@scene_option.geometry
+@scene_option.one_pose
+@option.color
+@option.debug
 def command(
     form: str | None,
     output: Path | None,
@@ -93,12 +74,11 @@ def command(
     Exit codes: 0, the axes show how the bodies relate; 2, wrong usage, an unreadable input, or an
     internal error; 3, the sign of an axis is not known, so they do not show it.
     """
-    inputs = Inputs.taken_from(options)
-    form = form_of(form, output)
-    refuse_early(inputs, output)
+    inputs, form, document = plain_call(options, form, output)
     refuse_plot(inputs, plot, output)
-    document = Document()
-    scene = _posed(load(inputs), inputs)
+    scene = load(inputs, tell_all=True)
+    if inputs.has_poses:
+        scene = posed_once(scene, inputs, "axes are those of one pose: give one --pose")
     rows = TABLE_ROWS if form == "table" and top is None else top
     result = axes_of(scene, bodies, planar=planar, allow_open=allow_open)
     if plot:
@@ -108,21 +88,5 @@ def command(
     shown = replace(
         result, axes=result.axes[:rows], left_out=len(result.axes) - len(result.axes[:rows])
     )
-    document.deliver(lambda page: _render(shown, form, page), output, utf8=form == "json")
+    deliver(document, shown, form, output, partial(render, shown))
     return exit_codes.INCOMPLETE if result.winner is None else exit_codes.CLEAN
-
-
-def _posed(scene: Scene, inputs: Inputs) -> Scene:
-    if not inputs.has_poses:
-        return scene
-    from satcheck.cli.posing import posed_once
-
-    return posed_once(scene, inputs, "axes are those of one pose: give one --pose")
-
-
-def _render(result: AxesReport, form: str, page: Page) -> str:
-    if form == "json":
-        return json_document(result)
-    from satcheck.cli.formats.axes import render
-
-    return render(result, page)

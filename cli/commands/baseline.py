@@ -13,7 +13,7 @@ from satcheck.audit.baseline_file import asset_key, read_baseline
 from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document, write_file
-from satcheck.cli.report_file import read_report
+from satcheck.cli.stated_scene import read_report
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report

@@ -18,22 +18,19 @@ from satcheck.audit.batch.check_options import World
 from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.remote_world import is_remote
-from satcheck.audit.batch.results import ResultsFile
+from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
+from satcheck.audit.batch.results import PART, ResultsFile
 from satcheck.audit.batch.run import ENGINES, Tally, run
 from satcheck.audit.batch.shard import Shard, parse_shard
 from satcheck.audit.batch.slot_server import Answer
-from satcheck.audit.batch.spool import spooled
-from satcheck.audit.batch.urls import at, is_url
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.options import exclude_option, limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import check_options
@@ -63,7 +60,7 @@ _PATTERN = frozenset("*?[")
 
 
 @click.command("batch", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("SCENE|DIR|- ...")
+@option.paths("SCENE|DIR|- ...")
 @click.option(
     "--manifest",
     type=click.Path(dir_okay=False),
@@ -103,9 +100,9 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
-@exclude_option
-@limits_of_worlds("a scene")
-@options_of(check_command, but=_NOT_HERE)
+@option.exclude
+@option.limits_of_worlds("a scene")
+@option.those_of(check_command, but=_NOT_HERE)
 def command(
     manifest: str | None,
     output: str,
@@ -194,7 +191,7 @@ def _refuse_existing(results: ResultsFile, output: str) -> None:
 
 def _local(output: str) -> AbstractContextManager[Path]:
     """The file that the run writes."""
-    return spooled(output) if is_url(output) else nullcontext(Path(output))
+    return local_results(output, PART) if is_url(output) else nullcontext(Path(output))
 
 
 def _worlds(

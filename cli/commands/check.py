@@ -17,56 +17,27 @@ from satcheck.audit.baseline_file import names_in_baseline, read_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.sampled import Samples
 from satcheck.audit.stated_places import with_stated_places
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.lengths import length, settings_of
-from satcheck.cli.options import (
-    DEFAULTS,
-    accept_option,
-    cache_option,
-    color_option,
-    config_option,
-    debug_option,
-    exit_zero_option,
-    jobs_option,
-    method_option,
-    no_config_option,
-    open_option,
-    output_option,
-    paths_argument,
-    picture_options,
-    planar_option,
-    tolerance_option,
-    top_option,
-)
 from satcheck.cli.output import Document
 from satcheck.cli.pictures import (
     Pictures,
     files_line,
+    refuse_certificate,
+    refuse_of_poses,
+    refuse_of_worlds,
     refuse_pictures,
     taken_pictures,
     write_pictures,
 )
 from satcheck.cli.progress import Bar
-from satcheck.cli.refusals import refuse_certificate, refuse_of_poses, refuse_of_worlds
 from satcheck.cli.rendering import Delivery, Shown, rendered, tell
-from satcheck.cli.scene_options import (
-    between_option,
-    geometry_options,
-    joint_path_option,
-    merge_option,
-    package_option,
-    pose_options,
-    reading_options,
-    rules_option,
-    split_option,
-    units_option,
-)
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene
 from satcheck.scene.loading.readers import readers, robots
@@ -159,19 +130,19 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 
 
 @click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True, help=_help())
-@paths_argument("A B [C ...]")
+@option.paths("A B [C ...]")
 @format_option(ALL)
-@output_option
-@picture_options
+@option.output
+@option.pictures
 @click.option(
     "--explain",
     is_flag=True,
     help="Show the steps of each pair: what each proved, its time.",
 )
-@top_option
+@option.top
 @click.option(
     "--depth/--no-depth",
-    default=DEFAULTS.depth,
+    default=option.DEFAULTS.depth,
     help="How deep and how thick overlaps are, and the shortest way out.  [default: for mesh files "
     "of one body each; otherwise only where a rule needs it]",
 )
@@ -192,7 +163,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     type=length,
     help="Pairs with a smaller gap fail; shows the gap.",
 )
-@tolerance_option
+@option.tolerance
 @click.option(
     "--surface-tolerance",
     type=length,
@@ -203,17 +174,17 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--accuracy",
     type=click.Choice(ACCURACIES),
     metavar="LEVEL",
-    default=DEFAULTS.accuracy,
+    default=option.DEFAULTS.accuracy,
     show_default=True,
     help="The finest test: aabb, obb, hull, parts or exact. Those below exact may report false "
     "overlaps, called possible.",
 )
-@method_option
+@option.method
 @click.option(
     "--depth-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
     metavar="RATIO",
-    default=DEFAULTS.depth_width,
+    default=option.DEFAULTS.depth_width,
     show_default=True,
     help="Narrow the depth of concave pairs to an interval this wide, as a share of it.",
 )
@@ -221,7 +192,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--depth-budget",
     type=click.FloatRange(0, MOST_BUDGET, min_open=True),
     metavar="SECONDS",
-    default=DEFAULTS.depth_budget,
+    default=option.DEFAULTS.depth_budget,
     show_default=True,
     help="Stop narrowing after this much work on a pair. Steps are counted, not time: every "
     "machine gives the same answer.",
@@ -230,17 +201,17 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--thickness-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
     metavar="RATIO",
-    default=DEFAULTS.thickness_width,
+    default=option.DEFAULTS.thickness_width,
     show_default=True,
     help="The same for the thickness.",
 )
-@planar_option
-@split_option
+@option.planar
+@scene_option.split
 @click.option(
     "--fail-on",
     type=click.Choice(FAIL_ON),
     metavar="SEVERITY",
-    default=DEFAULTS.fail_on,
+    default=option.DEFAULTS.fail_on,
     show_default=True,
     help="Findings of this severity fail: error (without rules overlaps), warning or note "
     "(touches).",
@@ -251,11 +222,11 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="FILE",
     help="Fail only on findings that are new, or worse than in FILE (satcheck baseline).",
 )
-@rules_option
-@between_option
-@merge_option
-@accept_option
-@open_option
+@scene_option.rules
+@scene_option.between
+@scene_option.merge
+@option.accept
+@option.open_meshes
 @click.option(
     "--cross-check",
     is_flag=True,
@@ -266,28 +237,28 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     is_flag=True,
     help="Add evidence to a JSON report, for satcheck verify.",
 )
-@jobs_option
-@cache_option
+@option.jobs
+@option.cache
 @click.option(
     "--no-timings",
     "timings",
     is_flag=True,
     flag_value=False,
-    default=DEFAULTS.timings,
+    default=option.DEFAULTS.timings,
     help="Leave out times: same input, same bytes.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
-@exit_zero_option
-@units_option
-@reading_options
-@package_option
-@geometry_options
-@pose_options
-@joint_path_option
-@color_option
-@no_config_option
-@config_option
-@debug_option
+@option.exit_zero
+@scene_option.units
+@scene_option.reading
+@scene_option.package
+@scene_option.geometry
+@scene_option.poses
+@scene_option.joint_path
+@option.color
+@option.no_config
+@option.config
+@option.debug
 @click.option(
     "--version",
     is_flag=True,

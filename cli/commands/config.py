@@ -10,9 +10,8 @@ import click
 from click.core import ParameterSource
 
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
-from satcheck.cli.config.source import COMMANDS, config_of, is_from_config
-from satcheck.cli.config.values import configurable, is_inverted
-from satcheck.cli.formats.config import toml
+from satcheck.cli.config import COMMANDS, config_of, configurable, is_from_config, is_inverted
+from satcheck.cli.formats.words import toml
 from satcheck.cli.output import Document
 
 # Words of a call are those of another command, not options of this one.

@@ -3,35 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
 from msgspec import Struct
 from msgspec.structs import astuple, replace
-from rich import box
-from rich.table import Table
 
 from satcheck.audit.summary import tool
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import form_of, form_option
-from satcheck.cli.formats.canvas import Canvas
+from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.numbers import at_most, duration
+from satcheck.cli.formats.tables import Column, fitted_each, joined, table
 from satcheck.cli.formats.words import counted, issue_line, with_unit
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.options import (
-    DEFAULTS,
-    cache_option,
-    color_option,
-    debug_option,
-    output_option,
-    paths_argument,
-    seconds_option,
-)
-from satcheck.cli.output import Document, Page, harmless, talk, write_file
+from satcheck.cli.output import Page, harmless, talk, write_file
 from satcheck.cli.progress import Bar
-from satcheck.cli.scene_options import reading_options, split_option, units_option
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
@@ -43,7 +32,6 @@ from satcheck.report.decomposition import (
     Part,
     Remark,
 )
-from satcheck.report.json import document as json_document
 from satcheck.report.report import Issue
 from satcheck.scene import Body, Scene, parts_file
 from satcheck.scene.units import unit_of
@@ -68,7 +56,7 @@ class _Parts(Struct, frozen=True):
 
 
 @click.command("decompose", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("MESH")
+@option.paths("MESH")
 @click.option(
     "--parts-out",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -80,7 +68,7 @@ class _Parts(Struct, frozen=True):
     "--threshold",
     type=click.FloatRange(0, 1, min_open=True),
     metavar="RATIO",
-    default=DEFAULTS.part_threshold,
+    default=option.DEFAULTS.part_threshold,
     show_default=True,
     help="Split until parts are this close to convex, in CoACD's measure. A smaller one gives more "
     "parts, which fit better.",
@@ -89,19 +77,19 @@ class _Parts(Struct, frozen=True):
     "--seed",
     type=click.IntRange(min=0, max=2**32 - 1),
     metavar="N",
-    default=DEFAULTS.part_seed,
+    default=option.DEFAULTS.part_seed,
     show_default=True,
     help="The seed of CoACD's random search: the same seed gives the same parts.",
 )
-@seconds_option("--seconds", DEFAULTS.part_seconds, "The time limit of one body.")
+@option.seconds("--seconds", option.DEFAULTS.part_seconds, "The time limit of one body.")
 @form_option
-@output_option
-@cache_option
-@split_option
-@units_option
-@reading_options
-@color_option
-@debug_option
+@option.output
+@option.cache
+@scene_option.split
+@scene_option.units
+@scene_option.reading
+@option.color
+@option.debug
 def command(
     parts_out: Path | None,
     output: Path | None,
@@ -126,10 +114,8 @@ def command(
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
     or an internal error; 3, some bodies have no parts.
     """
-    inputs = Inputs.taken_from(options)
-    _refuse_outputs(inputs, parts_out, output)
-    form = form_of(form, output)
-    document = Document()
+    _refuse_outputs(options["paths"], parts_out, output)
+    inputs, form, document = plain_call(options, form, output)
     scene = load(inputs, least=1)
     if parts_out is not None:
         scene.require_one_unit()
@@ -151,32 +137,24 @@ def command(
             said = f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]"
             talk(harmless(said))
     settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds)
-    document.deliver(
-        lambda page: (
-            json_document(_report(bodies, scene, settings, parts_out))
-            if form == "json"
-            else _table(bodies, scene, parts_out, page)
-        ),
-        output,
-        utf8=form == "json",
-    )
+    report = _report(bodies, scene, settings, parts_out)
+    deliver(document, report, form, output, partial(_table, bodies, scene, parts_out))
     if scene.unreadable or not parts:
         return exit_codes.ERROR
     whole = all(each.has_parts for each in bodies)
     return exit_codes.CLEAN if whole else exit_codes.INCOMPLETE
 
 
-def _refuse_outputs(inputs: Inputs, parts_out: Path | None, output: Path | None) -> None:
-    if not inputs.paths:
+def _refuse_outputs(paths: tuple[str, ...], parts_out: Path | None, output: Path | None) -> None:
+    if not paths:
         raise click.UsageError("give a mesh file or a scene")
-    refuse_early(inputs, output)
     if output is not None and output.suffix.lower() in parts_file.FORMATS:
         raise click.UsageError(
             f"-o {output}: the report is no mesh; --parts-out {output} writes the parts"
         )
     if parts_out is None:
         return
-    refuse_early(inputs, parts_out, option="--parts-out")
+    refuse_early(Inputs(paths), parts_out, option="--parts-out")
     if parts_out.suffix.lower() not in parts_file.FORMATS:
         raise click.UsageError(f"--parts-out {parts_out}: parts are written as {_FILES}")
 
@@ -237,35 +215,32 @@ def _body_report(parts: _Parts) -> DecomposedBody:
 
 
 def _table(bodies: list[_Parts], scene: Scene, output: Path | None, page: Page) -> str:
-    canvas = Canvas(page)
     unit = unit_of(scene.units)
     named = f" ({unit})" if unit else ""
-    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
-    table.add_column("body", overflow="fold")
-    for name in (
-        "triangles",
-        "parts",
-        f"parts stick out{named}",
-        f"mesh sticks out{named}",
-        "time",
-    ):
-        table.add_column(name, justify="right")
-    for each in bodies:
-        if isinstance(each.result, Decomposition):
-            table.add_row(
-                each.body.id,
-                f"{each.body.file.mesh.triangle_count:,}",
-                f"{len(each.result.parts):,}",
-                _error(each.result.outside),
-                _error(each.result.missing),
-                "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
-            )
-    if table.row_count:
-        canvas.print(table)
-    for line in _remarks(bodies, scene):
-        canvas.print(line)
-    canvas.print(_summary(bodies, output, unit))
-    return canvas.text()
+    rows = [
+        (
+            each.body.id,
+            f"{each.body.file.mesh.triangle_count:,}",
+            f"{len(each.result.parts):,}",
+            _error(each.result.outside),
+            _error(each.result.missing),
+            "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
+        )
+        for each in bodies
+        if isinstance(each.result, Decomposition)
+    ]
+    lines = []
+    if rows:
+        body, *figures = zip(*rows, strict=True)
+        names = ("triangles", "parts", f"parts stick out{named}", f"mesh sticks out{named}", "time")
+        columns = [Column("body", body, named=True)]
+        columns += [
+            Column(name, cells, right=True, folds=True)
+            for name, cells in zip(names, figures, strict=True)
+        ]
+        lines += table(columns, page)
+    lines += fitted_each((*_remarks(bodies, scene), _summary(bodies, output, unit)), page)
+    return joined(lines, page)
 
 
 def _error(length: float) -> str:

@@ -11,14 +11,14 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.limits import Limits
+from satcheck.cli import option
 from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
-from satcheck.cli.config.source import stated_config
+from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import exclude_option, limits_of_worlds, options_of, paths_argument
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worlds import check_worlds
@@ -41,16 +41,16 @@ _NOT_HERE = (
 
 
 @click.command("each", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("DIR|FILE|- ...")
+@option.paths("DIR|FILE|- ...")
 @click.option(
     "--changed-since",
     metavar="REV",
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
-@exclude_option
+@option.exclude
 @format_option(REPORTS)
-@limits_of_worlds("an asset")
-@options_of(check_command, but=(*_NOT_HERE, "version"))
+@option.limits_of_worlds("an asset")
+@option.those_of(check_command, but=(*_NOT_HERE, "version"))
 def command(
     form: str | None,
     output: Path | None,

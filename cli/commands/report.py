@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
 from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.stored import StoredResults
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.formats import worst_page
+from satcheck.cli.formats.assets import Assets, overview, summary_line, tell_issues, written
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    exit_zero_option,
-    output_option,
-    root_option,
-)
-from satcheck.cli.output import Document
-from satcheck.cli.results.report import TOP, Chosen, report
-from satcheck.cli.scene_options import outside_option
+from satcheck.cli.output import Document, talk
+from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
 
+# Scenes that a table lists without --top, and findings with a picture.
+TOP = 100
 _PAGE = {"html": "a page of the worst findings with their pictures"}
 
 
@@ -41,7 +39,7 @@ _PAGE = {"html": "a page of the worst findings with their pictures"}
     help="Expect a result for each scene that FILE names, one per line, as satcheck batch does.",
 )
 @format_option(REPORTS, also=_PAGE)
-@output_option
+@option.output
 @click.option(
     "--top",
     type=click.IntRange(min=1),
@@ -57,11 +55,11 @@ _PAGE = {"html": "a page of the worst findings with their pictures"}
     metavar="DIR",
     help="Also write images of the worst findings into DIR, as PNG.",
 )
-@root_option
-@outside_option
-@exit_zero_option
-@color_option
-@debug_option
+@option.root
+@scene_option.outside
+@option.exit_zero
+@option.color
+@option.debug
 def command(
     results: tuple[Path, ...],
     manifest: str | None,
@@ -87,6 +85,28 @@ def command(
     document = Document()
     expected = () if manifest is None else read_manifest(manifest)
     with StoredResults(results, expected) as stored:
-        chosen = Chosen(form, output, top, folder, root, allow_outside)
-        verdict = report(stored, chosen, document)
-    return exit_codes.for_assets(verdict, exit_zero=exit_zero)
+        most = top or TOP
+        found = (each.asset for each in stored)
+        seen = overview(found, stored.issues, least=stored.least, top=most)
+        assets = Assets(lambda: (each.asset for each in stored), len(stored))
+        if top is not None:
+            assets = Assets(lambda: seen.shown, len(seen.shown))
+        illustrated: Iterator[Illustrated] = iter(())
+        if form == "html" or folder is not None:
+            worst = worst_findings(stored, most)
+            illustrated = with_pictures(worst, folder, root, allow_outside=allow_outside)
+        document.deliver(
+            lambda page: (
+                worst_page.render(seen, illustrated)
+                if form == "html"
+                else written(seen, assets, form, page, timings=False)
+            ),
+            output,
+            utf8=form != "table",
+        )
+        deque(illustrated, maxlen=0)  # what no page has taken
+    if output is not None or form != "table":
+        tell_issues(seen)
+    if output is not None:
+        talk(f"{summary_line(seen)} Report: {output}")
+    return exit_codes.for_assets(seen.verdict, exit_zero=exit_zero)

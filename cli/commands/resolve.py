@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,28 +10,18 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
-from satcheck.audit.resolve import Resolution, proof_of, resolve
-from satcheck.cli import exit_codes
+from satcheck.audit.resolve import proof_of, resolve
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.format_option import deliver, form_option, plain_call
+from satcheck.cli.formats.resolution import render
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.lengths import in_units_of, length, settings_of
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    jobs_option,
-    open_option,
-    output_option,
-    paths_argument,
-    tolerance_option,
-)
-from satcheck.cli.output import Document, Page, talk, write_file
+from satcheck.cli.output import talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
-from satcheck.cli.scene_options import one_scene_options
 from satcheck.core.errors import SatcheckError
-from satcheck.report.json import document as json_document
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import SCENE_SUFFIXES, kind_of
 from satcheck.scene.loader import is_rules
@@ -39,7 +30,7 @@ from satcheck.scene.units import Length
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("SCENE")
+@option.paths("SCENE")
 @click.option(
     "--scene-out",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -58,7 +49,7 @@ from satcheck.scene.units import Length
     type=length,
     help="The gap to leave between bodies. [default: none, they may touch]",
 )
-@tolerance_option
+@option.tolerance
 @click.option("--max-motion", type=length, help="Move no body farther than this.")
 @click.option(
     "--iterations",
@@ -68,13 +59,13 @@ from satcheck.scene.units import Length
     show_default=True,
     help="Rounds of pushing. Bodies that still overlap then move to a free place.",
 )
-@open_option
-@jobs_option
+@option.open_meshes
+@option.jobs
 @form_option
-@output_option
-@one_scene_options
-@color_option
-@debug_option
+@option.output
+@scene_option.one_scene
+@option.color
+@option.debug
 def command(
     form: str | None,
     output: Path | None,
@@ -94,16 +85,13 @@ def command(
     Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable input,
     or an internal error; 3, nothing is known to overlap, but not everything could be checked.
     """
-    inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
         raise click.UsageError(
             f"-o {output}: the report is no TOML; --scene-out {output} writes the moved scene"
         )
-    form = form_of(form, output)
-    refuse_early(inputs, output)
+    inputs, form, document = plain_call(options, form, output)
     if scene_out is not None:
         _refuse_output(inputs, scene_out, output)
-    document = Document()
     scene = load(inputs)
     if inputs.has_poses:
         scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
@@ -126,9 +114,9 @@ def command(
         files = inputs.mesh_files(scene.reading)
         write_file(scene_out, new_scene_file(scene_out, scene, files, moves))
         result = replace(result, report=_checked(scene_out, settings, inputs))
-    document.deliver(
-        lambda page: _render(result, form, page, scene_out), output, utf8=form == "json"
-    )
+    named = None if scene_out is None else str(scene_out)
+    table = partial(render, result, output=named)
+    deliver(document, result.document(named), form, output, table)
     if stray:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
     if scene_out is not None and scene.robots:
@@ -190,12 +178,3 @@ def _checked(path: Path, settings: Settings, inputs: Inputs) -> Report:
         if issue.severity == "error":
             talk(f"satcheck: {issue_line(issue)}")
     return report
-
-
-def _render(result: Resolution, form: str, page: Page, moved: Path | None) -> str:
-    output = str(moved) if moved else None
-    if form == "json":
-        return json_document(result.document(output))
-    from satcheck.cli.formats.resolution import render
-
-    return render(result, page, output)

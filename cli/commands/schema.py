@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
+import json
+from typing import Any
+
 import click
+from msgspec import Struct
 
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.formats.schema import text
+from satcheck.cli.config import options_of_commands
 from satcheck.cli.output import Document
+from satcheck.report.assets import AssetsReport
+from satcheck.report.axes import AxesReport
+from satcheck.report.batch import Result
+from satcheck.report.decomposition import DecompositionReport
+from satcheck.report.report import Report
+from satcheck.report.resolution import ResolutionReport
+from satcheck.report.samples import SamplesReport
+from satcheck.report.schema import schema_of
+from satcheck.report.suggestions import SuggestionsReport
+from satcheck.report.tradeoff import TradeoffReport
+from satcheck.report.verification import VerificationReport
 
-DOCUMENTS = (
-    "report",
-    "assets",
-    "axes",
-    "config",
-    "decomposition",
-    "resolution",
-    "result",
-    "samples",
-    "scene",
-    "suggestions",
-    "tradeoff",
-    "verification",
-)
+STRUCTS: dict[str, type[Struct]] = {
+    "assets": AssetsReport,
+    "axes": AxesReport,
+    "decomposition": DecompositionReport,
+    "report": Report,
+    "resolution": ResolutionReport,
+    "result": Result,
+    "samples": SamplesReport,
+    "suggestions": SuggestionsReport,
+    "tradeoff": TradeoffReport,
+    "verification": VerificationReport,
+}
+DOCUMENTS = ("report", *sorted({"config", "scene", *STRUCTS} - {"report"}))
 
 
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
@@ -34,3 +48,57 @@ def command(document: str) -> None:
     suggestions that of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)
+
+
+def text(name: str = "report") -> str:
+    """Return the schema of one of DOCUMENTS."""
+    if name == "scene":
+        from satcheck.scene.format.schema import schema as scene_schema
+
+        return json.dumps(scene_schema(), indent=2) + "\n"
+    if name == "config":
+        return _of_config()
+    return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
+
+
+_PATTERN_OF_LENGTH = r"^[0-9.]+([eE][+-]?[0-9]+)?\s*[a-zA-Z]*$"
+
+
+def _of_config() -> str:
+    properties = {key: _property(option) for key, option in options_of_commands().items()}
+    document = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "satcheck.toml, and [tool.satcheck] of pyproject.toml",
+        "type": "object",
+        "additionalProperties": False,
+        "properties": dict(sorted(properties.items())),
+    }
+    return json.dumps(document, indent=2) + "\n"
+
+
+def _property(option: click.Option) -> dict[str, Any]:
+    described = {"description": " ".join((option.help or "").split("[default")[0].split())}
+    if option.is_flag:
+        return {"type": "boolean", **described}
+    if option.multiple:
+        texts = {"type": "array", "items": {"type": "string"}}
+        return {"anyOf": [texts, {"type": "string"}], **described}
+    return {**_kind(option.type), **described}
+
+
+def _kind(kind: click.ParamType[Any]) -> dict[str, Any]:
+    if isinstance(kind, click.Choice):
+        return {"enum": list(kind.choices)}
+    if isinstance(kind, click.IntRange | click.FloatRange):
+        return {"type": "integer" if isinstance(kind, click.IntRange) else "number"} | _range(kind)
+    if isinstance(kind, click.types.FuncParamType):  # a length
+        return {"type": ["number", "string"], "minimum": 0, "pattern": _PATTERN_OF_LENGTH}
+    return {"type": "string"}
+
+
+def _range(kind: click.IntRange | click.FloatRange) -> dict[str, Any]:
+    ends = {
+        "exclusiveMinimum" if kind.min_open else "minimum": kind.min,
+        "exclusiveMaximum" if kind.max_open else "maximum": kind.max,
+    }
+    return {name: end for name, end in ends.items() if end is not None}

@@ -10,31 +10,15 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions, suggest
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.formats.suggest import chosen, remark, srdf, toml
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.lengths import settings_of
-from satcheck.cli.options import (
-    color_option,
-    debug_option,
-    output_option,
-    paths_argument,
-    planar_option,
-)
 from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.scene_options import (
-    geometry_options,
-    merge_option,
-    package_option,
-    pose_options,
-    reading_options,
-    split_option,
-    units_option,
-)
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
@@ -48,7 +32,7 @@ def _form_of(output: Path | None) -> str:
 
 
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
-@paths_argument("SCENE")
+@option.paths("SCENE")
 @click.option(
     "--never",
     is_flag=True,
@@ -61,17 +45,17 @@ def _form_of(output: Path | None) -> str:
     help="toml: rules for a scene; json: data; srdf: disable_collisions for a robot. "
     "[default: as the name after -o ends; else toml]",
 )
-@output_option
-@planar_option
-@split_option
-@merge_option
-@units_option
-@reading_options
-@package_option
-@geometry_options
-@pose_options
-@color_option
-@debug_option
+@option.output
+@option.planar
+@scene_option.split
+@scene_option.merge
+@scene_option.units
+@scene_option.reading
+@scene_option.package
+@scene_option.geometry
+@scene_option.poses
+@option.color
+@option.debug
 def command(
     form: str | None,
     output: Path | None,

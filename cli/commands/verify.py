@@ -10,19 +10,15 @@ import click
 from msgspec import UNSET
 
 from satcheck._version import __version__
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import form_of, form_option
+from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.numbers import number
 from satcheck.cli.formats.words import counted
-from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import color_option, debug_option, output_option, root_option
-from satcheck.cli.output import Document, harmless, talk
+from satcheck.cli.output import harmless, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.report_file import MOST_BYTES
-from satcheck.cli.scene_options import outside_option
+from satcheck.cli.stated_scene import MOST_BYTES
 from satcheck.core.errors import SatcheckError
-from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool
 from satcheck.report.verification import CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.loading.regular_file import read_whole
@@ -43,12 +39,12 @@ _CALLED: dict[Outcome, str] = {
 
 @click.command("verify", cls=Command, context_settings=HELP_NAMES)
 @click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
-@root_option
+@option.root
 @form_option
-@output_option
-@outside_option
-@color_option
-@debug_option
+@option.output
+@scene_option.outside
+@option.color
+@option.debug
 def command(
     report: Path,
     root: Path,
@@ -66,18 +62,15 @@ def command(
     Exit codes: 0, every verdict is accepted; 1, a verdict is rejected or not certified; 2, wrong
     usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
     """
-    form = form_of(form, output)
-    refuse_early(Inputs((str(report),)), output)
-    document = Document()
+    _, form, document = plain_call({"paths": (str(report),)}, form, output)
     content = _read(report)
     try:
         with Bar("verdicts", "verifying") as bar:
             result = verify(content, root, bar, allow_outside=allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
-    text = json_document(_report(result)) if form == "json" else _table(result)
     if result.certified or result.faults or form == "json" or output is not None:
-        document.deliver(lambda _: text, output, utf8=form == "json")
+        deliver(document, _report(result), form, output, lambda _: _table(result))
     if result.missing:
         talk(f"satcheck: {_missing(result, root)}")
     if not result.certified:

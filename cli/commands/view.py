@@ -13,49 +13,39 @@ import click
 from click.core import ParameterSource
 from msgspec.structs import replace
 
-from satcheck.cli import exit_codes
+from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of
 from satcheck.cli.formats.picture import render
 from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.options import (
-    cache_option,
-    color_option,
-    debug_option,
-    output_option,
-    picture_options,
-    root_option,
-)
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
-from satcheck.cli.report_file import read_report
-from satcheck.cli.scene_options import outside_option
-from satcheck.cli.stated_scene import stated_scene
+from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
 @click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
-@output_option
-@picture_options
+@option.output
+@option.pictures
 @click.option(
     "--asset",
     metavar="FILE",
     help="The asset to show, if a report of satcheck each has several.",
 )
-@root_option
+@option.root
 @click.option(
     "--parts",
     is_flag=True,
     help="Split the bodies with findings, so that the page shows their convex parts. A report of "
     "--accuracy parts has them anyway.",
 )
-@cache_option
-@outside_option
-@color_option
-@debug_option
+@option.cache
+@scene_option.outside
+@option.color
+@option.debug
 def command(
     report: Path,
     output: Path | None,

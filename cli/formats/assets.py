@@ -3,52 +3,97 @@
 from __future__ import annotations
 
 import shlex
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import click
-from rich import box
-from rich.table import Table
-from rich.text import Text
+from msgspec import Struct, field
 
-from satcheck.cli.formats.canvas import Canvas
+from satcheck.audit.summary import tool
 from satcheck.cli.formats.ci.problems import problems
-from satcheck.cli.formats.overview import NAMED
-from satcheck.cli.formats.words import counted, issue_line
-from satcheck.report.report import NOTHING_TO_CHECK
+from satcheck.cli.formats.order import asset_rank, worst_of
+from satcheck.cli.formats.registry import kind_of, pieces
+from satcheck.cli.formats.summary import BesideBaseline
+from satcheck.cli.formats.tables import (
+    BOLD_MAGENTA,
+    BOLD_RED,
+    GREEN,
+    Column,
+    fitted_each,
+    joined,
+    table,
+)
+from satcheck.cli.formats.words import config_lines, counted, issue_line
+from satcheck.cli.output import talk
+from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, worst_verdict
+from satcheck.report.assets import counted as counts_of
+from satcheck.report.json import render_assets
+from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.scene.path_kind import is_folder
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.ci.problems import Problem
-    from satcheck.cli.formats.overview import Overview
     from satcheck.cli.output import Page
-    from satcheck.report.assets import Asset, AssetVerdict
+    from satcheck.report.report import Report
 
 # Kinds of problems that make an asset incomplete.
 _OPEN = (NOTHING_TO_CHECK, "undecided")
 # Colour only repeats what the word says.
-_COLOURS = {
-    "pass": "green",
-    "fail": "bold red",
-    "incomplete": "bold magenta",
-    "error": "bold magenta",
+_STYLES = {
+    "pass": GREEN,
+    "fail": BOLD_RED,
+    "incomplete": BOLD_MAGENTA,
+    "error": BOLD_MAGENTA,
 }
 
 
+class Assets:
+    """Assets, also as `Reports`. make: them anew, as there may be more than fit into memory."""
+
+    def __init__(self, make: Callable[[], Iterable[Asset]], count: int) -> None:
+        self._make, self._count = make, count
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Asset]:
+        return iter(self._make())
+
+    def items(self) -> Iterator[tuple[str, Report]]:
+        return ((asset.file, asset.report) for asset in self)
+
+    def values(self) -> Iterator[Report]:
+        return (asset.report for asset in self)
+
+
+def written(
+    seen: Overview, assets: Assets, form: str, page: Page, *, timings: bool
+) -> str | Iterable[str]:
+    """Return the document about these assets in a format that has no pictures."""
+    if form == "json":
+        return render_assets(seen.report(), assets, timings=timings)
+    if kind_of(form) == "reports":
+        return pieces(assets, form)
+    return render(seen, page) if seen.total or seen.issues else "PASS: 0 assets.\n"
+
+
 def render(seen: Overview, page: Page) -> str:
-    """The whole text, final newline included."""
-    console = Canvas(page)
-    if seen.shown:
-        console.print(_table(seen.shown, unicode=page.unicode))
+    """Return the whole text, final newline included."""
+    said = []
     if hidden := seen.listed - len(seen.shown):
-        console.print(f"{counted(hidden, 'more asset')} not shown (--top {len(seen.shown)})")
+        said.append(f"{counted(hidden, 'more asset')} not shown (--top {len(seen.shown)})")
     if passing := seen.total - seen.listed:
-        console.print(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
+        said.append(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
+    said += [*map(issue_line, seen.issues), *seen.config, summary_line(seen)]
+    lines = _table(seen.shown, page) if seen.shown else []
+    return joined([*lines, *fitted_each(said, page)], page)
+
+
+def tell_issues(seen: Overview) -> None:
+    """Tell on stderr what a document of another format than a table does not say."""
     for issue in seen.issues:
-        console.print(issue_line(issue))
-    for line in seen.config:
-        console.print(line)
-    console.print(summary_line(seen))
-    return console.text()
+        talk(f"satcheck: {issue_line(issue)}")
 
 
 def summary_line(seen: Overview) -> str:
@@ -107,21 +152,17 @@ def _named(seen: Overview, verdict: AssetVerdict) -> str:
     return f" ({', '.join(files[:NAMED])}{more})" if files else ""
 
 
-def _table(assets: list[Asset], *, unicode: bool) -> Table:
-    table = Table(box=box.ROUNDED if unicode else box.ASCII)
-    for name in ("asset", "verdict", "bodies", "pairs", "worst"):
-        right = name in ("bodies", "pairs")
-        table.add_column(
-            name,
-            justify="right" if right else "left",
-            overflow="fold",
-            no_wrap=name not in ("asset", "worst"),
-        )
-    for asset in assets:
-        file, verdict, *others = cells_of(asset)
-        styled = Text(verdict, style=_COLOURS[asset.verdict])
-        table.add_row(Text(file), styled, *map(Text, others))
-    return table
+def _table(assets: list[Asset], page: Page) -> list[str]:
+    cells = zip(*map(cells_of, assets), strict=True)
+    file, verdict, bodies, pairs, worst = cells
+    columns = (
+        Column("asset", file, named=True),
+        Column("verdict", verdict, graded=True),
+        Column("bodies", bodies, right=True),
+        Column("pairs", pairs, right=True),
+        Column("worst", worst, folds=True),
+    )
+    return table(columns, page, [_STYLES[asset.verdict] for asset in assets])
 
 
 def cells_of(asset: Asset) -> tuple[str, ...]:
@@ -140,3 +181,86 @@ def _listed(asset: Asset) -> list[Problem]:
     if asset.verdict == "incomplete":
         listed.sort(key=lambda p: p.kind not in _OPEN)
     return listed
+
+
+# Passing assets are listed up to this many assets.
+LISTED = 60
+# So many are named in the summary.
+NAMED = 3
+
+
+class Overview(Struct):
+    """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
+    unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
+    body or none. config: lines about config
+    files. shown: assets for a table, the worst first. issues: about what all assets share; least:
+    the verdict that these allow at best.
+    """
+
+    counts: Counter[AssetVerdict] = field(default_factory=Counter)
+    named: dict[AssetVerdict, list[str]] = field(default_factory=dict)
+    unchecked: int = 0
+    lone: int = 0
+    config: dict[str, None] = field(default_factory=dict)
+    beside: BesideBaseline = field(default_factory=BesideBaseline)
+    shown: list[Asset] = field(default_factory=list)
+    issues: tuple[Issue, ...] = ()
+    least: AssetVerdict = "pass"
+
+    @property
+    def verdict(self) -> AssetVerdict:
+        """The worst."""
+        return worst_verdict(self.counts + Counter([self.least]))
+
+    def has(self, verdict: AssetVerdict) -> bool:
+        return bool(self.counts[verdict]) or verdict == self.least
+
+    def report(self) -> AssetsReport:
+        """Without the assets."""
+        return AssetsReport(
+            tool=tool(),
+            verdict=self.verdict,
+            counts=counts_of(self.counts),
+            assets=(),
+            issues=self.issues,
+        )
+
+    @property
+    def listed(self) -> int:
+        """The number of assets for a table."""
+        return self.total if self.total <= LISTED else self.total - self.counts["pass"]
+
+    @property
+    def total(self) -> int:
+        return self.counts.total()
+
+    def noting(self, assets: Iterable[Asset]) -> Iterator[Asset]:
+        for asset in assets:
+            self._note(asset)
+            yield asset
+
+    def _note(self, asset: Asset) -> None:
+        self.counts[asset.verdict] += 1
+        named = self.named.setdefault(asset.verdict, [])
+        if len(named) <= NAMED:
+            named.append(asset.file)
+        codes = {issue.code for issue in asset.report.issues} if asset.verdict == "pass" else set()
+        self.unchecked += NOTHING_TO_CHECK in codes
+        self.lone += asset.verdict == "pass" and len(asset.report.bodies) < 2
+        self.config |= dict.fromkeys(config_lines([asset.report]))
+        self.beside.note(asset.report)
+
+
+def overview(
+    assets: Iterable[Asset],
+    issues: tuple[Issue, ...] = (),
+    *,
+    least: AssetVerdict = "pass",
+    top: int | None = None,
+) -> Overview:
+    """top: how many assets are shown at most."""
+    made = Overview(issues=issues, least=least)
+    worst = worst_of(made.noting(assets), top, asset_rank)
+    is_short = made.total <= LISTED
+    made.shown = [each for each in worst if is_short or each.verdict != "pass"]
+    return made

@@ -5,12 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rich import box
-from rich.table import Table
-from rich.text import Text
-
-from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.tables import (
+    BOLD_MAGENTA,
+    GREEN,
+    YELLOW,
+    Column,
+    fitted_each,
+    joined,
+    table,
+)
 from satcheck.cli.formats.words import counted, with_unit
 
 if TYPE_CHECKING:
@@ -19,26 +23,23 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.axes import AxesReport, AxisState, CandidateAxis, Shadow
 
-_COLOURS: dict[AxisState, str] = {
-    "gap": "green",
-    "touch": "yellow",
+_STYLES: dict[AxisState, str] = {
+    "gap": GREEN,
+    "touch": YELLOW,
     "overlap": "",
-    "unknown": "bold magenta",
+    "unknown": BOLD_MAGENTA,
 }
 
 
 def render(result: AxesReport, page: Page) -> str:
-    """The whole text, final newline included."""
-    console = Canvas(page)
-    console.print(title(result))
-    for line in (*_notes(result), *_counts(result)):
-        console.print(line)
-    console.print(_table(result, page))
+    """Return the whole text, final newline included."""
+    above = [title(result), *_notes(result), *_counts(result)]
+    below = [early_out(result), _winner(result)]
     if result.left_out:
-        console.print(f"{counted(result.left_out, 'more axis', 'more axes')}: see --top.")
-    console.print(early_out(result))
-    console.print(_winner(result))
-    return console.text()
+        below.insert(0, f"{counted(result.left_out, 'more axis', 'more axes')}: see --top.")
+    lines = fitted_each(above, page)
+    lines += _table(result, page)
+    return joined([*lines, *fitted_each(below, page)], page)
 
 
 def origin(axis: CandidateAxis) -> str:
@@ -106,21 +107,17 @@ def _counts(result: AxesReport) -> Iterator[str]:
     )
 
 
-def _table(result: AxesReport, page: Page) -> Table:
-    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
-    table.add_column("test", justify="right")
-    for name in ("axis", "direction", "shadow of A", "shadow of B", "between them"):
-        table.add_column(name)
-    for axis in result.axes:
-        table.add_row(
-            str(axis.number),
-            origin(axis),
-            vector(axis.direction),
-            _shadow(axis.shadow_a),
-            _shadow(axis.shadow_b),
-            Text(gap_words(axis), style=_COLOURS[axis.state]),
-        )
-    return table
+def _table(result: AxesReport, page: Page) -> list[str]:
+    axes = result.axes
+    columns = (
+        Column("test", tuple(str(axis.number) for axis in axes), right=True),
+        Column("axis", tuple(map(origin, axes)), folds=True),
+        Column("direction", tuple(vector(axis.direction) for axis in axes), folds=True),
+        Column("shadow of A", tuple(_shadow(axis.shadow_a) for axis in axes), folds=True),
+        Column("shadow of B", tuple(_shadow(axis.shadow_b) for axis in axes), folds=True),
+        Column("between them", tuple(map(gap_words, axes)), folds=True, graded=True),
+    )
+    return table(columns, page, [_STYLES[axis.state] for axis in axes])
 
 
 def _shadow(shadow: Shadow) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.lines import BOLD, fitted
 from satcheck.cli.formats.numbers import at_most, bounds, number, vector
+from satcheck.cli.formats.tables import BOLD, fitted
 from satcheck.cli.formats.words import NEGLIGIBLE, counted
 
 if TYPE_CHECKING:

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from rich.table import Table
-from rich.text import Text
-
-from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import at_most, duration, number
+from satcheck.cli.formats.tables import BOLD, aligned, fitted
 from satcheck.cli.formats.words import counted
 
 if TYPE_CHECKING:
@@ -26,85 +23,70 @@ MOST_NAMES = 4
 def explanation(
     page: Page, report: Report, findings: Sequence[Finding], *, timings: bool
 ) -> list[str]:
-    """The lines between the table and the remarks."""
-    canvas = Canvas(page)
-    canvas.print(_effects(report.effects, timings=timings))
+    """Return the lines between the table and the remarks."""
+    effects = [*map(_effect, report.effects)]
     if report.support is not None:
-        canvas.print(_support(report.support, timings=timings))
+        effects.append(_support(report.support))
     if report.regions:
-        canvas.print(_in_regions(report.regions, timings=timings))
-    canvas.print()
-    canvas.print(_bodies(report.bodies))
+        effects.append(_in_regions(report.regions))
+    lines = [*aligned(_rows(effects, timings=timings), page), ""]
+    lines += aligned([row for body in report.bodies for row in _about(body)], page)
     for finding in findings:
-        canvas.print(Text(f"\n{finding.a} against {finding.b}: {finding.relation}", style="bold"))
-        canvas.print(_plan(finding, timings=timings))
-    canvas.print()
-    return canvas.text().removesuffix("\n").split("\n")
+        title = f"{finding.a} against {finding.b}: {finding.relation}"
+        plan = [(s.stage, s.result, s.microseconds, s.detail) for s in finding.plan]
+        lines += ["", *fitted(title, page, BOLD)]
+        lines += aligned(_rows(plan, timings=timings), page, bold=False)
+    return [*lines, ""]
 
 
-def _effects(effects: Sequence[EffectReport], *, timings: bool) -> Table:
-    table = _grid(columns=4 if timings else 3)
-    for effect in effects:
-        cost = [duration(effect.microseconds) if effect.pairs else ""] if timings else []
-        table.add_row(
-            "",
-            Text(effect.effect, style="bold"),
-            counted(effect.pairs, "pair"),
-            *cost,
-            _who(effect),
-        )
-    return table
+# What was computed, its pairs or result, microseconds (None: none), and more about it.
+_Row = tuple[str, str, float | None, str]
 
 
-def _support(statics: Statics, *, timings: bool) -> Table:
-    """What the support of bodies took, as the effects above."""
-    table = _grid(columns=4 if timings else 3)
-    cost = [duration(statics.microseconds)] if timings else []
+def _rows(rows: Sequence[_Row], *, timings: bool) -> list[tuple[str, ...]]:
+    if not timings:
+        return [(name, result, more) for name, result, _, more in rows]
+    return [
+        (name, result, "" if cost is None else duration(cost), more)
+        for name, result, cost, more in rows
+    ]
+
+
+def _effect(effect: EffectReport) -> _Row:
+    cost = effect.microseconds if effect.pairs else None
+    return effect.effect, counted(effect.pairs, "pair"), cost, _who(effect)
+
+
+def _support(statics: Statics) -> _Row:
     points = sum(len(contact.points) for contact in statics.contacts)
     islands = counted(len(statics.islands), "island")
-    who = ", ".join(statics.asked_by[:MOST_NAMES])
-    if len(statics.asked_by) > MOST_NAMES:
-        who += f" and {len(statics.asked_by) - MOST_NAMES} more"
-    contacts = f"{counted(points, 'contact point')}, {islands}"
-    name = Text("support", style="bold")
-    table.add_row("", name, counted(statics.pairs, "pair"), *cost, f"{who}; {contacts}")
-    return table
+    more = f"{_names(statics.asked_by)}; {counted(points, 'contact point')}, {islands}"
+    return "support", counted(statics.pairs, "pair"), statics.microseconds, more
 
 
-def _in_regions(regions: Regions, *, timings: bool) -> Table:
-    table = _grid(columns=4 if timings else 3)
-    cost = [duration(regions.microseconds)] if timings else []
+def _in_regions(regions: Regions) -> _Row:
     names = dict.fromkeys(finding.region for finding in regions.findings)
-    name = Text("inside", style="bold")
     bodies = counted(len(regions.findings), "body", "bodies")
-    table.add_row("", name, bodies, *cost, ", ".join(names))
-    return table
+    return "inside", bodies, regions.microseconds, ", ".join(names)
+
+
+def _names(names: Sequence[str]) -> str:
+    more = len(names) - MOST_NAMES
+    return ", ".join(names[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 def _who(effect: EffectReport) -> str:
     """`--depth; not on 2 (boxes apart), 1 (allowed)`."""
     if not effect.asked_by:
         return "not asked"
-    who = ", ".join(effect.asked_by[:MOST_NAMES])
-    if len(effect.asked_by) > MOST_NAMES:
-        who += f" and {len(effect.asked_by) - MOST_NAMES} more"
+    who = _names(effect.asked_by)
     reasons = [f"{count:,} ({reason})" for reason, count in effect.not_run.items()]
     return f"{who}; not on {', '.join(reasons)}" if reasons else who
 
 
-def _bodies(bodies: Sequence[BodyReport]) -> Table:
-    table = _grid(columns=2)
-    for body in bodies:
-        first, *more = _about(body)
-        table.add_row("", Text(body.id, style="bold"), first)
-        for line in more:
-            table.add_row("", "", line)
-    return table
-
-
-def _about(body: BodyReport) -> Iterator[str]:
+def _about(body: BodyReport) -> Iterator[tuple[str, str]]:
     if body.triangles is None:
-        yield f"{body.file}: unreadable"
+        yield body.id, f"{body.file}: unreadable"
         return
     words = [f"{body.file}: {counted(body.triangles, 'triangle')}"]
     if body.health is not None and not body.health.closed:
@@ -113,29 +95,12 @@ def _about(body: BodyReport) -> Iterator[str]:
         words.append("convex" if body.convex else "concave")
     if body.resolution is not None:
         words.append(f"precision {number(body.resolution)}")
-    yield ", ".join(words)
+    yield body.id, ", ".join(words)
     if body.parts is not None and body.part_error is not None:
         error = body.part_error
         yield (
+            "",
             f"{counted(body.parts, 'convex part')}: they stick out of the mesh by at most "
             f"{at_most(error.outside)}, and the mesh out of them by at most "
-            f"{at_most(error.missing)}"
+            f"{at_most(error.missing)}",
         )
-
-
-def _plan(finding: Finding, *, timings: bool) -> Table:
-    table = _grid(columns=4 if timings else 3)
-    for stage in finding.plan:
-        cost = [duration(stage.microseconds)] if timings else []
-        table.add_row("", stage.stage, stage.result, *cost, stage.detail)
-    return table
-
-
-def _grid(columns: int) -> Table:
-    """Indented; only the last column is folded, between words."""
-    table = Table.grid(padding=(0, 2, 0, 0))
-    table.add_column(width=0)
-    for _ in range(columns - 1):
-        table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    return table

@@ -6,15 +6,16 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from satcheck.cli.formats.limits import limits, rule_of
-from satcheck.cli.formats.lines import YELLOW
 from satcheck.cli.formats.numbers import bounds, number
+from satcheck.cli.formats.tables import YELLOW
 from satcheck.cli.formats.words import (
     counted,
     is_unusable,
     issue_line,
+    limits,
     past_holes,
     place,
+    rule_of,
     with_unit,
 )
 from satcheck.report.report import (
@@ -33,7 +34,7 @@ _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
 
 
 class Remark(NamedTuple):
-    """One line, and its style (`cli/formats/lines.py`)."""
+    """One line, and its style (`cli/formats/tables.py`)."""
 
     text: str
     style: str = ""

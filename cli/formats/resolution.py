@@ -5,13 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rich import box
-from rich.table import Table
-
-from satcheck.cli.formats.canvas import Canvas
+from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.formats.numbers import number, vector
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.verdict import verdict_line
+from satcheck.cli.formats.tables import Column, fitted_each, joined, table
 from satcheck.cli.formats.words import counted
 from satcheck.scene.units import unit_of
 
@@ -28,24 +25,21 @@ ROWS = 60
 
 def render(resolution: Resolution, page: Page, output: str | None) -> str:
     """The whole text, final newline included. output: the file that the scene was written to."""
-    console = Canvas(page)
     shown = _shown(resolution.moves)
-    if shown:
-        console.print(_moves(shown, unicode=page.unicode))
+    said = []
     if rest := len(resolution.moves) - len(shown):
-        console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
-    for left in resolution.left:
-        console.print(_left_line(left))
+        said.append(f"{counted(rest, 'more body', 'more bodies')} moved by less")
+    said += map(_left_line, resolution.left)
     summary = resolution.summary
-    console.print(_motion_line(resolution, summary))
+    said.append(_motion_line(resolution, summary))
     if summary.flush:
-        console.print(
-            f"{counted(summary.flush, 'pair')} within the tolerance: they count as touching."
-        )
+        pairs = counted(summary.flush, "pair")
+        said.append(f"{pairs} within the tolerance: they count as touching.")
     subject = "The moved scene" if output is None else output
-    console.print(f"{subject}, checked again: {counts_line(resolution.report)}")
-    console.print(verdict_line(resolution.report))
-    return console.text()
+    said.append(f"{subject}, checked again: {counts_line(resolution.report)}")
+    said.append(verdict_line(resolution.report))
+    lines = _moves(shown, page) if shown else []
+    return joined([*lines, *fitted_each(said, page)], page)
 
 
 def _shown(moves: Sequence[Move]) -> list[Move]:
@@ -55,14 +49,13 @@ def _shown(moves: Sequence[Move]) -> list[Move]:
     return sorted(moves, key=lambda move: -move.length)[:ROWS]
 
 
-def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
-    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
-    table.add_column("body", overflow="fold")
-    table.add_column("move by", overflow="fold")
-    table.add_column("length", justify="right")
-    for move in moves:
-        table.add_row(move.body, vector(move.translation), number(move.length))
-    return table
+def _moves(moves: Sequence[Move], page: Page) -> list[str]:
+    columns = (
+        Column("body", tuple(move.body for move in moves), named=True),
+        Column("move by", tuple(vector(move.translation) for move in moves), folds=True),
+        Column("length", tuple(number(move.length) for move in moves), right=True),
+    )
+    return table(columns, page)
 
 
 def _left_line(left: Left) -> str:

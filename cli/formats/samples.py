@@ -5,14 +5,24 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from rich import box
-from rich.table import Table
-from rich.text import Text
-
-from satcheck.cli.formats.canvas import Canvas
-from satcheck.cli.formats.config import config_line
-from satcheck.cli.formats.samples_summary import samples_counts, samples_verdict
-from satcheck.cli.formats.words import counted, in_motion, interval, issue_line, with_unit
+from satcheck.cli.formats.summary import doubts, nothing_checked
+from satcheck.cli.formats.tables import (
+    BOLD_MAGENTA,
+    BOLD_RED,
+    GREEN,
+    Column,
+    fitted_each,
+    joined,
+    table,
+)
+from satcheck.cli.formats.words import (
+    config_line,
+    counted,
+    in_motion,
+    interval,
+    issue_line,
+    with_unit,
+)
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -32,7 +42,7 @@ FOUND = 8
 # At most so many lines about single poses.
 REMARKS = 10
 # The worst first. Colour only repeats what the word says.
-_COLOURS = {"fail": "bold red", "incomplete": "bold magenta", "pass": "green"}
+_STYLES = {"fail": BOLD_RED, "incomplete": BOLD_MAGENTA, "pass": GREEN}
 
 
 def render(result: Samples, page: Page, *, top: int | None = None) -> str:
@@ -40,53 +50,43 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
 
     top: how many poses or pairs at most, the worst first; all count in the summary.
     """
-    console = Canvas(page)
+    lines: list[str] = []
+    said: list[str] = []
     if result.number <= FEW_POSES:
         poses = result.samples if top is None else _worst(result.samples)[:top]
-        console.print(_poses(poses, unit_of(result.units), unicode=page.unicode))
+        lines += _poses(poses, unit_of(result.units), page)
         if more := len(result.samples) - len(poses):
-            console.print(f"{counted(more, 'more pose')} not shown (--top {top})")
+            said.append(f"{counted(more, 'more pose')} not shown (--top {top})")
     else:
         met = sorted(
             (pair for pair in result.pairs if not pair.settled),
             key=lambda pair: (-pair.overlaps, -pair.undecided, -pair.near, -pair.touches),
         )
         rows = met[: top or ROWS]
-        if rows:
-            console.print(_pairs(rows, result.number, unicode=page.unicode))
+        lines += _pairs(rows, result.number, page) if rows else []
         if more := len(met) - len(rows):
             why = f"not shown (--top {top})" if top else "not shown: JSON has all"
-            console.print(f"{counted(more, 'more pair')} {why}")
-    for issue in result.issues:
-        if issue.severity != "error":
-            console.print(issue_line(issue))
-    for line in _remarks(result.samples):
-        console.print(line)
+            said.append(f"{counted(more, 'more pair')} {why}")
+    said += [issue_line(issue) for issue in result.issues if issue.severity != "error"]
+    said += _remarks(result.samples)
     if result.config is not None:
-        console.print(config_line(result.config))
-    console.print(samples_counts(result))
-    console.print(samples_verdict(result))
-    return console.text()
+        said.append(config_line(result.config))
+    said += [samples_counts(result), samples_verdict(result)]
+    return joined([*lines, *fitted_each(said, page)], page)
 
 
 def _worst(samples: Sequence[Sample]) -> list[Sample]:
-    return sorted(samples, key=lambda sample: list(_COLOURS).index(sample.verdict))
+    return sorted(samples, key=lambda sample: list(_STYLES).index(sample.verdict))
 
 
-def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:
-    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
-    table.add_column("#", justify="right", no_wrap=True)
-    table.add_column("pose", overflow="fold")
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("found", overflow="fold")
-    for sample in samples:
-        table.add_row(
-            str(sample.number),
-            _pose(sample),
-            Text(sample.verdict, style=_COLOURS[sample.verdict]),
-            "\n".join(_found(sample.findings, unit)),
-        )
-    return table
+def _poses(samples: Sequence[Sample], unit: str | None, page: Page) -> list[str]:
+    columns = (
+        Column("#", tuple(str(sample.number) for sample in samples), right=True),
+        Column("pose", tuple(map(_pose, samples)), folds=True),
+        Column("verdict", tuple(sample.verdict for sample in samples), graded=True),
+        Column("found", tuple("\n".join(_found(s.findings, unit)) for s in samples), folds=True),
+    )
+    return table(columns, page, [_STYLES[sample.verdict] for sample in samples])
 
 
 def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
@@ -112,25 +112,17 @@ def _depth(finding: Finding, unit: str | None) -> str:
     return f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
 
 
-def _pairs(pairs: Sequence[PairTally], samples: int, *, unicode: bool) -> Table:
-    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
-    table.add_column("A", overflow="fold")
-    table.add_column("B", overflow="fold")
-    counts = ("overlaps", "touches", "near", "undecided")
-    shown = [name for name in counts if any(getattr(pair, name) for pair in pairs)]
-    for name in shown:
-        table.add_column(name, justify="right", no_wrap=True)
-    if "overlaps" in shown:
-        table.add_column("the first overlap", overflow="fold")
-    for pair in pairs:
-        first = pair.first_pose
-        table.add_row(
-            pair.a,
-            pair.b,
-            *(_share(getattr(pair, name), samples) for name in shown),
-            *([] if first is None else [_as_text(first)]),
-        )
-    return table
+def _pairs(pairs: Sequence[PairTally], samples: int, page: Page) -> list[str]:
+    columns = [
+        Column("A", tuple(pair.a for pair in pairs), named=True),
+        Column("B", tuple(pair.b for pair in pairs), named=True),
+    ]
+    for name in ("overlaps", "touches", "near", "undecided"):
+        cells = tuple(_share(getattr(pair, name), samples) for pair in pairs)
+        columns += [Column(name, cells, right=True)] if any(cells) else []
+    first = tuple("" if p.first_pose is None else _as_text(p.first_pose) for p in pairs)
+    columns += [Column("the first overlap", first, folds=True)] if any(first) else []
+    return table(columns, page)
 
 
 def _share(count: int, total: int) -> str:
@@ -161,3 +153,54 @@ def _remarks(samples: Sequence[Sample]) -> list[str]:
     if len(lines) > REMARKS:
         return [*lines[:REMARKS], f"{counted(len(lines) - REMARKS, 'more remark')}: JSON has all"]
     return lines
+
+
+# Failing pairs that are named, the most frequent first.
+NAMED = 3
+
+
+def samples_counts(result: Samples) -> str:
+    """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail.`"""
+    kind = "pose" if result.seed is None else "random pose"
+    seed = "" if result.seed is None else f" (seed {result.seed})"
+    singular = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
+    plural = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
+    parts = [
+        f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
+        for verdict in ("pass", "fail", "incomplete")
+        if (count := result.by_verdict[verdict])
+    ]
+    line = (
+        f"{counted(result.number, kind)}{seed}, "
+        f"{counted(len(result.bodies), 'body', 'bodies')}, "
+        f"{counted(result.counts.total, 'pair')}"
+        f"{f', {result.counts.allowed:,} allowed' if result.counts.allowed else ''}"
+        f"{f', {result.counts.exempt:,} more exempt' if result.counts.exempt else ''}"
+        f": {', '.join(parts)}."
+    )
+    return " ".join([line, *doubts(result.issues)])
+
+
+def samples_verdict(result: Samples) -> str:
+    """`FAIL: 9 pairs fail: base and upper in 24 poses, base and left in 14 poses, and 7 more.`"""
+    if result.verdict == "pass":
+        return "PASS: no collision in any pose."
+    if result.verdict == "fail":
+        return f"FAIL: {_failed(result)}. Next: --pose POSE -o report.html shows one pose in 3-D."
+    unchecked = nothing_checked(result.issues)
+    failed = any(issue.severity == "error" for issue in result.issues)
+    word = "ERROR" if failed else "INCOMPLETE"
+    return " ".join([f"{word}:", *(unchecked or ["no collision was found, but not proven."])])
+
+
+def _failed(result: Samples) -> str:
+    failed = [pair for pair in result.pairs if pair.fails]
+    if not failed:  # bodies that rules ask to stand
+        poses = result.by_verdict["fail"]
+        verb = "fails" if poses == 1 else "fail"
+        return f"{counted(poses, 'pose')} {verb} by the support of bodies"
+    failed.sort(key=lambda pair: (-pair.fails, pair.first_overlap or 0))
+    named = [f"{p.a} and {p.b} in {counted(p.fails, 'pose')}" for p in failed[:NAMED]]
+    more = f", and {len(failed) - len(named):,} more" if len(failed) > len(named) else ""
+    verb = "fails" if len(failed) == 1 else "fail"
+    return f"{counted(len(failed), 'pair')} {verb}: {', '.join(named)}{more}"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.lines import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.cli.formats.words import counted, with_unit
 from satcheck.scene.units import unit_of
 

@@ -2,31 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
 from satcheck.audit.request.settings import LISTED_PAIRS
-from satcheck.cli.formats.columns import columns_of, fit
-from satcheck.cli.formats.config import config_line
-from satcheck.cli.formats.grid import Grid
-from satcheck.cli.formats.lines import (
+from satcheck.cli.formats.messages import next_step, verdict_line
+from satcheck.cli.formats.numbers import after_rounding, bounds, duration, number, vector
+from satcheck.cli.formats.order import groups_of, severity, worst_first
+from satcheck.cli.formats.remarks import remarks
+from satcheck.cli.formats.summary import counts_line
+from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
     CYAN,
     GREEN,
     YELLOW,
+    Column,
+    Grid,
+    fit,
     fitted,
     joined,
+    stacked,
 )
-from satcheck.cli.formats.order import groups_of, severity, worst_first
-from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.verdict import next_step, verdict_line
-from satcheck.cli.formats.words import counted, is_unusable, past_holes
+from satcheck.cli.formats.words import (
+    config_line,
+    contacts,
+    counted,
+    in_motion,
+    interval,
+    is_hit,
+    is_unusable,
+    past_holes,
+)
+from satcheck.report.report import OVERLAPS
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.columns import Column
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding, Report, Severity
 
@@ -56,7 +68,8 @@ def render(
         styles = [_style(finding) for finding in shown]
         layout = fit(columns, page.width)
         if layout is None:
-            lines += _stacked(columns, page, styles)
+            titles = [f"{each.a} and {each.b}: {each.relation}" for each in shown]
+            lines += stacked(titles, columns[3:], page, styles)
         else:
             lines += Grid(layout, page, styles, set(_breaks(groups))).lines()
     for rest in _left_out(report, rows, top):
@@ -129,16 +142,84 @@ def _left_out(report: Report, rows: Sequence[Finding], top: int | None) -> Itera
         yield f"{counted(rest, 'more pair')}, all separated"
 
 
-def _stacked(columns: Sequence[Column], page: Page, styles: Sequence[str]) -> Iterator[str]:
-    """Pairs as paragraphs, for a terminal that is too narrow for a table: `box and lid:
-    penetrating`, then a line for each figure.
+def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool) -> list[Column]:
+    """Columns that say nothing are left out: those that are empty in every row, the severity where
+    it is that of the relation, the quality where all is exact."""
+    known = unit_of(units)
+    unit = f" ({known})" if known else ""
+    rounded = max((after_rounding(finding.mtv) for finding in findings), default="")
+    placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
-    columns: A, B and the relation come first. styles: of each pair.
-    """
-    a, b, relation, *others = columns
-    rows = zip(a.cells, b.cells, relation.cells, styles, strict=True)
-    for number, (first, second, told, style) in enumerate(rows):
-        yield from fitted(f"{first} and {second}: {told}", page, style)
-        for column in others:
-            if cell := column.cells[number]:
-                yield from fitted(f"  {column.name}: {cell}", page)
+    def column(name: str, cell: Callable[[Finding], str], **how: bool) -> Column:
+        return Column(name, tuple(map(cell, findings)), **how)
+
+    made = [
+        column("A", lambda finding: finding.a, named=True),
+        column("B", lambda finding: finding.b, named=True),
+        column("relation", lambda finding: finding.relation, graded=True),
+        column(f"gap{unit}", _gap, right=True, folds=True),
+        column(f"thickness{unit}", _overlap("thickness", findings), right=True, folds=True),
+        column(f"depth{unit}", _overlap("depth", findings), right=True, folds=True),
+        column(f"move A by{unit}{rounded}", _mtv, folds=True),
+        column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
+        column(f"contact{placed}", contacts, folds=True),
+        column("in motion", lambda finding: in_motion(finding, known), folds=True),
+    ]
+    if any(finding.severity != _implied(finding) or finding.baseline_state for finding in findings):
+        made.insert(3, column("severity", _severity, graded=True))
+    if any(finding.quality not in (None, "exact") for finding in findings):
+        made.append(column("quality", lambda finding: finding.quality or ""))
+    if timings:
+        made.append(column("time", _time, right=True))
+    return [each for each in made if any(each.cells)]
+
+
+def _gap(finding: Finding) -> str:
+    if finding.distance is None or finding.distance <= 0:
+        return ""
+    between = finding.distance_bounds
+    return number(finding.distance) if between is None else bounds(*between)
+
+
+def _overlap(figure: str, findings: Sequence[Finding]) -> Callable[[Finding], str]:
+    """The cell of the thickness or the depth; where any is known, it says why others are not."""
+    some = any(getattr(finding, figure) is not None for finding in findings)
+
+    def cell(finding: Finding) -> str:
+        text = interval(getattr(finding, f"{figure}_bounds"))
+        if text or not some or finding.at_rest not in OVERLAPS:
+            return text
+        tried = any(stage.stage == figure for stage in finding.plan)
+        return "not known" if tried else "not asked"
+
+    return cell
+
+
+def _implied(finding: Finding) -> Severity:
+    """The severity of such a finding where no rule says otherwise."""
+    if finding.relation in OVERLAPS or finding.relation == "near" or is_hit(finding):
+        return "error"
+    if finding.undecided is not None:
+        return "warning"
+    return "note" if finding.relation == "touching" else "none"
+
+
+def _severity(finding: Finding) -> str:
+    """`error`, `error, new`; a finding that the baseline holds, unchanged, is `known`."""
+    said = "" if finding.severity == "none" else finding.severity
+    state = finding.baseline_state
+    return f"{said}, {'known' if state == 'unchanged' else state}" if state else said
+
+
+def _volume(finding: Finding) -> str:
+    return "" if finding.volume is None else number(finding.volume)
+
+
+def _mtv(finding: Finding) -> str:
+    if finding.mtv is None:
+        return ""
+    return vector(finding.mtv) + ("" if finding.mtv_verified else " not verified")
+
+
+def _time(finding: Finding) -> str:
+    return duration(sum(stage.microseconds for stage in finding.plan)) if finding.plan else ""

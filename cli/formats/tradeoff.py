@@ -4,45 +4,33 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rich import box
-from rich.table import Table
-from rich.text import Text
-
-from satcheck.cli.formats.canvas import Canvas
 from satcheck.cli.formats.numbers import DIGITS, duration, number
+from satcheck.cli.formats.tables import BOLD_RED, GREEN, Column, fitted, fitted_each, joined, table
 from satcheck.cli.formats.words import counted, interval
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from rich.console import JustifyMethod
+    from collections.abc import Callable, Iterator
 
     from satcheck.cli.output import Page
     from satcheck.report.tradeoff import Bounds, Row, Times, TradeoffReport
 
 _VERDICT = {True: "right", False: "WRONG", None: ""}
-_COLOURS = {"right": "green", "WRONG": "bold red"}
-_LEFT = ("rung", "relation", "settled by")
-# Never broken between lines.
-_WHOLE = ("rung", "verdict", "error", "time")
+_STYLES = {True: GREEN, False: BOLD_RED, None: ""}
 
 
 def render(result: TradeoffReport, page: Page) -> str:
-    """The whole text, final newline included."""
-    console = Canvas(page)
-    console.print(title(result))
-    console.print(_table(result, page))
-    for line in silent(result):
-        console.print(f"  {line}")
+    """Return the whole text, final newline included."""
+    below = [f"  {line}" for line in silent(result)]
     if result.default is not None:
-        console.print(f"The default: settled by {result.default}; see satcheck --explain A B.")
+        below.append(f"The default: settled by {result.default}; see satcheck --explain A B.")
     spent = f"{number(round(result.seconds, 1))} s of {number(result.budget)} s"
-    console.print(
+    below.append(
         "* on the Pareto front: no rung is better in time, error or proof without being worse in "
         "another. Error: signed distance said minus proven; below 0: closer or deeper than it is. "
         f"Medians of up to {counted(result.repeat, 'run')} in turn, {spent}."
     )
-    return console.text()
+    lines = [*fitted(title(result), page), *_table(result, page)]
+    return joined([*lines, *fitted_each(below, page)], page)
 
 
 def title(result: TradeoffReport) -> str:
@@ -74,26 +62,26 @@ def figure(value: float, bounds: Bounds) -> str:
     return f"gap {number(value) if low is None else interval((max(low, 0.0), high))}"
 
 
-def _table(result: TradeoffReport, page: Page) -> Table:
-    exact = next((row.cold for row in result.rungs if row.rung == "exact"), None)
-    columns = {
-        "rung": [f"{'*' if row.pareto else ' '} {row.label}" for row in result.rungs],
-        "relation": [_relation(row) for row in result.rungs],
-        "verdict": [_verdict(row) for row in result.rungs],
-        "answer": [_answer(row) for row in result.rungs],
-        "error": [_error(row) for row in result.rungs],
-        "time": [_time(row.cold) for row in result.rungs],
-        "x exact": [_ratio(row.cold, exact) for row in result.rungs],
-        "cached": [_time(row.cached) for row in result.rungs],
-        "settled by": [row.settled_by or "" for row in result.rungs],
-    }
-    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
-    for name in columns:
-        side: JustifyMethod = "left" if name in _LEFT else "right"
-        table.add_column(name, justify=side, overflow="fold", no_wrap=name in _WHOLE)
-    for cells in zip(*columns.values(), strict=True):
-        table.add_row(*(Text(cell, style=_COLOURS.get(cell, "")) for cell in cells))
-    return table
+def _table(result: TradeoffReport, page: Page) -> list[str]:
+    rows = result.rungs
+    exact = next((row.cold for row in rows if row.rung == "exact"), None)
+
+    def column(name: str, cell: Callable[[Row], str], **how: bool) -> Column:
+        return Column(name, tuple(map(cell, rows)), **how)
+
+    columns = (
+        column("rung", lambda row: f"{'*' if row.pareto else ' '} {row.label}"),
+        column("relation", _relation, folds=True),
+        column("verdict", _verdict, right=True, graded=True),
+        column("answer", _answer, right=True, folds=True),
+        column("error", _error, right=True),
+        column("time", lambda row: _time(row.cold), right=True),
+        column("x exact", lambda row: _ratio(row.cold, exact), right=True, folds=True),
+        column("cached", lambda row: _time(row.cached), right=True, folds=True),
+        column("settled by", lambda row: row.settled_by or "", folds=True),
+    )
+    styles = ["" if row.rung == "exact" else _STYLES[row.right] for row in rows]
+    return table(columns, page, styles)
 
 
 def _relation(row: Row) -> str:

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from msgspec.structs import replace
 
 from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.cli.formats.numbers import at_least, at_most, bounds, number, vector
 from satcheck.cli.output import harmless
+from satcheck.report.report import OVERLAPS
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.report.report import BodyReport, Finding, Issue
+    from collections.abc import Iterable
+
+    from satcheck.report.report import BodyReport, Finding, Issue, Report, RuleReport
+    from satcheck.report.settings import OptionValue, StatedConfig
     from satcheck.report.sweep import Joints, Place
     from satcheck.report.values import Interval
     from satcheck.scene import Issue as InputIssue
@@ -130,3 +139,94 @@ def place(at: Place, unit: str | None) -> str:
 def with_unit(figure: str, unit: str | None) -> str:
     """`2.5 mm`; the figure alone where its unit is unknown."""
     return f"{figure} {unit}" if unit else figure
+
+
+def rule_of(finding: Finding, report: Report) -> RuleReport | None:
+    """The rule of the scene that decided the severity; None, too, where several have its name, as
+    those of one line do."""
+    named = [rule for rule in report.rules if rule.name == finding.rule]
+    return named[0] if len(named) == 1 else None
+
+
+def limits(finding: Finding, report: Report) -> list[str]:
+    """What the pair is held against: `clearance 5 mm`; of an overlap `max_depth 1 mm`."""
+    unit, rule = unit_of(report.units), rule_of(finding, report)
+    if finding.relation not in OVERLAPS:
+        own = None if rule is None else rule.clearance
+        asked = {"clearance": (report.settings.clearance if own is None else own, "")}
+    elif rule is None:
+        return []
+    else:
+        asked = {
+            "max_depth": (rule.max_depth, ""),
+            "max_thickness": (rule.max_thickness, ""),
+            "max_volume": (rule.max_volume, "^3"),
+        }
+    return [
+        f"{name} {with_unit(number(limit), unit and unit + power)}"
+        for name, (limit, power) in asked.items()
+        if limit is not None
+    ]
+
+
+def with_titles(report: Report) -> Report:
+    """The report with `name (id)` for the id of each node of a file whose name is not its id, for
+    reading only."""
+    shown = {
+        body.id: f"{body.name} ({body.id})"
+        for body in report.bodies
+        if body.path is not None and body.name != body.id
+    }
+    if not shown:
+        return report
+    return replace(
+        report,
+        bodies=tuple(replace(body, id=shown.get(body.id, body.id)) for body in report.bodies),
+        findings=tuple(
+            replace(f, a=shown.get(f.a, f.a), b=shown.get(f.b, f.b)) for f in report.findings
+        ),
+        issues=tuple(replace(i, body=_of(shown, i.body)) for i in report.issues),
+        motions=tuple(
+            replace(motion, bodies=tuple(shown.get(body, body) for body in motion.bodies))
+            for motion in report.motions
+        ),
+    )
+
+
+def _of(shown: Mapping[str, str], body: str | None) -> str | None:
+    return None if body is None else shown.get(body, body)
+
+
+def in_one_line_each(report: Report) -> Report:
+    """The report with texts that a terminal can show."""
+    names = ((body.id, body.name, body.file, body.path or "") for body in report.bodies)
+    if all(name.isprintable() for each in names for name in each):
+        return report
+    from msgspec import convert, to_builtins
+
+    return convert(_shown(to_builtins(report)), type(report))
+
+
+def _shown(value: Any) -> Any:
+    if isinstance(value, str):
+        return harmless(value)
+    if isinstance(value, dict):
+        return {key: _shown(member) for key, member in value.items()}
+    return [_shown(member) for member in value] if isinstance(value, list | tuple) else value
+
+
+def config_lines(reports: Iterable[Report]) -> list[str]:
+    """A line for each config file that took effect."""
+    stated = (report.config for report in reports)
+    return list(dict.fromkeys(config_line(config) for config in stated if config is not None))
+
+
+def config_line(config: StatedConfig) -> str:
+    """`Options of satcheck.toml: tolerance = 0.1, fail-on = "warning"`."""
+    options = (f"{name} = {toml(value)}" for name, value in config.options.items())
+    return f"Options of {config.file}: {', '.join(options)}"
+
+
+def toml(value: OptionValue) -> str:
+    """The value as TOML writes it; JSON writes texts, numbers and lists of texts alike."""
+    return json.dumps(value, ensure_ascii=False)

@@ -9,14 +9,13 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.assets import cells_of, summary_line
-from satcheck.cli.formats.ci.problems import sentence
+from satcheck.cli.formats.messages import finding_message
 from satcheck.cli.formats.order import severity
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import harmless
-from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.overview import Overview
+    from satcheck.cli.formats.assets import Overview
     from satcheck.report.assets import Asset
     from satcheck.report.report import Finding
 
@@ -74,7 +73,7 @@ def render(seen: Overview, worst: Iterable[tuple[Asset, Finding, bytes | str]]) 
 
 
 def _item(number: int, asset: Asset, finding: Finding, picture: bytes | str) -> str:
-    told = _text(sentence(finding, unit_of(asset.report.units)))
+    told = _text(finding_message(finding, asset.report))
     return (
         f'<li class="{severity(finding)}">{_picture(picture)}'
         f"<p>{number}. <b>{_text(asset.file)}</b></p><p>{told}</p></li>\n"

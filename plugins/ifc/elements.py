@@ -7,7 +7,7 @@ ports, structural analysis and terrain are not.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -108,6 +108,13 @@ def instances_of(model: Any, name: str) -> list[Any]:
         return []
 
 
+def declared(model: Any, name: str) -> Any:
+    """Return the entity of this name as the schema of the file declares it."""
+    from ifcopenshell import schema_by_name
+
+    return schema_by_name(model.schema_identifier).declaration_by_name(name).as_entity()
+
+
 def parts_of(whole: Any) -> Iterator[Any]:
     """The parts into which IfcRelAggregates or IfcRelNests takes an element apart."""
     for relation in (*whole.IsDecomposedBy, *getattr(whole, "IsNestedBy", ())):
@@ -122,3 +129,107 @@ def _is_body(product: Any) -> bool:
 
 def _order(product: Any) -> tuple[str, int]:
     return product.GlobalId or "", product.id()
+
+
+_ROOT = "IfcElement"  # the superclass of all bodies; no group
+
+
+def groups_of(model: Any, bodies: Sequence[Any]) -> dict[int, tuple[str, ...]]:
+    """The number of each instance -> its groups."""
+    classes: dict[str, tuple[str, ...]] = {}
+    for name in {body.is_a() for body in bodies}:
+        classes[name] = _classes(model, name)
+    return {body.id(): (*classes[body.is_a()], *_memberships(body)) for body in bodies}
+
+
+def _classes(model: Any, name: str) -> tuple[str, ...]:
+    """The class and those above it, below IfcElement."""
+    types = []
+    declaration = declared(model, name)
+    while declaration is not None and declaration.name() != _ROOT:
+        types.append(declaration.name())
+        declaration = declaration.supertype()
+    return tuple(types) if declaration is not None else (name,)
+
+
+def _memberships(body: Any) -> tuple[str, ...]:
+    from ifcopenshell.util.element import get_container, get_type
+    from ifcopenshell.util.system import get_element_systems
+
+    named = (
+        ("storey", get_container(body, ifc_class="IfcBuildingStorey")),
+        ("type", get_type(body)),
+        *(("system", system) for system in get_element_systems(body)),
+    )
+    groups = (f"{kind}:{_name(thing)}" for kind, thing in named if thing is not None)
+    return tuple(dict.fromkeys(groups))
+
+
+def _name(thing: Any) -> str:
+    return tidy_name(thing.Name, thing.GlobalId)
+
+
+# Entities that make curved surfaces.
+_CURVED = (
+    *("IfcConic", "IfcBSplineCurve", "IfcBSplineSurface", "IfcSpiral", "IfcPolynomialCurve"),
+    *("IfcCircleProfileDef", "IfcEllipseProfileDef", "IfcRoundedRectangleProfileDef"),
+    *("IfcRevolvedAreaSolid", "IfcSweptDiskSolid", "IfcSurfaceOfRevolution"),
+    *("IfcSphere", "IfcRightCircularCone", "IfcRightCircularCylinder"),
+    *("IfcCylindricalSurface", "IfcSphericalSurface", "IfcToroidalSurface"),
+)
+_FACETS = ("IfcFacetedBrep", "IfcTessellatedItem")  # which the file itself has
+
+
+def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:
+    """The numbers of bodies that have a curved surface, or may have one from an opening."""
+    seen = _Seen(model)
+    return {body.id() for body in bodies if any(map(seen.is_curved, _representations(body)))}
+
+
+def _representations(body: Any) -> Iterator[Any]:
+    yield from material_of(body)
+    for relation in getattr(body, "HasOpenings", ()):
+        yield from material_of(relation.RelatedOpeningElement)
+
+
+class _Seen:
+    """Looks at each representation once."""
+
+    def __init__(self, model: Any) -> None:
+        self._model = model
+        self._curved = _classes_in(model, _CURVED)
+        self._facets = _classes_in(model, _FACETS)
+        self._answers: dict[int, bool] = {}
+
+    def is_curved(self, representation: Any) -> bool:
+        key = representation.id()
+        if key not in self._answers:
+            self._answers[key] = any(map(self._is_curved_item, representation.Items))
+        return self._answers[key]
+
+    def _is_curved_item(self, item: Any) -> bool:
+        if item.is_a("IfcMappedItem"):
+            return self.is_curved(item.MappingSource.MappedRepresentation)
+        if item.is_a() in self._facets:
+            return False
+        return any(map(self._is_curved_instance, self._model.traverse(item)))
+
+    def _is_curved_instance(self, instance: Any) -> bool:
+        kind = instance.is_a()
+        if kind in self._curved:
+            return True
+        if kind == "IfcIndexedPolyCurve":
+            return any(each.is_a() == "IfcArcIndex" for each in instance.Segments or ())
+        return kind.endswith("ProfileDef") and any(_radii(instance))
+
+
+def _radii(profile: Any) -> Iterator[float]:
+    """Of rounded edges, such as those of a rolled section."""
+    for name, value in profile.get_info().items():
+        if name.endswith("Radius") and isinstance(value, float):
+            yield value
+
+
+def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:
+    """The classes of the instances of the file that are of one of these."""
+    return frozenset(each.is_a() for name in names for each in instances_of(model, name))

@@ -14,10 +14,8 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
-from satcheck.plugins.ifc.curved import curved_bodies
-from satcheck.plugins.ifc.elements import material_of, rank_of
-from satcheck.plugins.ifc.failures import Failures, failures_in
-from satcheck.plugins.ifc.kernel_log import logged
+from satcheck.plugins.ifc.elements import curved_bodies, material_of, rank_of
+from satcheck.plugins.ifc.failures import Failures, failures_in, logged
 from satcheck.plugins.ifc.readers import CHORD
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh, Refusal

@@ -5,11 +5,13 @@ The parser goes on without what it cannot read. A placement that is lost moves a
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from satcheck.plugins.ifc.attributes import refuse_other_kinds
-from satcheck.plugins.ifc.kernel_log import Message, logged, start_log
+from msgspec import Struct
+
+from satcheck.plugins.ifc.elements import declared, instances_of
+from satcheck.plugins.ifc.failures import Message, logged, start_log
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
@@ -148,3 +150,77 @@ def _refuse_cycles(model: Any) -> None:
             chain[place] = None
             place = above.get(place)
         fine.update(chain)
+
+
+# Of these classes, and of those below them.
+_READ = (
+    *("IfcProduct", "IfcTypeProduct", "IfcGroup", "IfcContext", "IfcProject", "IfcUnitAssignment"),
+    *("IfcObjectPlacement", "IfcProductRepresentation", "IfcRepresentation"),
+    *("IfcRepresentationMap", "IfcMappedItem", "IfcRelAggregates", "IfcRelNests"),
+    *("IfcRelVoidsElement", "IfcRelFillsElement", "IfcRelProjectsElement"),
+    *("IfcRelConnectsElements", "IfcRelCoversBldgElements", "IfcRelConnectsPorts"),
+    *("IfcRelConnectsPortToElement", "IfcRelAssignsToGroup", "IfcRelDefinesByType"),
+    "IfcRelContainedInSpatialStructure",
+)
+_TEXTS = frozenset(("GlobalId", "RepresentationIdentifier", "RepresentationType"))
+# Many programs leave it empty, and nobody reads it.
+_UNREAD = frozenset(("OwnerHistory",))
+
+
+class _Attribute(Struct, frozen=True):
+    """classes: of the instance in it, or of those in its list; (): a text."""
+
+    number: int
+    name: str
+    classes: tuple[str, ...]
+    is_list: bool
+    is_optional: bool
+
+    def fits(self, value: Any) -> bool:
+        if not self.classes:
+            return value is None or isinstance(value, str)
+        if value is None:
+            return self.is_optional
+        if not self.is_list:
+            return self._is_one(value)
+        return isinstance(value, tuple) and all(map(self._is_one, value))
+
+    def _is_one(self, value: Any) -> bool:
+        return hasattr(value, "is_a") and any(map(value.is_a, self.classes))
+
+
+def refuse_other_kinds(model: Any) -> None:
+    """Raises MeshFileError (`bad-record`)."""
+    known: dict[str, tuple[_Attribute, ...]] = {}
+    for name in _READ:
+        for instance in instances_of(model, name):
+            kind = instance.is_a()
+            if kind not in known:
+                known[kind] = tuple(_attributes(model, kind))
+            for each in known[kind]:
+                if not each.fits(instance[each.number]):
+                    message = (
+                        f"{kind} #{instance.id()}: {each.name} is not what the schema prescribes"
+                    )
+                    raise MeshFileError("bad-record", message)
+
+
+def _attributes(model: Any, kind: str) -> Iterator[_Attribute]:
+    for number, attribute in enumerate(declared(model, kind).all_attributes()):
+        name, kind_of_value = attribute.name(), attribute.type_of_attribute()
+        is_list = kind_of_value.as_aggregation_type() is not None
+        if is_list:
+            kind_of_value = kind_of_value.as_aggregation_type().type_of_element()
+        named = kind_of_value.as_named_type()
+        classes = tuple(_classes(named.declared_type())) if named is not None else ()
+        if (classes and name not in _UNREAD) or name in _TEXTS:
+            yield _Attribute(number, name, classes, is_list, attribute.optional())
+
+
+def _classes(declaration: Any) -> Iterator[str]:
+    """An entity, or those of a select; none for a number, a text or an enumeration."""
+    if declaration.as_entity() is not None:
+        yield declaration.name()
+    elif declaration.as_select_type() is not None:
+        for each in declaration.as_select_type().select_list():
+            yield from _classes(each)

@@ -13,7 +13,7 @@ from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
 from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.trace import Trace
-from satcheck.cli.formats.verdict import summary_line
+from satcheck.cli.formats.messages import summary_line
 from satcheck.core import Mesh
 from satcheck.core.overlap_volume import OverlapVolume
 from satcheck.core.peers import Peers

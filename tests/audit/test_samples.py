@@ -15,8 +15,8 @@ from satcheck.audit import Settings, check
 from satcheck.audit.sampled import Samples
 from satcheck.audit.samples import check_poses
 from satcheck.audit.suggest import suggest
+from satcheck.cli.commands.schema import text as schema_text
 from satcheck.cli.formats.samples import render
-from satcheck.cli.formats.schema import text as schema_text
 from satcheck.cli.output import PLAIN_PAGE
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import MeshFile, Scene, load_scene

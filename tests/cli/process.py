@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from tests.oracles.fits_touch import assert_fits_touch
 
 SAMPLES = Path(__file__).resolve().parent.parent.parent / "sample_meshes"

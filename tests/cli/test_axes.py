@@ -11,10 +11,10 @@ from jsonschema import Draft202012Validator
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.axes_plot import MOST_LINES, WIDTH
 from satcheck.cli.formats.plot_style import DARK
-from satcheck.cli.formats.schema import text
-from tests.cli.process import APART, PUSHED, satcheck
+from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 
 SCHEMA = Draft202012Validator(json.loads(text("axes")))
 CONCAVE = ("kettle.obj", "snowflake.obj")
@@ -139,3 +139,12 @@ def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
     assert ran.code == 2
     assert said in ran.err
     assert ran.out == ""
+
+
+def test_issues_of_the_inputs_are_told(tmp_path: Path) -> None:
+    lacking = tmp_path / "lacking.obj"
+    lines = (SAMPLES / "box.obj").read_text().splitlines()
+    lacking.write_text("\n".join(lines[:-1]) + "\n")
+    for command in ("axes", "tradeoff"):
+        ran = satcheck(command, str(lacking), "box_pushed.stl", cwd=SAMPLES)
+        assert "[not-closed]" in ran.err

@@ -12,7 +12,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from junitparser import JUnitXml
 
-from satcheck.cli.config.source import options_of_commands
+from satcheck.cli.config import options_of_commands
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, environment, satcheck
 from tests.cli.test_startup import imported
 
@@ -242,7 +242,7 @@ def test_a_project_without_the_table_costs_no_parser(folder: Path) -> None:
     text = "[project]\nname = 'a'\ndependencies = ['satcheck']\n[tool.ruff]\nline-length = 9\n"
     config(folder, text, "pyproject.toml")
     names = imported(*PUSHED, code=1, cwd=folder)
-    assert {"tomllib", "satcheck.cli.config.values"} & names == set()
+    assert "tomllib" not in names
 
 
 def test_a_length_with_a_unit_matters_only_where_there_is_a_pair(folder: Path) -> None:

@@ -15,8 +15,8 @@ import pytest
 from jsonschema import Draft202012Validator
 from junitparser import JUnitXml
 
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.registry import formats
-from satcheck.cli.formats.schema import text
 from tests.audit.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 from tests.plugin_marks import needs

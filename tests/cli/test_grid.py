@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import re
+from io import StringIO
 
 import pytest
 from msgspec.structs import replace
 from rich import box
+from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from satcheck.cli.formats.canvas import Canvas
-from satcheck.cli.formats.columns import Column, Layout, fit
-from satcheck.cli.formats.grid import Grid
-from satcheck.cli.formats.lines import BOLD_RED, joined
+from satcheck.cli.formats.tables import BOLD_RED, Column, Grid, Layout, fit, joined
 from satcheck.cli.output import Page
 
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 NAMES = ("box", "歯車_a_longer", "a\x1b[2A", "tab\there", "two\nlines", "\u202eb", "é" * 20, "")
 COLUMNS = (
-    Column("A", NAMES),
-    Column("B", tuple(f"the_other_{number}" for number in range(len(NAMES)))),
+    Column("A", NAMES, named=True),
+    Column("B", tuple(f"the_other_{k}" for k in range(len(NAMES))), named=True),
     Column("relation", ("penetrating", "near", *["coincident"] * (len(NAMES) - 2)), graded=True),
     Column("depth (mm)", ("1.24123 .. 1.25001", *["1"] * (len(NAMES) - 1)), right=True, folds=True),
     Column("quality", ("exact",) * len(NAMES)),
@@ -40,9 +39,10 @@ def of_rich(layout: Layout, page: Page) -> str:
     for cells in zip(*(column.cells for column in layout.columns), strict=True):
         table.add_row(*map(Text, cells))
     width = max(page.width, layout.width)
-    canvas = Canvas(Page(width=width, colour=page.colour, unicode=page.unicode))
-    canvas.print(table)
-    return canvas.text()
+    console = Console(file=StringIO(), width=width, color_system=None, legacy_windows=False)
+    with console.capture() as capture:
+        console.print(table)
+    return joined(capture.get().splitlines(), page)
 
 
 @pytest.mark.parametrize("colour", [False, True])

@@ -11,9 +11,9 @@ from pathlib import Path
 import click
 import pytest
 
+from satcheck.cli.click_classes import MANY, OTHER, SECTIONS, sections
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.formats.schema import text
-from satcheck.cli.help_sections import MANY, OTHER, SECTIONS, sections
+from satcheck.cli.commands.schema import text
 from satcheck.scene.loading.readers import readers, robots
 from tests.cli.process import (
     SAMPLES,

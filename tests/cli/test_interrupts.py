@@ -20,7 +20,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck import cli
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from tests.audit.batch.test_slot import PLANTED, marked, on_linux, until
 from tests.cli.process import SAMPLES, command, environment
 

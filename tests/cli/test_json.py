@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
 from satcheck.audit import Contacts, Report
-from satcheck.cli.formats.schema import text as schema_text
+from satcheck.cli.commands.schema import text as schema_text
 from satcheck.report.json import document, render
 from satcheck.report.report import Witness
 from tests.cli import reports

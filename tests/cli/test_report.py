@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.registry import formats
-from satcheck.cli.formats.schema import text
 from satcheck.report.report import without_timings
 from tests.cli.process import SAMPLES, Ran, satcheck
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 from tests.plugin_marks import needs

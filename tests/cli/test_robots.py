@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from tests.cli.process import SAMPLES, VALIDATOR, satcheck
 
 ARM = ("arm.urdf", "arm.srdf")

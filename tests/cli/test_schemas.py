@@ -14,8 +14,7 @@ from jsonschema import Draft202012Validator
 from satcheck._version import __version__
 from satcheck.audit import Settings, check
 from satcheck.audit.request.settings import Accuracy
-from satcheck.cli.commands.schema import DOCUMENTS
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import DOCUMENTS, text
 from satcheck.report.json import render
 from satcheck.scene import load_scene
 from tests.cli.process import PUSHED, SAMPLES, satcheck

@@ -8,7 +8,7 @@ from typing import get_args
 
 import pytest
 
-from satcheck.cli.scene_options import SPLITS
+from satcheck.cli import scene_option
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.plugin_marks import needs
@@ -17,7 +17,7 @@ from tests.scene import files, graphs
 
 
 def test_the_choices_are_those_of_the_loader() -> None:
-    assert set(SPLITS) == set(get_args(Split))
+    assert set(scene_option.SPLITS) == set(get_args(Split))
 
 
 def test_one_file_alone_is_its_nodes() -> None:

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.suggest import srdf, toml
 from satcheck.report.report import Tool
 from satcheck.report.suggestions import Suggestion, Unchecked

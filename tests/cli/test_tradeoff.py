@@ -14,8 +14,8 @@ from matplotlib.image import imread
 
 from satcheck.cli import plotting
 from satcheck.cli.commands import tradeoff
+from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.plot_style import DARK
-from satcheck.cli.formats.schema import text
 from satcheck.cli.formats.tradeoff_plot import WIDTH
 from tests.cli.process import PUSHED, satcheck
 

@@ -12,9 +12,9 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit.batch.stored import Stored
-from satcheck.cli.formats.overview import overview
+from satcheck.cli.formats.assets import overview
 from satcheck.cli.formats.worst_page import render
-from satcheck.cli.results.worst_findings import Worst, file_name
+from satcheck.cli.worst_findings import Worst, file_name
 from satcheck.report.assets import Asset, asset
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.cli.reports import BLOCK, PENETRATING, report

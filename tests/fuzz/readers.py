@@ -10,11 +10,9 @@ import msgspec
 
 from satcheck.audit import check
 from satcheck.audit.baseline_file import read_baseline
-from satcheck.cli.config.file import read_config
-from satcheck.cli.config.search import nearest_config
+from satcheck.cli.config import nearest_config, read_config
 from satcheck.cli.formats.picture.html import render as page
-from satcheck.cli.report_file import read_report
-from satcheck.cli.stated_scene import stated_scene
+from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene

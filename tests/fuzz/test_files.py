@@ -9,8 +9,7 @@ from typing import Any, cast
 
 import pytest
 
-from satcheck.cli.report_file import read_report
-from satcheck.cli.stated_scene import stated_scene
+from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.report.report import Report
 from tests.fuzz.files import fault_of, file_of, workplace
 from tests.fuzz.readers import READERS, attempt, name_of, seeds

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.cli.formats.schema import text
+from satcheck.cli.commands.schema import text
 from tests.golden import HERE, INDEX, PAIRS, SAMPLE_CALLS, SAMPLES, SCENES, golden_file, report
 from tests.plugin_marks import skip_without
 

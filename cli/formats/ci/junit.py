@@ -12,14 +12,11 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from satcheck.audit.severity import fails, is_unmet
-from satcheck.cli.formats.ci.problems import kind_of, sentence
-from satcheck.cli.formats.config import config_line
-from satcheck.cli.formats.verdict import summary_line
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.cli.formats.messages import finding_message, kind_of, summary_line
+from satcheck.cli.formats.words import config_line, counted, issue_line
 from satcheck.cli.output import harmless
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
-from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -74,7 +71,7 @@ def _case(suite: ElementTree.Element, file: str, name: str) -> ElementTree.Eleme
 
 
 def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
-    text = sentence(finding, unit_of(report.units))
+    text = finding_message(finding, report)
     if finding.undecided is not None:
         _say(case, "error", "undecided", text)
     elif finding.baseline_state == "unchanged":

@@ -6,9 +6,8 @@ import re
 from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.ci.problems import worst_problems
-from satcheck.cli.formats.config import config_lines
-from satcheck.cli.formats.verdict import summary_line
-from satcheck.cli.formats.words import counted
+from satcheck.cli.formats.messages import summary_line
+from satcheck.cli.formats.words import config_lines, counted
 from satcheck.cli.output import harmless
 from satcheck.report.assets import asset
 

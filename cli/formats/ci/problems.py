@@ -11,12 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
-from satcheck.cli.formats.numbers import after_rounding, number, vector
+from satcheck.cli.formats.messages import finding_message, kind_of
 from satcheck.cli.formats.order import rank, severity
-from satcheck.cli.formats.words import in_motion, interval, is_hit, with_unit
 from satcheck.report.bodies import Place
-from satcheck.report.report import OF_ANSWERS, OVERLAPS
-from satcheck.scene.units import unit_of
+from satcheck.report.report import OF_ANSWERS
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -87,48 +85,12 @@ def _naming(asset: str, problem: Problem) -> Problem:
 def _of_report(report: Report) -> list[Problem]:
     places = {body.id: body.stated_at or Place(body.file, 1) for body in report.bodies}
     findings = [
-        _of_finding(finding, level, places, unit_of(report.units))
+        _of_finding(finding, level, places, report)
         for finding in report.findings
         if (level := _level(finding)) is not None
     ]
     unmet = {answer.body for answer in report.answers if answer.severity == "error"}
     return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
-
-
-def sentence(finding: Finding, unit: str | None) -> str:
-    """`box and lid: penetrating, thickness 0.5 mm, depth 1 mm; moving box by (-1, 0, 0) ends the
-    overlap.`"""
-    text = f"{finding.a} and {finding.b}: {measured(finding, unit)}"
-    if finding.mtv is not None and finding.mtv_verified:
-        way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
-        text += f"; moving {finding.a} by {way} ends the overlap"
-    if finding.baseline_state is not None:
-        text += f" [baseline: {finding.baseline_state}]"
-    if finding.reason is not None:
-        text += f" ({finding.reason})"
-    return f"{text}."
-
-
-def measured(finding: Finding, unit: str | None) -> str:
-    """`penetrating, thickness 0.5 mm, depth 1 mm`"""
-    parts: list[str] = [finding.relation]
-    figures = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
-    parts += [f"{name} {with_unit(interval(f), unit)}" for name, f in figures.items() if f]
-    if finding.distance is not None:
-        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
-    if moving := in_motion(finding, unit):
-        parts.append(f"while moving: {moving}")
-    return ", ".join(parts)
-
-
-def kind_of(finding: Finding) -> str:
-    if finding.undecided is not None:
-        return "undecided"
-    if is_hit(finding) and finding.at_rest not in OVERLAPS:
-        return "motion"
-    if finding.relation in OVERLAPS:
-        return "overlap"
-    return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
 
 
 def uri(file: str) -> str:
@@ -152,13 +114,13 @@ def _level(finding: Finding) -> Level | None:
 
 
 def _of_finding(
-    finding: Finding, level: Level, places: dict[str, Place], unit: str | None
+    finding: Finding, level: Level, places: dict[str, Place], report: Report
 ) -> Problem:
     bodies = (finding.a, finding.b)
     return Problem(
         level,
         kind_of(finding),
-        sentence(finding, unit),
+        finding_message(finding, report),
         tuple(places[body] for body in bodies),
         bodies,
         finding.id,

@@ -8,13 +8,12 @@ import numpy as np
 from msgspec import to_builtins
 
 from satcheck.audit.severity import is_failure
-from satcheck.cli.formats.ci.problems import measured, sentence
 from satcheck.cli.formats.components import facts
+from satcheck.cli.formats.messages import finding_message, measured, summary_line
 from satcheck.cli.formats.order import is_listed, severity, worst_first
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.geometry import geometry
 from satcheck.cli.formats.picture.packing import packed_points
-from satcheck.cli.formats.verdict import summary_line
 from satcheck.cli.formats.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.statics import up_axes
@@ -53,7 +52,7 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
         "unit": unit or "",
         "up": up_of(scene),
         "simplified": simpler if drawn.simplified else "",
-        "findings": [_shown(finding, numbers, drawn.middle, unit) for finding in findings],
+        "findings": [_shown(finding, report, numbers, drawn.middle) for finding in findings],
         "points": _packed_points(findings),
         "states": {
             numbers[id_]: state for id_, state in states_of(report).items() if id_ in numbers
@@ -134,10 +133,11 @@ def _box(points: Floats) -> Floats:
 
 
 def _shown(
-    finding: Finding, numbers: dict[str, int], middle: Floats, unit: str | None
+    finding: Finding, report: Report, numbers: dict[str, int], middle: Floats
 ) -> dict[str, Any]:
     """lines: how many of `points` each has, which stand in the order of the findings. box: of all
     these points."""
+    unit = unit_of(report.units)
     witness = None if finding.witness is None else to_builtins(finding.witness)
     ball, items = finding.ball, finding.components.items if finding.components else ()
     thickness = with_unit(interval(finding.thickness_bounds), unit)
@@ -148,7 +148,7 @@ def _shown(
         "relation": finding.relation,
         "measured": measured(finding, unit),
         "severity": severity(finding),
-        "text": sentence(finding, unit),
+        "text": finding_message(finding, report),
         "mtv": finding.mtv,
         "ends": bool(finding.mtv_verified),
         "axis": finding.normal,

@@ -16,7 +16,7 @@ from uuid import NAMESPACE_URL, uuid5
 
 from msgspec import Struct
 
-from satcheck.cli.formats.ci.problems import kind_of, measured
+from satcheck.cli.formats.messages import kind_of, measured
 from satcheck.cli.formats.order import is_listed, worst_first
 from satcheck.cli.formats.words import counted
 from satcheck.plugins.ifc.model import unpacked

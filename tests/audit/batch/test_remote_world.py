@@ -10,8 +10,8 @@ from typing import Any
 import fsspec
 import pytest
 
-from satcheck.audit.batch import remote_world
-from satcheck.audit.batch.remote_world import Copies, make_room
+from satcheck.audit.batch import remote
+from satcheck.audit.batch.remote import Copies, make_room
 from tests.plugin_marks import needs
 
 WORLD = ("memory://bucket/scenes/a.toml",)
@@ -103,7 +103,7 @@ def test_copies_that_are_too_many_are_removed(
     copy.fetch([copy.path(WORLD[0])])
     make_room(tmp_path)
     assert Path(copy.path(WORLD[0])).exists()
-    monkeypatch.setattr(remote_world, "_MOST_BYTES", 1)
+    monkeypatch.setattr(remote, "_MOST_BYTES", 1)
     make_room(tmp_path)
     assert not Path(copy.path(WORLD[0])).exists()
     make_room(tmp_path)

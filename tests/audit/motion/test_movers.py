@@ -13,8 +13,8 @@ from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.motion import worst
+from satcheck.cli.commands.schema import text as schema_text
 from satcheck.cli.formats import table
-from satcheck.cli.formats.schema import text as schema_text
 from satcheck.cli.output import Page
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Rule, Selector

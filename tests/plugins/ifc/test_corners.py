@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.plugins.ifc.corners import meet_in_a_corner
 from satcheck.plugins.ifc.kernel import Shape
+from satcheck.plugins.ifc.relations import meet_in_a_corner
 
 TRIANGLE = np.array([0, 1, 2], "<u4").tobytes()
 

@@ -12,7 +12,7 @@ from typing import get_args
 import click
 
 from satcheck.cli.lengths import millimetres
-from satcheck.cli.options import DEFAULTS, seconds_option, together
+from satcheck.cli.option import DEFAULTS, seconds, together
 from satcheck.scene.loading.readers import readers
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.read_options import (
@@ -31,15 +31,15 @@ def _chords() -> str:
 
 SPLITS = ("nodes", "components", "none")
 
-outside_option = click.option(
+outside = click.option(
     "--allow-outside",
     is_flag=True,
     help="Read what a file names outside of its folder.",
 )
 # About what reading a file may do.
-reading_options = together(
-    outside_option,
-    seconds_option(
+reading = together(
+    outside,
+    seconds(
         "--seconds-per-file",
         DEFAULTS.seconds_per_file,
         "The most time for reading a mesh file.",
@@ -67,25 +67,25 @@ reading_options = together(
         help="The largest angle between them.",
     ),
 )
-split_option = click.option(
+split = click.option(
     "--split",
     type=click.Choice(SPLITS),
     metavar="HOW",
     help="A body is a node (nodes, the default for one file alone), a connected piece (components) "
     "or a file (none).",
 )
-units_option = click.option(
+units = click.option(
     "--units",
     type=click.Choice(tuple(MICROMETRES)),
     metavar="UNIT",
     help=f"The unit of files without one: {', '.join(MICROMETRES)}.",
 )
-merge_option = click.option(
+merge = click.option(
     "--merge",
     is_flag=True,
     help="Put several scene files into one world.",
 )
-rules_option = click.option(
+rules = click.option(
     "--rules",
     multiple=True,
     type=click.Path(dir_okay=False, path_type=Path),
@@ -95,7 +95,7 @@ rules_option = click.option(
 )
 
 
-between_option = click.option(
+between = click.option(
     "--between",
     nargs=2,
     multiple=True,
@@ -116,7 +116,7 @@ def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> 
     return packages
 
 
-package_option = click.option(
+package = click.option(
     "--package",
     "packages",
     multiple=True,
@@ -133,7 +133,7 @@ def _time(_: click.Context, parameter: click.Parameter, value: float | None) -> 
 
 
 # That choose between the geometries of a file.
-geometry_options = together(
+geometry = together(
     click.option(
         "--geometry",
         type=click.Choice(get_args(GeometryKind)),
@@ -161,7 +161,7 @@ geometry_options = together(
     ),
 )
 # That pose robots.
-pose_options = together(
+poses = together(
     click.option(
         "--pose",
         multiple=True,
@@ -191,7 +191,7 @@ pose_options = together(
 
 
 # That sweeps robots.
-joint_path_option = click.option(
+joint_path = click.option(
     "--path",
     "joint_path",
     type=click.Path(),
@@ -199,7 +199,7 @@ joint_path_option = click.option(
     help="Sweep robots through these poses (JSON or CSV).",
 )
 # That pose robots once.
-one_pose_options = together(
+one_pose = together(
     click.option(
         "--pose",
         multiple=True,
@@ -211,12 +211,12 @@ one_pose_options = together(
     ),
 )
 # Of commands that check one scene, with robots in one pose.
-one_scene_options = together(
-    split_option,
-    merge_option,
-    package_option,
-    geometry_options,
-    one_pose_options,
-    units_option,
-    reading_options,
+one_scene = together(
+    split,
+    merge,
+    package,
+    geometry,
+    one_pose,
+    units,
+    reading,
 )

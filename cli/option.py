@@ -36,11 +36,11 @@ def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[
     return files + [CompletionItem(name) for name in names]
 
 
-def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
+def paths(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
-pair_option = click.option(
+pair = click.option(
     "--pair",
     "bodies",
     nargs=2,
@@ -60,7 +60,7 @@ def together(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _
     return add
 
 
-def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Command], _Command]:
+def those_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Command], _Command]:
     """Gives a command the options of another one, but for these."""
 
     def add(command: _Command) -> _Command:
@@ -73,7 +73,7 @@ def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Comman
 
 
 # Of pictures beside a report.
-picture_options = together(
+pictures = together(
     click.option(
         "--png",
         type=click.Path(dir_okay=False, path_type=Path),
@@ -89,7 +89,7 @@ picture_options = together(
 )
 
 
-def seconds_option(name: str, default: float, text: str) -> Callable[[_Command], _Command]:
+def seconds(name: str, default: float, text: str) -> Callable[[_Command], _Command]:
     """A limit of time. text: its help."""
     return click.option(
         name,
@@ -105,7 +105,7 @@ def limits_of_worlds(what: str) -> Callable[[_Command], _Command]:
     """Return the options that limit a check. what: what is checked, with its article."""
     limits = Limits()
     return together(
-        seconds_option("--scene-seconds", limits.seconds, f"The most time for {what}."),
+        seconds("--scene-seconds", limits.seconds, f"The most time for {what}."),
         click.option(
             "--scene-megabytes",
             type=click.IntRange(min=256),
@@ -117,7 +117,7 @@ def limits_of_worlds(what: str) -> Callable[[_Command], _Command]:
     )
 
 
-output_option = click.option(
+output = click.option(
     "-o",
     "--output",
     type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
@@ -125,36 +125,34 @@ output_option = click.option(
     callback=_file_or_nothing,
     help="Write the report to FILE; - is standard output.",
 )
-top_option = click.option(
+top = click.option(
     "--top",
     type=click.IntRange(min=1),
     metavar="N",
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
-exit_zero_option = click.option(
-    "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail."
-)
-root_option = click.option(
+exit_zero = click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
+root = click.option(
     "--root",
     type=click.Path(file_okay=False, exists=True, path_type=Path),
     default=Path(),
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
-planar_option = click.option(
+planar = click.option(
     "--planar",
     type=click.Choice(PLANES),
     metavar="PLANE",
     default=DEFAULTS.planar,
     help="Check outlines in this plane (xy, yz or xz): flat layouts.",
 )
-tolerance_option = click.option(
+tolerance = click.option(
     "--tolerance",
     type=length,
     default=DEFAULTS.tolerance,
     help="A gap or a depth up to this counts as touching.  [default: the precision of the files]",
 )
-method_option = click.option(
+method = click.option(
     "--method",
     type=click.Choice(METHODS),
     metavar="METHOD",
@@ -163,7 +161,7 @@ method_option = click.option(
     help="Compare hulls by the separating axis test (sat), by portals, GJK and EPA (gjk), or by "
     "the faster one (auto).",
 )
-open_option = click.option(
+open_meshes = click.option(
     "--allow-open",
     is_flag=True,
     default=DEFAULTS.allow_open,
@@ -180,7 +178,7 @@ def _known(_: click.Context, __: click.Parameter, accepted: tuple[str, ...]) -> 
     return accepted
 
 
-accept_option = click.option(
+accept = click.option(
     "--accept",
     multiple=True,
     callback=_known,
@@ -188,13 +186,13 @@ accept_option = click.option(
     help="Issues that may stay: what blocks a pass, by its code and the name of its file or body "
     "(`*` for any part). Repeatable.",
 )
-exclude_option = click.option(
+exclude = click.option(
     "--exclude",
     multiple=True,
     metavar="PATTERN",
     help="Files of folders to leave out, or folders, by name or path. Repeatable.",
 )
-jobs_option = click.option(
+jobs = click.option(
     "-j",
     "--jobs",
     type=click.IntRange(min=0),
@@ -203,7 +201,7 @@ jobs_option = click.option(
     show_default=True,
     help="Threads; 0 is one per core. Changes no answer.",
 )
-cache_option = click.option(
+cache = click.option(
     "--no-cache",
     "cache",
     is_flag=True,
@@ -218,7 +216,7 @@ def _set_colour(ctx: click.Context, _: click.Parameter, choice: str) -> None:
 
 
 # cli/output.py reads it from the context of click.
-color_option = click.option(
+color = click.option(
     "--color",
     type=click.Choice(("auto", "always", "never")),
     metavar="WHEN",
@@ -234,7 +232,7 @@ def _take_config(ctx: click.Context, _: click.Parameter, path: str | None) -> No
     if ctx.resilient_parsing:
         return
     if not ctx.meta.get(_NO_CONFIG):
-        from satcheck.cli.config.source import take_config
+        from satcheck.cli.config import take_config
 
         take_config(ctx, path)
     elif path is not None:
@@ -248,7 +246,7 @@ def _take_no_config(ctx: click.Context, _: click.Parameter, wanted: bool) -> Non
 
 
 # Eager: the config file gives defaults to the options that are read after it.
-config_option = click.option(
+config = click.option(
     "--config",
     type=click.Path(dir_okay=False),
     metavar="FILE",
@@ -258,7 +256,7 @@ config_option = click.option(
     help="Take options from FILE.  [default: the nearest satcheck.toml, or [tool.satcheck] of "
     "pyproject.toml]",
 )
-no_config_option = click.option(
+no_config = click.option(
     "--no-config",
     is_flag=True,
     is_eager=True,
@@ -266,7 +264,7 @@ no_config_option = click.option(
     callback=_take_no_config,
     help="Take no options from a config file.",
 )
-debug_option = click.option(
+debug = click.option(
     "--debug",
     is_flag=True,
     expose_value=False,  # cli/entry.py looks for it: what fails may be the reading of options

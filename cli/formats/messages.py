@@ -1,4 +1,5 @@
-"""The last line of a report: PASS, FAIL, INCOMPLETE or ERROR, why, and what to do next.
+"""The message of a finding, and that of a report: PASS, FAIL, INCOMPLETE or ERROR, why, and what to
+do next. Every format prints these, and none composes its own.
 
 The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
 """
@@ -11,8 +12,7 @@ from typing import TYPE_CHECKING
 from satcheck.audit.acceptance import words_to_accept
 from satcheck.audit.severity import is_failure
 from satcheck.audit.summary import unlisted_indeterminate
-from satcheck.cli.formats.limits import limits
-from satcheck.cli.formats.numbers import bounds, number
+from satcheck.cli.formats.numbers import after_rounding, bounds, number, vector
 from satcheck.cli.formats.order import severity, worst_first
 from satcheck.cli.formats.summary import counts_line, nothing_checked
 from satcheck.cli.formats.words import (
@@ -22,6 +22,7 @@ from satcheck.cli.formats.words import (
     is_hit,
     is_unusable,
     joint_values,
+    limits,
     past_holes,
     with_unit,
 )
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
 NAMED = 3
 # More overlaps than this are rarely mended one by one.
 MANY = 10
+# Relations of a sweep that a message tells beside that of the bodies as they are placed.
+_ON_THE_WAY = ("penetrating", "touching", "indeterminate")
 _OVERLAP = {
     "penetrating": "{} and {} overlap",
     "contains": "{} contains {}",
@@ -114,7 +117,7 @@ def _failing(report: Report) -> list[Finding]:
 
 def _failed(report: Report) -> str:
     failing = _failing(report)
-    said = [_failure(finding, report) for finding in failing[:NAMED]]
+    said = [_clause(finding, report) for finding in failing[:NAMED]]
     if more := len(failing) - len(said):
         said.append(f"and {counted(more, 'more pair')}")
     if report.answers:
@@ -133,20 +136,61 @@ def _unmet(report: Report) -> list[str]:
     return failed[:NAMED] + rest
 
 
-def _failure(finding: Finding, report: Report) -> str:
-    """`fence and palm are 40 mm apart (clearance 45 mm)`."""
-    unit = unit_of(report.units)
-    if is_hit(finding) and finding.at_rest not in OVERLAPS:
+def finding_message(finding: Finding, report: Report) -> str:
+    """Return `box and lid overlap (thickness 0.5 mm, depth 1 mm); moving box by (-1, 0, 0) ends the
+    overlap.`"""
+    text, swept = _clause(finding, report), finding.motion
+    if swept and swept.relation in _ON_THE_WAY and not _hits_only(finding):
+        text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
+    if finding.mtv is not None and finding.mtv_verified:
+        way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
+        text += f"; moving {finding.a} by {way} ends the overlap"
+    if finding.baseline_state is not None:
+        text += f" [baseline: {finding.baseline_state}]"
+    if finding.reason is not None:
+        text += f" ({finding.reason})"
+    return f"{text}."
+
+
+def measured(finding: Finding, unit: str | None) -> str:
+    """Return `penetrating, thickness 0.5 mm, depth 1 mm`, for what names the bodies itself."""
+    parts = [finding.relation, *_figures(finding, unit)]
+    if finding.distance is not None:
+        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
+    if moving := in_motion(finding, unit):
+        parts.append(f"while moving: {moving}")
+    return ", ".join(parts)
+
+
+def kind_of(finding: Finding) -> str:
+    if finding.undecided is not None:
+        return "undecided"
+    if _hits_only(finding):
+        return "motion"
+    if finding.relation in OVERLAPS:
+        return "overlap"
+    return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
+
+
+def _clause(finding: Finding, report: Report) -> str:
+    """Return `fence and palm are 40 mm apart (clearance 45 mm)`."""
+    unit, pair = unit_of(report.units), f"{finding.a} and {finding.b}"
+    if _hits_only(finding):
         joints = finding.motion and finding.motion.joints
         where = f" ({joint_values(joints)})" if joints else ""
-        return f"{finding.a} and {finding.b}, while they move: {in_motion(finding, unit)}{where}"
+        return f"{pair}, while they move: {in_motion(finding, unit)}{where}"
     figures = limits(finding, report)
     if finding.at_rest in OVERLAPS:
         figures = [*_figures(finding, unit), *figures]
         said = _overlap(finding, report)
     else:
-        said = f"{finding.a} and {finding.b} {_apart(finding, unit)}"
+        said = f"{pair} {_apart(finding, unit)}"
     return f"{said} ({', '.join(figures)})" if figures else said
+
+
+def _hits_only(finding: Finding) -> bool:
+    """Return whether the bodies hit on their way, and do not overlap as they are placed."""
+    return is_hit(finding) and finding.at_rest not in OVERLAPS
 
 
 def _overlap(finding: Finding, report: Report) -> str:
@@ -179,7 +223,7 @@ def _apart(finding: Finding, unit: str | None) -> str:
     if worst is not None and worst.distance is not None:
         return f"come as close as {with_unit(bounds(*worst.distance), unit)}"
     if finding.distance is None:
-        return "are too close"
+        return "are apart" if finding.relation == "separated" else "are too close"
     between = finding.distance_bounds
     gap = number(finding.distance) if between is None else bounds(*between)
     return f"are {with_unit(gap, unit)} apart"

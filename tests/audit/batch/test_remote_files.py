@@ -11,7 +11,7 @@ from typing import Any
 import fsspec
 import pytest
 
-from satcheck.audit.batch import urls
+from satcheck.audit.batch import remote
 from satcheck.core.errors import SatcheckError
 
 
@@ -23,30 +23,30 @@ def memory() -> Iterator[Any]:
 
 
 def test_names_with_a_scheme_are_urls() -> None:
-    assert urls.is_url("s3://bucket/a.toml")
-    assert urls.is_url("file:///a.toml")
-    assert not any(map(urls.is_url, ("a.toml", "/a//b", "C:\\a", "a:b", "://a")))
+    assert remote.is_url("s3://bucket/a.toml")
+    assert remote.is_url("file:///a.toml")
+    assert not any(map(remote.is_url, ("a.toml", "/a//b", "C:\\a", "a:b", "://a")))
 
 
 def test_a_file_is_copied(memory: Any, tmp_path: Path) -> None:
     memory.pipe_file("/bucket/a.obj", b"v 0 0 0\n")
     place = tmp_path / "new" / "a.obj"
-    assert urls.download("memory://bucket/a.obj", place)
+    assert remote.download("memory://bucket/a.obj", place)
     assert place.read_bytes() == b"v 0 0 0\n"
     assert [each.name for each in place.parent.iterdir()] == ["a.obj"]
-    assert urls.digest("memory://bucket/a.obj") == sha256(b"v 0 0 0\n").hexdigest()
+    assert remote.digest("memory://bucket/a.obj") == sha256(b"v 0 0 0\n").hexdigest()
 
 
 @pytest.mark.usefixtures("memory")
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    assert not urls.download("memory://bucket/b.obj", tmp_path / "b.obj")
+    assert not remote.download("memory://bucket/b.obj", tmp_path / "b.obj")
     assert list(tmp_path.iterdir()) == []
-    assert urls.digest("memory://bucket/b.obj") is None
+    assert remote.digest("memory://bucket/b.obj") is None
 
 
 def test_an_unknown_scheme_is_told(tmp_path: Path) -> None:
     with pytest.raises(SatcheckError) as caught:
-        urls.download("nowhere://a/b", tmp_path / "b")
+        remote.download("nowhere://a/b", tmp_path / "b")
     assert caught.value.code == "unreachable-url"
     assert str(caught.value).startswith("nowhere://a/b: ")
 
@@ -54,7 +54,7 @@ def test_an_unknown_scheme_is_told(tmp_path: Path) -> None:
 def test_without_fsspec_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "fsspec.core", None)
     with pytest.raises(SatcheckError) as caught:
-        urls.digest("memory://bucket/a")
+        remote.digest("memory://bucket/a")
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[remote]'" in str(caught.value)
 
@@ -65,6 +65,6 @@ def test_without_the_package_of_a_scheme_it_is_named(monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr("fsspec.core.url_to_fs", lacking)
     with pytest.raises(SatcheckError) as caught:
-        urls.digest("bucket://a")
+        remote.digest("bucket://a")
     assert caught.value.code == "missing-extra"
     assert "Install bucketfs" in str(caught.value)

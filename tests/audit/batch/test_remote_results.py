@@ -11,8 +11,8 @@ import fsspec
 import pytest
 
 from satcheck.audit.batch.check_options import World
-from satcheck.audit.batch.results import Head, ResultsFile
-from satcheck.audit.batch.spool import spooled
+from satcheck.audit.batch.remote import local_results
+from satcheck.audit.batch.results import PART, Head, ResultsFile
 from satcheck.core.errors import SatcheckError
 from tests.audit.batch.test_results import everything, result
 
@@ -37,7 +37,7 @@ def left(folder: Path) -> list[str]:
 
 
 def test_a_finished_batch_is_at_the_url(memory: Any, tmp_path: Path) -> None:
-    with spooled(URL) as path, ResultsFile(path) as results:
+    with local_results(URL, PART) as path, ResultsFile(path) as results:
         results.append([result("b"), result("a")])
         results.finish([("a",), ("b",)])
     assert stored(memory) == {"/bucket/r.jsonl": A + B}
@@ -49,7 +49,7 @@ def interrupted(*names: str) -> list[World]:
     kept: list[Head] = []
 
     def run() -> None:
-        with spooled(URL) as path, ResultsFile(path) as results:
+        with local_results(URL, PART) as path, ResultsFile(path) as results:
             kept.extend(results.keep(everything))
             results.append(map(result, names))
             raise KeyboardInterrupt
@@ -85,7 +85,7 @@ def test_an_upload_that_fails_says_where_the_results_are(
         raise OSError("quota")
 
     def run() -> None:
-        with spooled(URL) as path, ResultsFile(path) as results:
+        with local_results(URL, PART) as path, ResultsFile(path) as results:
             results.append([result("a")])
             results.finish([("a",)])
             monkeypatch.setattr(memory, "put_file", full)
@@ -106,6 +106,6 @@ def test_what_cannot_be_written_fails_before_the_work(
         raise NotImplementedError
 
     monkeypatch.setattr(memory, "put_file", refused)
-    with pytest.raises(SatcheckError) as caught, spooled(URL):
+    with pytest.raises(SatcheckError) as caught, local_results(URL, PART):
         pass
     assert caught.value.code == "cannot-write"

@@ -1,1 +1,0 @@
-"""What `satcheck report` makes of the results of batches."""
