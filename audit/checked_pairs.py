@@ -15,10 +15,10 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import Examined, examine, indeterminate
 from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
-from satcheck.audit.request.planner import Request
 from satcheck.audit.request.trace import Trace
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue
+from satcheck.report.request import Request
 
 if TYPE_CHECKING:
     from satcheck.core import Climb

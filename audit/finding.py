@@ -23,10 +23,10 @@ from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.audit.severity import Judgement, disputed, judged
+from satcheck.audit.severity import of_estimate
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
+from satcheck.report.judge import EXACT_WIDTH, disputed, judged
 from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.scene.loading.readers import is_complete
 
@@ -70,11 +70,21 @@ def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
             return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
         answer = _with_extras(answer, pair, verdict, trace, ahead)
     contradiction = _contradiction(pair, verdict, trace)
-    judgement = judged(answer, pair, overlaps=verdict.overlaps)
+    draft, gap = _draft(pair, _capped(answer, pair), trace), answer.gap
+    bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
+    judgement = judged(draft, pair.request, bounds, kept)
+    if answer.quality == "estimate":
+        judgement = of_estimate(judgement, draft, pair, overlaps=verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
-    answer = _capped(answer, pair)
-    return Examined(_finding(pair, answer, judgement, trace), verdict, answer)
+    finding = replace(
+        draft,
+        severity=judgement.severity,
+        rule=judgement.rule,
+        undecided=judgement.undecided,
+        reason=draft.reason or judgement.reason,
+    )
+    return Examined(finding, verdict, answer)
 
 
 def apart_by_boxes(pair: Pair) -> Examined:
@@ -91,8 +101,7 @@ def apart_by_boxes(pair: Pair) -> Examined:
         contacts=Contacts() if pair.request.wants("contacts") else None,
         components=Components() if pair.request.wants("components") else None,
     )
-    answer = _capped(answer, pair)
-    return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
+    return Examined(_draft(pair, _capped(answer, pair), trace), verdict, answer)
 
 
 def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
@@ -310,7 +319,8 @@ def _open_gap(pair: Pair) -> str:
     return "the gap may be less: the fill of a hole may be nearer than the surface"
 
 
-def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
+def _draft(pair: Pair, answer: Answer, trace: Trace) -> Finding:
+    """Return the finding, not yet judged."""
     depth, thick, volume = answer.depth, answer.thickness, answer.volume
     gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
     bounds = gap is not None and _has_bounds(pair, gap)
@@ -319,9 +329,7 @@ def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> 
         id=finding_id(pair.a.id, pair.b.id),
         a=pair.a.id,
         b=pair.b.id,
-        rule=judgement.rule,
-        severity=judgement.severity,
-        undecided=judgement.undecided,
+        severity="none",
         relation=answer.relation,
         exact_relation=answer.exact_relation,
         tolerance=pair.tolerance,
@@ -342,6 +350,6 @@ def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> 
         volume_error=None if volume is None else volume.error,
         contacts=answer.contacts,
         components=answer.components,
-        reason=answer.reason or judgement.reason,
+        reason=answer.reason,
         plan=tuple(trace.stages),
     )

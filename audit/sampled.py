@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, get_args
 from msgspec import Struct, to_builtins
 
 from satcheck.audit.request.settings import FailOn
-from satcheck.audit.severity import fails
 from satcheck.report.report import (
     OVERLAPS,
     BodyReport,
@@ -31,6 +30,7 @@ from satcheck.report.samples import (
     SamplesTruncated,
 )
 from satcheck.report.settings import StatedConfig, StatedSettings
+from satcheck.report.verdict import fails
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Posture

@@ -18,8 +18,8 @@ from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.audit.sampled import Sample
-from satcheck.audit.severity import fails
 from satcheck.report.report import Finding, Issue, Verdict
+from satcheck.report.verdict import fails
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:

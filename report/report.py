@@ -361,6 +361,13 @@ class Report(Value, frozen=True, kw_only=True):
         held = () if self.support is None else self.support.findings
         return held + (self.regions.findings if self.regions else ())
 
+    @property
+    def alone(self) -> bool:
+        """Return whether no pair has to be checked: the scene is one usable body, or none, or rules
+        ask for regions only."""
+        usable = all(body.triangles is not None for body in self.bodies)
+        return bool(self.regions) or (len(self.bodies) < 2 and usable)
+
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""
         values: dict[str, Any] = plain(self)

@@ -11,6 +11,7 @@ from msgspec import Meta
 from satcheck.report.values import Count, Length, Size, Value
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
+FailOn = Literal["error", "warning", "note"]
 Method = Literal["auto", "sat", "gjk"]
 Plane = Literal["xy", "yz", "xz"]
 OptionValue = bool | int | float | str | tuple[str, ...]
@@ -32,7 +33,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     surface_tolerance: Length | None
     accuracy: Accuracy
     method: Method
-    fail_on: Literal["error", "warning", "note"]
+    fail_on: FailOn
     accept: tuple[str, ...]
     allow_open: bool
     cross_check: bool

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
 from satcheck.verify.figures import default_tolerance
 from satcheck.verify.in_plane import curve_error
-from satcheck.verify.rules import Request
 
 CERTAINLY = 1 + 1e-12  # far more than the rounding of a difference
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from satcheck.report.certificate import Certificate
 from satcheck.report.report import Finding
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.evidence import gap_along, given
@@ -14,7 +15,6 @@ from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.holes import check_holes
 from satcheck.verify.relations import Pair
-from satcheck.verify.rules import Request
 
 
 def least_gap(finding: Finding, request: Request) -> Fraction:

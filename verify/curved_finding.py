@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from satcheck.report.certificate import Certificate
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
 from satcheck.verify.clearance import keeps_clearance, least_gap
 from satcheck.verify.curved_pair import CurvedPair, curved_pair_of
@@ -13,7 +14,6 @@ from satcheck.verify.distances import spanned
 from satcheck.verify.evidence import axis, given
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import EXACT_WIDTH, rounding_of
-from satcheck.verify.rules import Request
 from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
 from satcheck.verify.way_out import check_mtv
 

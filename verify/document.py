@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
@@ -11,10 +11,20 @@ from typing import Any
 
 from msgspec import to_builtins
 
-from satcheck.report.report import OVERLAPS, SUPPORT_OPEN, UNSUPPORTED, Finding, Report
-from satcheck.report.settings import StatedSettings
+from satcheck.report.report import (
+    OVERLAPS,
+    SUPPORT_OPEN,
+    UNSUPPORTED,
+    Exempt,
+    Finding,
+    Report,
+    RuleReport,
+)
+from satcheck.report.request import Request, request_of
+from satcheck.report.rule_book import RuleBook
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, Uncovered
 from satcheck.scene.read_options import as_stated
+from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.boxes import boxes_apart
 from satcheck.verify.coverage import uncovered
@@ -23,7 +33,6 @@ from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import IllFormed, report_of
-from satcheck.verify.rules import TERMS, Request, Rules
 from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
 
@@ -126,10 +135,9 @@ class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         self.report, self.findings = report_of(document)
         report = self.report
-        self.request = _request_of_settings(report.settings)
         reader = Bodies(
             root,
-            allow_open=self.request.allow_open,
+            allow_open=report.settings.allow_open,
             allow_outside=allow_outside,
             reading=as_stated(to_builtins(report.reading)),
         )
@@ -138,7 +146,7 @@ class _Report:
         if len(self.bodies) < len(placed):
             raise Rejected("not a report: two bodies have one id")
         self.units = {body.id: body.units for body in report.bodies}
-        self.rules = Rules(report.exempt, report.rules, self.bodies)
+        self.book = rule_book(report.exempt, report.rules, placed)
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
@@ -194,7 +202,7 @@ class _Report:
 
     def _check(self, finding: Finding) -> ProvenFields | None:
         a, b = self._list(finding.a, finding.b)
-        if self.rules.is_exempt(a, b):
+        if not self.book.is_checked(self.order[a.id], self.order[b.id]):
             raise Rejected("the scene does not ask about this pair")
         if (finding.motion is None) is not (finding.placed_relation is None):
             raise Rejected("the relation as placed comes with a motion")
@@ -218,22 +226,18 @@ class _Report:
         return check_finding(finding, a, b, request)
 
     def request_of(self, a: Placed, b: Placed) -> Request:
-        """The settings, replaced by what rules say about this pair. A pair that may overlap has no
-        clearance to keep."""
-        terms = self.rules.terms(a, b)
-        request = replace(
-            self.request,
-            **{key: terms[key] for key in TERMS & terms.keys()},
-            names=self.rules.names(a, b),
-        )
-        return replace(request, clearance=None) if request.limited else request
+        """Return what the settings and the rules ask of this pair."""
+        settings, terms = self.report.settings, self.book.terms(self.order[a.id], self.order[b.id])
+        tolerance = None if isinstance(settings.tolerance, str) else settings.tolerance
+        across = None if settings.planar is None else ACROSS[settings.planar]
+        return request_of(terms, settings.clearance, tolerance, across)
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
         nothing decides, because a body cannot be used or compared."""
         pruned = exempted = left_open = 0
         for a, b in _unlisted(list(self.bodies.values()), self.listed):
-            if self.rules.is_exempt(a, b):
+            if not self.book.is_checked(self.order[a.id], self.order[b.id]):
                 exempted += 1
             elif self.units[a.id] != self.units[b.id] or not (a.claims and b.claims):
                 left_open += 1
@@ -269,7 +273,8 @@ class _Report:
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
             listed_apart = self.listed_apart
-            check_summary(self.report, findings, self.rules, pruned, listed_apart, left_open)
+            counted = self.book.count()
+            check_summary(self.report, findings, counted, pruned, listed_apart, left_open)
 
 
 def _judged(
@@ -332,10 +337,13 @@ def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tup
             yield a, b
 
 
-def _request_of_settings(settings: StatedSettings) -> Request:
-    return Request(
-        None if isinstance(settings.tolerance, str) else settings.tolerance,
-        settings.clearance,
-        settings.allow_open,
-        across=None if settings.planar is None else ACROSS[settings.planar],
+def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Placed]) -> RuleBook:
+    """Return the rules of a report, compiled for its bodies."""
+    members = Members(bodies)
+    return RuleBook(
+        bodies,
+        rules,
+        [(members.of(rule.a), members.of(rule.b)) for rule in rules],
+        frozenset(exempt.groups),
+        check_static=not exempt.static_pairs,
     )

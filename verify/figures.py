@@ -16,12 +16,12 @@ import numpy as np
 
 from satcheck.report.contacts import Contacts
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
-from satcheck.verify.rules import Request
 from satcheck.verify.world import World
 
 # An interval of this relative width comes from rounding alone.

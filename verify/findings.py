@@ -9,6 +9,7 @@ from msgspec import UnsetType
 
 from satcheck.report.certificate import Band, Certificate
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
 from satcheck.verify.clearance import keeps_clearance, least_gap, prove_apart
 from satcheck.verify.cover import depth_is_at_least
@@ -36,7 +37,6 @@ from satcheck.verify.in_plane import (
 )
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair, pair_of, prove
-from satcheck.verify.rules import Request
 from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.way_out import check_mtv, prove_way_out

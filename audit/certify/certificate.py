@@ -43,6 +43,7 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
@@ -52,7 +53,6 @@ from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.relations import pair_of
-from satcheck.verify.rules import Request
 
 SURFACES = SurfacesProof()
 
@@ -63,27 +63,16 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
     if finding.exact_relation is None:
         return NoCertificate("the relation is not proven")
     a, b = pair.a.checked(), pair.b.checked()
-    request = Request(
-        pair.request.tolerance,
-        pair.request.clearance,
-        pair.settings.allow_open,
-        pair.request.max_depth,
-        pair.request.max_thickness,
-        pair.request.max_volume,
-        pair.request.severity,
-        pair.request.rules or {},
-        None if (plane := pair.settings.planar) is None else axis_across(plane),
-    )
     if pair.curved:
         certificate = curved_certificate(pair, finding)
     else:
         certificate = _Maker(pair, examined).certificate()
     if isinstance(certificate, NoCertificate):
         return certificate
-    why = _refusal(replace(finding, certificate=certificate), a, b, request)
+    why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
     if why is not None and certificate.thickness is not UNSET:  # it may be that alone
         certificate = replace(certificate, thickness=UNSET)
-        why = _refusal(replace(finding, certificate=certificate), a, b, request)
+        why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
     return certificate if why is None else NoCertificate(f"what was found does not prove it: {why}")
 
 

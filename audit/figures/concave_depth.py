@@ -22,8 +22,8 @@ from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
 
 # An interval on both sides of a limit is narrowed again, each time by this factor.

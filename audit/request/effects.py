@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
-from satcheck.audit.request.planner import Planner, Request
+from satcheck.audit.request.planner import Planner
 from satcheck.report.report import (
     EFFECTS,
     OVERLAPS,
@@ -14,6 +14,7 @@ from satcheck.report.report import (
     Finding,
     PairCounts,
 )
+from satcheck.report.request import Request
 
 # Stages of effects that are not requested for every pair. All other stages decide the overlap.
 _EFFECT_OF_STAGE: dict[str, Effect] = {

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any, Literal, get_args, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 from msgspec import Struct, ValidationError, convert
 
 from satcheck.core.conventions import LARGEST_LENGTH, PLANES, Plane, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import Accuracy as Accuracy
+from satcheck.report.settings import FailOn as FailOn
 from satcheck.report.settings import Method as Method
 from satcheck.report.settings import StatedSettings
 
 ACCURACIES: tuple[Accuracy, ...] = get_args(Accuracy)
 METHODS: tuple[Method, ...] = get_args(Method)
 
-FailOn = Literal["error", "warning", "note"]
-FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
+FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
 
 # A search narrows the interval of a concave depth, or of a thickness, to this width relative to its
 # upper end.

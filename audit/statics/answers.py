@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import severity_of_answer
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.margins import Margins
@@ -19,6 +18,7 @@ from satcheck.report.statics import (
     State,
     SupportFinding,
 )
+from satcheck.report.verdict import severity_of_answer
 from satcheck.scene.statics import BodyRule, BodyTerms
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from satcheck.audit.summary import exempt_by
 from satcheck.cli.formats.beside_baseline import beside_baseline
 from satcheck.cli.formats.numbers import number
 from satcheck.cli.formats.words import counted, is_hit
@@ -18,6 +17,7 @@ from satcheck.report.report import (
     SIZES_DIFFER,
     TOLERANCE_LARGE,
 )
+from satcheck.report.verdict import exempt_by
 from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:

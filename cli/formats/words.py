@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.cli.formats.numbers import at_least, at_most, bounds, number, vector
 from satcheck.cli.output import harmless
+from satcheck.report.judge import EXACT_WIDTH
 
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Issue

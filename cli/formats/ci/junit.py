@@ -11,7 +11,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.audit.severity import fails, is_unmet
 from satcheck.cli.formats.ci.problems import kind_of, sentence
 from satcheck.cli.formats.config import config_line
 from satcheck.cli.formats.verdict import summary_line
@@ -19,6 +18,7 @@ from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import harmless
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
+from satcheck.report.verdict import fails, is_unmet
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.audit.severity import is_failure
 from satcheck.cli.formats.ci.problems import measured, sentence
 from satcheck.cli.formats.components import facts
 from satcheck.cli.formats.order import is_listed, severity, worst_first
@@ -17,6 +16,7 @@ from satcheck.cli.formats.picture.packing import packed_points
 from satcheck.cli.formats.verdict import summary_line
 from satcheck.cli.formats.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
+from satcheck.report.verdict import is_failure
 from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 
