@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from msgspec import Struct, convert, to_builtins
-
 from satcheck._version import __version__
 from satcheck.audit.acceptance import with_states
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core.errors import SatcheckError
-from satcheck.core.shapes import values_of
-from satcheck.report.bodies import Health, StatedShape
+from satcheck.report.bodies import Outline, StatedShape
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     NOTHING_TO_COMPARE,
@@ -28,6 +25,8 @@ from satcheck.report.report import (
 from satcheck.report.settings import StatedReading
 from satcheck.report.verdict import exempt_by, unlisted_indeterminate
 from satcheck.scene.loading.readers import stated_options
+from satcheck.scene.planar.outline import Outline as FlatOutline
+from satcheck.scene.planar.outline import Shape
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -61,12 +60,10 @@ def count(
 
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
-    meshes = {id(body.shared): body.shared for body in bodies.placed.values()}
-    health = {key: convert(to_builtins(mesh.file.health), Health) for key, mesh in meshes.items()}
     return tuple(
         _unusable_report(bodies.unusable[k])
         if k in bodies.unusable
-        else _body_report(bodies.placed[k], health[id(bodies.placed[k].shared)])
+        else _body_report(bodies.placed[k])
         for k in range(len(bodies.ids))
     )
 
@@ -76,21 +73,13 @@ def _unusable_report(body: UnusableBody) -> BodyReport:
         id=body.id,
         name=body.id,
         file=body.file,
-        sha256=None,
         path=body.path,
-        transform=None,
         groups=body.groups,
         static=body.static,
-        triangles=None,
-        health=None,
-        resolution=None,
-        convex=None,
-        parts=None,
-        part_error=None,
     )
 
 
-def _body_report(body: PlacedBody, health: Health) -> BodyReport:
+def _body_report(body: PlacedBody) -> BodyReport:
     file, given = body.body.file, body.body.as_given or body.body
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
@@ -106,7 +95,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         groups=body.body.groups,
         static=body.body.static,
         triangles=file.mesh.triangle_count,
-        health=health,
+        health=file.health,
         resolution=body.resolution,
         surface_tolerance=body.surface_tolerance or None,
         convex=body.shared.geometry.known_convex,
@@ -122,8 +111,8 @@ def stated_reading(scene: Scene) -> StatedReading | None:
     return None if stated is None else StatedReading(**stated)
 
 
-def stated_shape(shape: Struct | None) -> StatedShape | None:
-    return None if shape is None else convert(values_of(shape), StatedShape)
+def stated_shape(shape: Shape | None) -> StatedShape | None:
+    return Outline(shape.points) if isinstance(shape, FlatOutline) else shape
 
 
 def exempt_of(scene: Scene) -> Exempt:
