@@ -32,10 +32,13 @@ def check_summary(
         indeterminate=indeterminate,
         exempt=bodies * (bodies - 1) // 2 - total,
     )
+    for key in ("total", "allowed", "indeterminate", "exempt"):
+        if (count := getattr(stated, key)) != (follows := getattr(pairs, key)):
+            raise Rejected(f"the summary counts {count!r} pairs as {key}, not {follows!r}")
     if stated.pruned != pruned and not (pruned == 0 and stated.pruned <= listed_apart):
         raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
     fail_on = report.settings.fail_on
-    follows = summarise(
+    expected = summarise(
         pairs,
         findings,
         fail_on,
@@ -44,9 +47,8 @@ def check_summary(
         answers=report.answers,
     )
     for key in Summary.__struct_fields__:
-        found, expected = getattr(report.summary, key), getattr(follows, key)
-        if found != expected:
-            raise Rejected(f"the summary's {key}: {found!r}, and what follows is {expected!r}")
+        if getattr(report.summary, key) != (follows := getattr(expected, key)):
+            raise Rejected(f"the summary's {key} that follows from the findings is {follows!r}")
     _check_effects(report, total)
     truncated = report.truncated
     if (0 if truncated is None else truncated.pairs) != pruned + left_open:
