@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
-from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
@@ -19,7 +18,7 @@ from satcheck.audit.finding import apart_by_boxes, indeterminate
 from satcheck.audit.ladder.close_pairs import close_pairs
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.request.effects import effects_of
-from satcheck.audit.request.planner import MOTIONS, Planner
+from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import (
     LISTED_PAIRS,
     LISTED_UNDECIDABLE,
@@ -30,7 +29,6 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, stated_reading, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OUTSIDE_REGION, REGION_OPEN, Finding, Issue, Report
-from satcheck.report.request import Request
 from satcheck.report.verdict import summarise, truncated_of
 from satcheck.scene.half_spaces import with_reach
 
@@ -132,7 +130,7 @@ def _check(
         rules=bodies.book.rules,
         effects=effects_of(
             planner,
-            map(_request_and_finding, examined),
+            ((planner.request(*k), pair.finding) for k, pair in zip(close, examined, strict=True)),
             counts,
             units_unknown=bodies.several_units_count,
         ),
@@ -245,13 +243,6 @@ def _examine_all(
             for (i, j), request in zip(close, requests, strict=True)
         ]
         return examine_pairs(pairs, queue, progress)
-
-
-def _request_and_finding(pair: CheckedPair) -> tuple[Request, Finding]:
-    request, finding = pair.request, pair.finding
-    if finding.motion is not None:
-        request = replace(request, by={**request.by, "sweep": MOTIONS})
-    return request, finding
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:

@@ -90,10 +90,13 @@ def effects_of(
 
 def _kind_of(request: Request, finding: Finding, time: dict[Effect, float]) -> _Kind:
     """Adds the time of each stage to that of its effect."""
+    by: frozenset[Effect] = frozenset(request.by)
+    if finding.motion is not None:
+        by |= {"sweep"}
     done: set[Effect] = {"overlap"}
     for stage in finding.plan:
         effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
-        if effect not in request.by:  # a step that only the overlap needed
+        if effect not in by:  # a step that only the overlap needed
             effect = "overlap"
         time[effect] += stage.microseconds
         done.add(effect)
@@ -106,8 +109,7 @@ def _kind_of(request: Request, finding: Finding, time: dict[Effect, float]) -> _
         "certificate": finding.certificate,
     }
     unanswered = frozenset(e for e, answer in answers.items() if e in done and answer is None)
-    by, at_rest = frozenset(request.by), finding.at_rest
-    return _Kind(by, at_rest, finding.exact_relation, frozenset(done), unanswered)
+    return _Kind(by, finding.at_rest, finding.exact_relation, frozenset(done), unanswered)
 
 
 def _why_not(effect: Effect, kind: _Kind) -> str | None:
