@@ -17,11 +17,12 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from satcheck.audit.sampled import PairTally, Sample, Samples, StatedPose
+    from satcheck.audit.sampled import PairTally, Samples
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding
+    from satcheck.report.samples import SampledPose
 
 # More poses than this, and pairs are listed instead of poses.
 FEW_POSES = 20
@@ -69,11 +70,11 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
     return console.text()
 
 
-def _worst(samples: Sequence[Sample]) -> list[Sample]:
+def _worst(samples: Sequence[SampledPose]) -> list[SampledPose]:
     return sorted(samples, key=lambda sample: list(_COLOURS).index(sample.verdict))
 
 
-def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:
+def _poses(samples: Sequence[SampledPose], unit: str | None, *, unicode: bool) -> Table:
     table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
     table.add_column("#", justify="right", no_wrap=True)
     table.add_column("pose", overflow="fold")
@@ -82,7 +83,7 @@ def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Tab
     for sample in samples:
         table.add_row(
             str(sample.number),
-            _pose(sample),
+            _as_text(sample.pose),
             Text(sample.verdict, style=_COLOURS[sample.verdict]),
             "\n".join(_found(sample.findings, unit)),
         )
@@ -143,16 +144,12 @@ def _share(count: int, total: int) -> str:
     return f"{count:,} ({percent} %)"
 
 
-def _pose(sample: Sample) -> str:
-    return _as_text(sample.posture.pose())
-
-
-def _as_text(pose: StatedPose) -> str:
+def _as_text(pose: Mapping[str, float | list[float]]) -> str:
     """As --pose takes it."""
     return json.dumps(pose, ensure_ascii=False)
 
 
-def _remarks(samples: Sequence[Sample]) -> list[str]:
+def _remarks(samples: Sequence[SampledPose]) -> list[str]:
     lines = [
         f"pose {sample.number}: {issue_line(issue)}"
         for sample in samples
