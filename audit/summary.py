@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
 from satcheck.audit.acceptance import with_states
-from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core.errors import SatcheckError
 from satcheck.report.bodies import Outline, StatedShape
@@ -24,6 +24,7 @@ from satcheck.report.report import (
 )
 from satcheck.report.settings import StatedReading
 from satcheck.report.verdict import exempt_by, unlisted_indeterminate
+from satcheck.scene import Body, Unreadable
 from satcheck.scene.loading.readers import stated_options
 from satcheck.scene.planar.outline import Outline as FlatOutline
 from satcheck.scene.planar.outline import Shape
@@ -61,18 +62,18 @@ def count(
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
     return tuple(
-        _unusable_report(bodies.unusable[k])
+        _unusable_report(bodies.unusable[k].body)
         if k in bodies.unusable
         else _body_report(bodies.placed[k])
         for k in range(len(bodies.ids))
     )
 
 
-def _unusable_report(body: UnusableBody) -> BodyReport:
+def _unusable_report(body: Body | Unreadable) -> BodyReport:
     return BodyReport(
         id=body.id,
         name=body.id,
-        file=body.file,
+        file=body.file if isinstance(body, Unreadable) else body.file.path,
         path=body.path,
         groups=body.groups,
         static=body.static,

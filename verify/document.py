@@ -32,7 +32,7 @@ from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import ACROSS
-from satcheck.verify.published import IllFormed, report_of
+from satcheck.verify.published import report_of
 from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
 
@@ -161,11 +161,11 @@ class _Report:
         if report.summary.accepted and report.summary.verdict != "fail":
             self.beyond.append("a baseline accepts findings: without it the verdict is 'fail'")
 
-    def check(self, finding: Finding | IllFormed) -> Checked:
+    def check(self, finding: Finding | Checked) -> Checked:
         a, b, relation = finding.a, finding.b, finding.relation
-        if isinstance(finding, IllFormed):
+        if isinstance(finding, Checked):
             self._list(a, b)
-            return Checked(a, b, relation, "rejected", f"not by the schema: {finding.reason}")
+            return finding
         try:
             proven = self._check(finding)
         except NotCertified as why:

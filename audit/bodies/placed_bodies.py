@@ -19,14 +19,13 @@ from satcheck.audit.bodies.placed_body import (
 from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue, RuleReport
 from satcheck.report.rule_book import RuleBook
-from satcheck.scene import Body
+from satcheck.scene import Body, Unreadable
 from satcheck.scene.half_spaces import farthest, reach_in_world
 from satcheck.scene.rules import KEYS, Members
 from satcheck.scene.words import told_apart
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
-    from satcheck.scene.bodies import Unreadable
     from satcheck.scene.rules import Rule
 
 # The code of an issue about a rule that selects no pair.
@@ -39,12 +38,12 @@ LARGEST_PLACED = 2e44
 class UnusableBody(Struct, frozen=True):
     """A body whose pairs cannot be decided."""
 
-    id: str
-    file: str
+    body: Body | Unreadable
     reason: str
-    groups: tuple[str, ...] = ()
-    path: str | None = None
-    static: bool = False
+
+    @property
+    def id(self) -> str:
+        return self.body.id
 
 
 class PlacedBodies(Struct, frozen=True):
@@ -184,24 +183,16 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
     bounds = iter(world_bounds(readable, settings.jobs))
     for index, body in enumerate(members):
         if not isinstance(body, Body):
-            reason = f"unreadable {body.file}: {body.issue.code}"
-            unusable[index] = UnusableBody(
-                body.id, body.file, reason, body.groups, body.path, body.static
-            )
+            unusable[index] = UnusableBody(body, f"unreadable {body.file}: {body.issue.code}")
             continue
         try:
             placed[index] = cache.place(body, settings, next(bounds))
         except (ValueError, OverflowError) as error:
-            reason = f"cannot be placed: {error}"
-            unusable[index] = UnusableBody(
-                body.id, body.file.path, reason, body.groups, body.path, body.static
-            )
+            unusable[index] = UnusableBody(body, f"cannot be placed: {error}")
             issues.append(_unplaceable(body, error))
     for index, reason in _too_short(placed):
         body = placed.pop(index).body
-        unusable[index] = UnusableBody(
-            body.id, body.file.path, reason, body.groups, body.path, body.static
-        )
+        unusable[index] = UnusableBody(body, reason)
         issues.append(Issue("out-of-range", "warning", body.id, body.file.path, reason))
     cache.book = cache.book or book_of(
         members, scene.rules, scene.ignore_within_groups, scene.check_static
