@@ -7,9 +7,9 @@ to the code that checks it. Read it in this order: `document` (the report), `fin
 (contact), `exact` (numbers).
 """
 
-from satcheck.report.verification import Checked
-from satcheck.verify.document import Verification, verify
+from satcheck.report.verification import Checked, VerificationReport
+from satcheck.verify.document import is_certified, verify
 from satcheck.verify.exact import Rejected
 from satcheck.verify.strict_json import parse
 
-__all__ = ["Checked", "Rejected", "Verification", "parse", "verify"]
+__all__ = ["Checked", "Rejected", "VerificationReport", "is_certified", "parse", "verify"]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from msgspec import to_builtins
+from msgspec import UNSET, to_builtins
 
+from satcheck._version import __version__
 from satcheck.report.report import (
     OVERLAPS,
     SUPPORT_OPEN,
@@ -19,10 +19,11 @@ from satcheck.report.report import (
     Finding,
     Report,
     RuleReport,
+    Tool,
 )
 from satcheck.report.request import Request, request_of
 from satcheck.report.rule_book import RuleBook
-from satcheck.report.verification import Checked, CheckedSupport, Outcome, Uncovered
+from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
@@ -39,56 +40,13 @@ from satcheck.verify.summary import check_summary
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
 
 
-@dataclass(frozen=True, slots=True)
-class Verification:
-    """faults: what is wrong with the report as a whole. beyond: what no certificate covers. pruned:
-    pairs that are not listed because their boxes are apart. exempt: pairs whose boxes meet and that
-    are not listed because the scene exempts them. requested: the report says that certificates were
-    requested. missing: files that do not exist. If there are any, the report is not accepted, and
-    unlisted pairs and the summary are not checked. uncovered: fields of which only the type was
-    checked.
-    """
-
-    findings: tuple[Checked, ...]
-    faults: tuple[str, ...]
-    beyond: tuple[str, ...]
-    pruned: int
-    exempt: int
-    requested: bool
-    missing: tuple[str, ...] = ()
-    support: tuple[CheckedSupport, ...] = ()
-    uncovered: tuple[Uncovered, ...] = ()
-
-    @property
-    def accepted(self) -> bool:
-        settled = all(f.outcome in ("accepted", "open") for f in self.findings)
-        settled = settled and all(f.outcome in ("accepted", "open") for f in self.support)
-        return settled and not (self.faults or self.beyond or self.missing)
-
-    @property
-    def rejected(self) -> bool:
-        """Return whether a checked claim is false."""
-        outcomes = [f.outcome for f in self.findings] + [f.outcome for f in self.support]
-        return bool(self.faults) or "rejected" in outcomes
-
-    @property
-    def certified(self) -> bool:
-        """Return whether the report was made with certificates, has some, or needs none."""
-        outcomes = {f.outcome for f in self.findings}
-        return (
-            self.requested
-            or "not certified" not in outcomes
-            or bool(outcomes & {"accepted", "rejected"})
-        )
-
-
 def verify(
     document: Any,
     root: Path,
     progress: Callable[[int, int], None] | None = None,
     *,
     allow_outside: bool = False,
-) -> Verification:
+) -> VerificationReport:
     """Re-check a report, parsed from JSON, from the mesh files. Their paths start at root.
 
     allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected if the
@@ -110,21 +68,28 @@ def verify(
             report.check_summary(pruned, left_open)
         except Rejected as why:
             faults.append(str(why))
-    return Verification(
-        tuple(checked),
-        tuple(faults),
-        tuple(report.beyond),
-        pruned,
-        exempt,
-        requested=_asks_for_certificates(report.report),
+    not_certified = tuple(report.beyond)
+    outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
+    whole = not (faults or not_certified or report.missing)
+    return VerificationReport(
+        tool=Tool("satcheck", __version__),
+        accepted=whole and outcomes <= {"accepted", "open"},
+        findings=tuple(checked),
+        faults=tuple(faults),
+        not_certified=not_certified,
+        pruned=pruned,
+        exempt=exempt,
         missing=report.missing,
-        support=support,
-        uncovered=uncovered(document, (field for finding in checked for field in finding.left)),
+        support=support or UNSET,
+        not_covered=uncovered(document, (field for finding in checked for field in finding.left)),
     )
 
 
-def _asks_for_certificates(report: Report) -> bool:
-    return any(e.effect == "certificate" and e.asked_by for e in report.effects)
+def is_certified(result: VerificationReport, document: Any) -> bool:
+    """Return whether the report was made with certificates, has some, or needs none."""
+    outcomes = {finding.outcome for finding in result.findings}
+    asked = any(e["effect"] == "certificate" and e["asked_by"] for e in document["effects"])
+    return asked or "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
 
 
 class _NoFile(Exception):
