@@ -160,9 +160,7 @@ class RuleBook:
         deciding: dict[str, RuleReport] = {}
         for number in numbers:
             rule = self.rules[number]
-            deciding |= {
-                key: rule for key in Terms.__struct_fields__ if getattr(rule, key) is not None
-            }
+            deciding |= {key: rule for key in _KEYS if getattr(rule, key) is not None}
         return replace(NO_TERMS, **deciding) if deciding else NO_TERMS
 
     def sets(self, key: str) -> bool:
