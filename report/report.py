@@ -8,6 +8,7 @@ None, never 0.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Mapping
@@ -36,6 +37,7 @@ from satcheck.report.values import Verdict as Verdict
 # The answer to a question of a rule about a single body.
 BodyAnswer = SupportFinding | InsideFinding
 
+_ID_DIGITS = 12
 SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
 # The severity of a finding, worst first. silenced: an error whose severity a rule sets to `none`.
@@ -239,6 +241,12 @@ class Finding(Value, frozen=True, kw_only=True):
     def at_rest(self) -> Relation:
         """The relation of the bodies as placed."""
         return self.placed_relation or self.relation
+
+
+def finding_id(a: str, b: str) -> str:
+    """Return an id that depends on the two bodies only, and not on their order, poses or result."""
+    key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
+    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:_ID_DIGITS]
 
 
 class EffectReport(Value, frozen=True):

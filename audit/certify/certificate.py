@@ -86,7 +86,7 @@ def _refusal(finding: Finding, a: Placed, b: Placed, request: Request) -> str | 
 
 class _Maker:
     def __init__(self, pair: Pair, examined: Examined) -> None:
-        self.pair, self.examined, self.finding = pair, examined, examined.finding
+        self.pair, self.draft, self.finding = pair, examined.draft, examined.finding
         a, b = pair.a.checked(), pair.b.checked()
         self.a, self.b = a, b
         self.worlds = a.mesh, b.mesh
@@ -148,7 +148,7 @@ class _Maker:
 
     def _crossing(self) -> tuple[int, int] | None:
         """Triangles that meet. A lower rung may have settled the pair without any."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         if climb is not None and climb.triangles is not None:
             return climb.crossing
         relation = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
@@ -158,7 +158,7 @@ class _Maker:
 
     def _hulls(self) -> core.PairResult:
         """Prove how the hulls of the bodies are apart; a lower rung may have settled the pair."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         if climb is not None and climb.hulls is not None:
             return climb.hulls
         return core.check_pair(self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="distance")
@@ -246,8 +246,7 @@ class _Maker:
 
     def _cells(self) -> Cells | None:
         """Certify the thickness of an overlap that is thinner than it is deep."""
-        answer, finding = self.examined.answer, self.finding
-        thickness = None if answer is None else answer.thickness
+        thickness, finding = self.draft.thickness, self.finding
         if thickness is None or thickness.proof is None:
             return None
         if finding.mtv_verified and finding.depth is not None and thickness.upper >= finding.depth:
@@ -312,8 +311,7 @@ class _Maker:
             band = Fraction(self.pair.tolerance) * (1 + EXACT_WIDTH)
             if axis is not None and depth_at_most(vector(list(axis)), self.placed, band):
                 return Band(axis)
-        answer = self.examined.answer
-        move = None if answer is None or answer.band is None else answer.band.move
+        move = None if self.draft.band is None else self.draft.band.move
         if move is not None:
             return Band(move=move, free=self._free(move))
         explained = excuse(self.pair)
@@ -321,7 +319,7 @@ class _Maker:
 
     def _nearest(self) -> Ends:
         """Points next to each other, on the nearest triangles."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         near = None if climb is None else climb.gap
         if near is None or near.triangle_a < 0:
             near = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
