@@ -22,10 +22,16 @@ from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.severity import of_estimate
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
-from satcheck.report.judge import EXACT_WIDTH, disputed, judged
+from satcheck.report.judge import (
+    EXACT_WIDTH,
+    Judgement,
+    by_rule,
+    clearance_judgement,
+    disputed,
+    judged,
+)
 from satcheck.report.report import OVERLAPS, Finding, Quality, finding_id
 from satcheck.scene.loading.readers import is_complete
 
@@ -72,7 +78,7 @@ def _judged(draft: Draft) -> Finding:
     bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
     judgement = judged(finding, pair.request, bounds, kept)
     if is_estimate:
-        judgement = of_estimate(judgement, finding, pair, overlaps=draft.verdict.overlaps)
+        judgement = _of_estimate(judgement, finding, pair, overlaps=draft.verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
     return replace(
@@ -82,6 +88,26 @@ def _judged(draft: Draft) -> Finding:
         undecided=judgement.undecided,
         reason=finding.reason or judgement.reason,
     )
+
+
+def _of_estimate(
+    judgement: Judgement, finding: Finding, pair: Pair, *, overlaps: bool
+) -> Judgement:
+    """Return the judgement of an estimate. An unproven relation does not pass, and an unproven
+    overlap does not fail, unless --accuracy or --allow-open accepts estimates. overlaps: an overlap
+    is proven, even if the relation is not."""
+    settings = pair.settings
+    if settings.accuracy != "exact" or settings.allow_open:
+        return judgement
+    if finding.relation in OVERLAPS and overlaps:
+        is_proven = finding.mtv_verified or not judgement.passes
+        return judgement if is_proven else judgement.warned("relation")
+    if finding.relation in OVERLAPS:  # or a gap that may keep no clearance
+        close = clearance_judgement(pair.request, 0.0, 0.0)
+        if close is not None and close.severity == "error":
+            return by_rule(close, pair.request).warned("relation")
+        return replace(judgement, severity="warning").warned("relation")
+    return judgement.warned("relation") if judgement.passes else judgement
 
 
 def apart_by_boxes(pair: Pair) -> Examined:

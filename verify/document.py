@@ -27,7 +27,7 @@ from satcheck.report.verification import Checked, CheckedSupport, Outcome, Verif
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
-from satcheck.verify.boxes import boxes_apart
+from satcheck.verify.clearance import boxes_apart
 from satcheck.verify.coverage import uncovered
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
