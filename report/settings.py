@@ -58,7 +58,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     thickness: bool | None = None
     volume: bool = False
     volume_seconds: Size = 60.0
-    volume_megabytes: int = 4096
+    volume_megabytes: Count = 4096
     contacts: bool = False
     contact_points: Count = 100_000  # about 5 MB of JSON
     components: bool = False
@@ -76,12 +76,12 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     depth_width: Width = 0.01
     depth_budget: Budget = 2.0
     thickness_width: Width = 0.01
-    part_threshold: float = 0.05
+    part_threshold: Length = 0.05
     part_seed: int = 0
     part_seconds: Size = 120.0
-    part_megabytes: int = 4096
+    part_megabytes: Count = 4096
     seconds_per_file: Size = 60.0
-    megabytes_per_file: int = 2048
+    megabytes_per_file: Count = 2048
 
 
 class StatedConfig(Value, frozen=True):

@@ -44,7 +44,7 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
 
     tolerance: Length | None = None
     cross_check_seconds: Size = 30.0
-    cross_check_megabytes: int = 4096
+    cross_check_megabytes: Count = 4096
     certificate: bool = False
     jobs: Count = 0
     cache: bool = True
