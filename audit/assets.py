@@ -11,7 +11,7 @@ from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
-from satcheck.audit.summary import summarise, tool
+from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.report.assets import Asset, asset
@@ -22,6 +22,7 @@ from satcheck.report.report import (
     PairCounts,
     Report,
 )
+from satcheck.report.verdict import summarise
 from satcheck.scene import Scene, SceneFileError
 
 NO_PAIRS = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)

@@ -12,9 +12,6 @@ from typing import get_args
 
 from msgspec.structs import replace
 
-from satcheck.audit.rounding import is_within, keeps
-from satcheck.audit.severity import fails
-from satcheck.audit.summary import verdict_of
 from satcheck.report.baseline import (
     Baseline,
     BaselineState,
@@ -23,8 +20,10 @@ from satcheck.report.baseline import (
     KnownRelation,
     StatedBaseline,
 )
+from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
 from satcheck.report.values import Interval
+from satcheck.report.verdict import fails, summarise
 
 # From the mildest to the gravest.
 _GRAVITY: dict[KnownRelation, int] = {
@@ -54,11 +53,18 @@ def beside_baseline(
     findings = tuple(_with_state(finding, report, known, assets) for finding in report.findings)
     absent = (known for asset in assets for known in absent_from(report, baseline, asset))
     stated = StatedBaseline(file, tuple(absent))
-    judged = replace(report, findings=findings, baseline=stated)
-    accepted = sum(finding.baseline_state == "unchanged" for finding in findings)
-    return replace(
-        judged, summary=replace(report.summary, verdict=verdict_of(judged), accepted=accepted)
+    summary, fail_on = report.summary, report.settings.fail_on
+    judged = summarise(
+        summary.pairs,
+        findings,
+        fail_on,
+        issues=report.issues,
+        alone=report.alone,
+        answers=report.answers,
     )
+    if summary.verdict == "pass":  # a baseline only excuses
+        judged = replace(summary, accepted=judged.accepted)
+    return replace(report, findings=findings, baseline=stated, summary=judged)
 
 
 def known_findings(report: Report, asset: str = "", reason: str = "") -> list[KnownFinding]:

@@ -18,7 +18,7 @@ from satcheck.audit.finding import apart_by_boxes, indeterminate
 from satcheck.audit.ladder.close_pairs import close_pairs
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.request.effects import effects_of
-from satcheck.audit.request.planner import Planner, Request
+from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import (
     LISTED_PAIRS,
     LISTED_UNDECIDABLE,
@@ -26,19 +26,10 @@ from satcheck.audit.request.settings import (
     require_settings,
 )
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.summary import (
-    body_reports,
-    count,
-    exempt_of,
-    issues_of,
-    rule_reports,
-    stated_reading,
-    summarise,
-    tool,
-    truncated_of,
-)
+from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, stated_reading, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OUTSIDE_REGION, REGION_OPEN, Finding, Issue, Report
+from satcheck.report.verdict import summarise, truncated_of
 from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
@@ -136,10 +127,10 @@ def _check(
         reading=stated_reading(scene),
         bodies=body_reports(bodies),
         exempt=exempt_of(scene),
-        rules=rule_reports(scene.rules),
+        rules=bodies.book.rules,
         effects=effects_of(
             planner,
-            map(_request_and_finding, examined),
+            ((planner.request(*k), pair.finding) for k, pair in zip(close, examined, strict=True)),
             counts,
             units_unknown=bodies.several_units_count,
         ),
@@ -252,10 +243,6 @@ def _examine_all(
             for (i, j), request in zip(close, requests, strict=True)
         ]
         return examine_pairs(pairs, queue, progress)
-
-
-def _request_and_finding(pair: CheckedPair) -> tuple[Request, Finding]:
-    return (pair.request if pair.finding.motion is None else pair.request.swept()), pair.finding
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:

@@ -13,9 +13,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import Examined, examine, indeterminate
-from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
-from satcheck.audit.pair_queue import PairQueue, Steps
-from satcheck.audit.request.planner import Request
+from satcheck.audit.ladder.core_climb import start_climbs
+from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.request.trace import Trace
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue
@@ -28,7 +27,6 @@ Progress = Callable[[int, int], None]
 
 class CheckedPair(Struct, frozen=True):
     finding: Finding
-    request: Request
     issues: tuple[Issue, ...] = ()
 
 
@@ -37,21 +35,13 @@ def examine_pairs(
 ) -> list[CheckedPair]:
     """The findings of pairs with the same settings, in their order."""
     done: dict[int, CheckedPair] = {}
-    for k, checked in queue.each(pairs, _steps()):
+    careful = is_careful()
+    examine = _examine_carefully if careful else _examine
+    for k, checked in queue.each(pairs, examine, alone=careful):
         done[k] = checked
         if progress is not None:
             progress(len(done), len(pairs))
     return [done[k] for k in range(len(pairs))]
-
-
-def _steps() -> Steps[Climb | None, CheckedPair]:
-    if is_careful():
-        return Steps(lambda pairs, _: lambda: [None] * len(pairs), _examine_carefully, _never)
-    return Steps(start_climbs, _examine, leaves_work)
-
-
-def _never(*_: object) -> bool:
-    return False
 
 
 def _examine_carefully(pair: Pair, _: Climb | None) -> CheckedPair:
@@ -63,7 +53,7 @@ def _examine_carefully(pair: Pair, _: Climb | None) -> CheckedPair:
     except LeftOut as error:
         reason = f"the process that checked this pair {error.message}"
         issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
-        return CheckedPair(indeterminate(a, b, reason, Trace()), pair.request, (issue,))
+        return CheckedPair(indeterminate(a, b, reason, Trace()), (issue,))
 
 
 def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
@@ -78,7 +68,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         finding = examined.finding
         if pair.request.wants("certificate"):
             finding = with_certificate(pair, examined)
-        return CheckedPair(finding, pair.request, tuple(trace.issues))
+        return CheckedPair(finding, tuple(trace.issues))
     except Exception as error:
         not_for_lack_of_memory(error)
         import logging
@@ -88,7 +78,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
-        return CheckedPair(finding, pair.request, (*trace.issues, issue))
+        return CheckedPair(finding, (*trace.issues, issue))
 
 
 def with_certificate(pair: Pair, examined: Examined) -> Finding:

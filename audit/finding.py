@@ -6,93 +6,122 @@ An overlap has no gap, so it keeps no clearance.
 
 from __future__ import annotations
 
-import hashlib
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.answer import Answer
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.draft import Draft
 from satcheck.audit.figures.depth import Depth, measure_depth
-from satcheck.audit.figures.gap import Gap, measure_gap
+from satcheck.audit.figures.gap import measure_gap
 from satcheck.audit.figures.touch_band import Band, band_of, touch_band
 from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
-from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
+from satcheck.report.judge import (
+    EXACT_WIDTH,
+    Judgement,
+    by_rule,
+    clearance_judgement,
+    disputed,
+    judged,
+)
+from satcheck.report.report import OVERLAPS, Finding, Quality, finding_id
 from satcheck.scene.loading.readers import is_complete
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.thickness_ahead import Ahead
     from satcheck.core import Climb
 
-ID_DIGITS = 12
 INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
 
 
 class Examined(Struct, frozen=True):
-    """A finding and the results that it follows from. answer: None if the relation is undecided."""
+    """A finding and what it follows from."""
 
     finding: Finding
-    verdict: Verdict
-    answer: Answer | None = None
-
-
-def finding_id(a: str, b: str) -> str:
-    """An id that depends on the two bodies only, and not on their order, poses or result."""
-    key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
-    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
+    draft: Draft
 
 
 def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
     """Computes everything that is requested for one pair. Warnings go to the trace. climb: the
     climb of the core; None: not made yet."""
-    verdict = settle(pair, trace, climb)
-    reason = _why_open(pair, verdict)
-    if reason is not None:
-        return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
-    with _thickness_ahead(pair, verdict) as ahead:
-        if verdict.relation in OVERLAPS:
-            answer = _overlapping(pair, verdict, trace)
-        else:
-            answer = _apart(pair, verdict, trace)
-        if isinstance(answer, str):
-            reason = f"undecided: {answer}"
-            return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
-        answer = _with_extras(answer, pair, verdict, trace, ahead)
-    contradiction = _contradiction(pair, verdict, trace)
-    judgement = judged(answer, pair, overlaps=verdict.overlaps)
+    draft = Draft(pair, trace, settle(pair, trace, climb))
+    undecided = _why_open(draft)
+    if undecided is None:
+        with _thickness_ahead(draft) as ahead:
+            if draft.verdict.relation in OVERLAPS:
+                undecided = _overlap(draft)
+            else:
+                _gap(draft)
+            if undecided is None:
+                _add_extras(draft, ahead)
+    if undecided is not None:
+        return Examined(indeterminate(pair.a.id, pair.b.id, undecided, trace), draft)
+    return Examined(_judged(draft), draft)
+
+
+def _judged(draft: Draft) -> Finding:
+    """Return the finding that the stages have drafted, with its severity."""
+    pair, gap = draft.pair, draft.gap
+    contradiction = _contradiction(draft)
+    is_estimate = draft.quality == "estimate"
+    _cap(draft)
+    finding = draft.finding()
+    bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
+    judgement = judged(finding, pair.request, bounds, kept)
+    if is_estimate:
+        judgement = _of_estimate(judgement, finding, pair, overlaps=draft.verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
-    answer = _capped(answer, pair)
-    return Examined(_finding(pair, answer, judgement, trace), verdict, answer)
+    return replace(
+        finding,
+        severity=judgement.severity,
+        rule=judgement.rule,
+        undecided=judgement.undecided,
+        reason=finding.reason or judgement.reason,
+    )
+
+
+def _of_estimate(
+    judgement: Judgement, finding: Finding, pair: Pair, *, overlaps: bool
+) -> Judgement:
+    """Return the judgement of an estimate. An unproven relation does not pass, and an unproven
+    overlap does not fail, unless --accuracy or --allow-open accepts estimates. overlaps: an overlap
+    is proven, even if the relation is not."""
+    settings = pair.settings
+    if settings.accuracy != "exact" or settings.allow_open:
+        return judgement
+    if finding.relation in OVERLAPS and overlaps:
+        is_proven = finding.mtv_verified or not judgement.passes
+        return judgement if is_proven else judgement.warned("relation")
+    if finding.relation in OVERLAPS:  # or a gap that may keep no clearance
+        close = clearance_judgement(pair.request, 0.0, 0.0)
+        if close is not None and close.severity == "error":
+            return by_rule(close, pair.request).warned("relation")
+        return replace(judgement, severity="warning").warned("relation")
+    return judgement.warned("relation") if judgement.passes else judgement
 
 
 def apart_by_boxes(pair: Pair) -> Examined:
     """A pair that the broad phase settled."""
-    trace = Trace()
+    trace, asked = Trace(), pair.request.by
     verdict = boxes_verdict(pair, trace)
     if verdict is None:
         raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
-    answer = Answer(
-        "separated",
-        "separated",
-        "exact",
-        volume=NOTHING if pair.request.wants("volume") else None,
-        contacts=Contacts() if pair.request.wants("contacts") else None,
-        components=Components() if pair.request.wants("components") else None,
-    )
-    answer = _capped(answer, pair)
-    return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
+    draft = Draft(pair, trace, verdict, "separated", "separated")
+    draft.volume = NOTHING if "volume" in asked else None
+    draft.contacts = Contacts() if "contacts" in asked else None
+    draft.components = Components() if "components" in asked else None
+    _cap(draft)
+    return Examined(draft.finding(), draft)
 
 
 def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
@@ -108,77 +137,75 @@ def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
     )
 
 
-def _capped(answer: Answer, pair: Pair) -> Answer:
-    """Return the answer as an estimate if a reader may have left out what would overlap. The issue
-    of the file keeps the check from passing, until somebody accepts it."""
-    known = all(is_complete(placed.body.file.format) for placed in (pair.a, pair.b))
-    if known or answer.relation in OVERLAPS:
-        return answer
-    return replace(answer, quality="estimate", reason=answer.reason or INCOMPLETE)
+def _cap(draft: Draft) -> None:
+    """Make the draft an estimate if a reader may have left out what would overlap. The issue of the
+    file keeps the check from passing, until somebody accepts it."""
+    bodies = draft.pair.a, draft.pair.b
+    known = all(is_complete(placed.body.file.format) for placed in bodies)
+    if not known and draft.relation not in OVERLAPS:
+        draft.quality, draft.reason = "estimate", draft.reason or INCOMPLETE
 
 
-def _why_open(pair: Pair, verdict: Verdict) -> str | None:
-    """The reason why the relation is undecided; None: it is decided."""
-    if verdict.relation == "indeterminate":
-        return verdict.reason or "undecided"
-    if verdict.relation in ("separated", "touching"):
-        return open_pieces_around(pair)
-    return None
+def _why_open(draft: Draft) -> str | None:
+    """Return the reason why the relation is undecided; None: it is decided."""
+    relation = draft.verdict.relation
+    if relation == "indeterminate":
+        return draft.verdict.reason or "undecided"
+    return open_pieces_around(draft.pair) if relation in ("separated", "touching") else None
 
 
-def _thickness_ahead(pair: Pair, verdict: Verdict) -> AbstractContextManager[Ahead | None]:
+def _thickness_ahead(draft: Draft) -> AbstractContextManager[Ahead | None]:
     """The search for the thickness of the only pair, if it runs beside that for the depth."""
+    pair = draft.pair
     both = pair.request.wants("depth") and pair.request.wants("thickness")
-    if not (pair.alone and both and verdict.relation in OVERLAPS):
+    if not (pair.alone and both and draft.verdict.relation in OVERLAPS):
         return nullcontext()
     from satcheck.audit.figures.thickness_ahead import thickness_ahead
 
     return thickness_ahead(pair)
 
 
-def _with_extras(
-    answer: Answer, pair: Pair, verdict: Verdict, trace: Trace, ahead: Ahead | None
-) -> Answer:
+def _add_extras(draft: Draft, ahead: Ahead | None) -> None:
     """Adds the figures that are computed only on request."""
-    asked = pair.request.by
+    pair, verdict, trace, asked = draft.pair, draft.verdict, draft.trace, draft.pair.request.by
     if "thickness" in asked and verdict.relation in OVERLAPS:
-        answer = _with_thickness(answer, pair, trace, ahead)
+        _add_thickness(draft, ahead)
     if pair.curved:
         from satcheck.audit.figures.curved import without_meshes
 
-        reason = without_meshes(answer.reason, pair, trace)
-        return answer if reason is answer.reason else replace(answer, reason=reason)
+        draft.reason = without_meshes(draft.reason, pair, trace)
+        return
     if "volume" in asked:
-        volume = common_volume(pair, verdict, trace)
-        answer = replace(answer, volume=volume, reason=answer.reason or volume.refusal)
+        draft.volume = common_volume(pair, verdict, trace)
+        draft.reason = draft.reason or draft.volume.refusal
     if "contacts" in asked:
         from satcheck.audit.figures.contacts import find_contacts
 
-        answer = replace(answer, contacts=find_contacts(pair, verdict, trace))
+        draft.contacts = find_contacts(pair, verdict, trace)
     if "components" in asked:
         from satcheck.audit.figures.components import find_components
 
-        answer = replace(answer, components=find_components(pair, verdict, trace))
-    return answer
+        draft.components = find_components(pair, verdict, trace)
 
 
-def _with_thickness(answer: Answer, pair: Pair, trace: Trace, ahead: Ahead | None) -> Answer:
+def _add_thickness(draft: Draft, ahead: Ahead | None) -> None:
     from satcheck.audit.figures.thickness import STAGE, measure_thickness, why_not_thick
 
-    why_not = why_not_thick(pair)
+    why_not = why_not_thick(draft.pair)
     if why_not is None:
-        return replace(answer, thickness=measure_thickness(pair, answer.depth, trace, ahead))
-    trace.record(STAGE, "not known", why_not)
-    return replace(answer, reason=answer.reason or f"no thickness: {why_not}")
+        draft.thickness = measure_thickness(draft.pair, draft.depth, draft.trace, ahead)
+        return
+    draft.trace.record(STAGE, "not known", why_not)
+    draft.reason = draft.reason or f"no thickness: {why_not}"
 
 
-def _contradiction(pair: Pair, verdict: Verdict, trace: Trace) -> str | None:
+def _contradiction(draft: Draft) -> str | None:
     """The answer of another library that contradicts the relation; None: no contradiction."""
-    if pair.peers is None or pair.curved:
+    if draft.pair.peers is None or draft.pair.curved:
         return None
     from satcheck.audit.cross_check import say
 
-    return say(pair, verdict, pair.peers, trace)
+    return say(draft.pair, draft.verdict, draft.pair.peers, draft.trace)
 
 
 def _weakness(pair: Pair, verdict: Verdict) -> str | None:
@@ -195,35 +222,34 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
-    """The answer for an overlap. A text instead: the reason why it is unknown whether the overlap
-    is within the tolerance."""
+def _overlap(draft: Draft) -> str | None:
+    """Fills in what is known of an overlap. Returns why it is unknown whether the overlap is within
+    the tolerance; None: it is known."""
+    pair, verdict, trace = draft.pair, draft.verdict, draft.trace
     band = touch_band(pair, verdict, trace)
     guess = band.side == "within" and not verdict.proven
-    depth = None if guess else _depth(pair, verdict, band.move, trace)
+    depth = None
+    if pair.request.wants("depth") and not guess:
+        depth = measure_depth(pair, verdict, band.move, trace)
     if depth is not None and band.side in ("open", "hidden"):
         band = _band_of_depth(pair, depth) or band
     if band.side == "hidden":
-        return band.why
+        return f"undecided: {band.why}"
     is_open = pair.curved and verdict.signed_distance is not None and band.side == "open"
-    relation: Relation = "touching" if band.side == "within" else verdict.relation
-    proven = shown = verdict.proven
-    reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
-    if pair.excuses and relation in OVERLAPS:
-        reason = reason or _unexcused(pair, band)
+    draft.relation = "touching" if band.side == "within" else verdict.relation
+    shown = verdict.proven
+    draft.reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
+    if pair.excuses and draft.relation in OVERLAPS:
+        draft.reason = draft.reason or _unexcused(pair, band)
     if pair.closer:
         from satcheck.audit.figures.curve_error import depth_of_curves, overlap_of_curves
 
         depth = depth and depth_of_curves(pair, verdict, depth, trace)
-        shown = proven and overlap_of_curves(pair, verdict)
-    return Answer(
-        relation,
-        verdict.relation if shown else None,
-        _depth_quality(depth, proven=proven),
-        reason,
-        band=band,
-        depth=depth,
-    )
+        shown = shown and overlap_of_curves(pair, verdict)
+    draft.exact_relation = verdict.relation if shown else None
+    draft.quality = _depth_quality(depth, proven=verdict.proven)
+    draft.band, draft.depth = band, depth
+    return None
 
 
 def _unexcused(pair: Pair, band: Band) -> str | None:
@@ -232,10 +258,6 @@ def _unexcused(pair: Pair, band: Band) -> str | None:
 
     why_not = why_not_thick(pair) or band.unexcused
     return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
-
-
-def _depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth | None:
-    return measure_depth(pair, verdict, move, trace) if pair.request.wants("depth") else None
 
 
 def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
@@ -254,8 +276,10 @@ def _depth_quality(depth: Depth | None, *, proven: bool) -> Quality:
     return "bounded"
 
 
-def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
-    gap = measure_gap(pair, verdict, trace)
+def _gap(draft: Draft) -> None:
+    """Fills in what is known of bodies without a common interior."""
+    pair, verdict = draft.pair, draft.verdict
+    gap = measure_gap(pair, verdict, draft.trace)
     if pair.closer:
         from satcheck.audit.figures.curve_error import gap_of_curves
 
@@ -278,19 +302,9 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
         shown = False
         if pair.tolerance < pair.closer:
             proven, reason = False, reason or _within_curves(pair)
-    at_best: Quality = "bounded" if _has_bounds(pair, gap) else "exact"
-    quality = at_best if proven else "estimate"
-    return Answer(relation, verdict.relation if shown else None, quality, reason, gap=gap)
-
-
-def _has_bounds(pair: Pair, gap: Gap) -> bool:
-    """Return whether the finding states bounds of the gap."""
-    return _is_shown(pair, gap) and (pair.closer > 0 or not gap.exact)
-
-
-def _is_shown(pair: Pair, gap: Gap) -> bool:
-    """Return whether the finding states the gap."""
-    return pair.request.clearance is not None and gap.distance is not None
+    draft.gap, draft.relation, draft.reason = gap, relation, reason
+    draft.exact_relation = verdict.relation if shown else None
+    draft.quality = "estimate" if not proven else "bounded" if draft.has_bounds else "exact"
 
 
 def _within_curves(pair: Pair) -> str:
@@ -308,40 +322,3 @@ def _open_gap(pair: Pair) -> str:
     if not pair.may("exact"):
         return f"the gap is {_unproven(pair)}"
     return "the gap may be less: the fill of a hole may be nearer than the surface"
-
-
-def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
-    depth, thick, volume = answer.depth, answer.thickness, answer.volume
-    gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
-    bounds = gap is not None and _has_bounds(pair, gap)
-    figure = gap if depth is None else depth  # a pair has at most one of them
-    return Finding(
-        id=finding_id(pair.a.id, pair.b.id),
-        a=pair.a.id,
-        b=pair.b.id,
-        rule=judgement.rule,
-        severity=judgement.severity,
-        undecided=judgement.undecided,
-        relation=answer.relation,
-        exact_relation=answer.exact_relation,
-        tolerance=pair.tolerance,
-        distance=None if gap is None else gap.distance,
-        distance_bounds=None if gap is None or not bounds else (gap.lower, gap.upper),
-        depth=None if depth is None else depth.upper,
-        depth_bounds=None if depth is None else (depth.lower, depth.upper),
-        quality=answer.quality,
-        normal=None if figure is None else figure.normal,
-        mtv=None if depth is None else depth.escape.mtv,
-        mtv_moves=None if depth is None else "a",
-        mtv_verified=None if depth is None else depth.escape.verified,
-        witness=None if figure is None else figure.witness,
-        thickness=None if thick is None else thick.upper,
-        thickness_bounds=None if thick is None else (thick.lower, thick.upper),
-        ball=None if thick is None else thick.ball,
-        volume=None if volume is None else volume.volume,
-        volume_error=None if volume is None else volume.error,
-        contacts=answer.contacts,
-        components=answer.components,
-        reason=answer.reason or judgement.reason,
-        plan=tuple(trace.stages),
-    )

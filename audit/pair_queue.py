@@ -9,20 +9,18 @@ before. Slow figures, such as a depth, run in threads.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
+from satcheck.audit.parallel import in_parallel
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
     from satcheck.audit.bodies.placed_body import PlacedBody
 
-C = TypeVar("C")
 T = TypeVar("T")
 
 # Below this many pairs, starting threads costs more than they save.
@@ -34,14 +32,8 @@ BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
 
-class Steps(Struct, Generic[C, T], frozen=True):
-    """The steps of a check. start_climbs(pairs, threads) starts a batch; the function that it
-    returns waits for the results. examine(pair, climb) makes one result. leaves_work(pair, climb):
-    whether examine takes long."""
-
-    start_climbs: Callable[[Sequence[Pair], int], Callable[[], Sequence[C]]]
-    examine: Callable[[Pair, C], T]
-    leaves_work: Callable[[Pair, C], bool]
+Climbs = Sequence["core.Climb | None"]
+Examine = Callable[[Pair, "core.Climb | None"], T]
 
 
 class PairQueue(Struct, frozen=True):
@@ -51,20 +43,20 @@ class PairQueue(Struct, frozen=True):
     jobs: int
     keep: bool = False
 
-    def each(self, pairs: Sequence[Pair], steps: Steps[C, T]) -> Iterator[tuple[int, T]]:
-        """(k, examine(pairs[k])) for every pair, in an order that keeps near pairs together."""
+    def each(
+        self, pairs: Sequence[Pair], examine: Examine[T], *, alone: bool = False
+    ) -> Iterator[tuple[int, T]]:
+        """Yield (k, examine(pairs[k], its climb)) for every pair, in an order that keeps near pairs
+        together. alone: no two pairs at once, and examine climbs itself."""
         order = _along_curve(pairs)
         leaving = {} if self.keep else _leaving(pairs, order)
-        threads = self._threads(len(pairs))
-        with ExitStack() as stack:
-            workers = _Workers(threads, stack)
-            batches = _batches(pairs, order, threads)
-            for batch, climbs in _climbed(pairs, batches, steps, threads):
-                results = workers.do([pairs[k] for k in batch], climbs, steps)
-                for k, result in zip(batch, results, strict=True):
-                    for body in leaving.get(k, ()):
-                        body.release()
-                    yield k, result
+        threads = 1 if alone else self._threads(len(pairs))
+        for batch, climbs in _climbed(pairs, _batches(pairs, order, threads), threads, alone):
+            results = _examined([pairs[k] for k in batch], climbs, examine, threads)
+            for k, result in zip(batch, results, strict=True):
+                for body in leaving.get(k, ()):
+                    body.release()
+                yield k, result
 
     def _threads(self, pairs: int) -> int:
         import os
@@ -111,58 +103,31 @@ def _batches(pairs: Sequence[Pair], order: Sequence[int], threads: int) -> Itera
 
 
 def _climbed(
-    pairs: Sequence[Pair], batches: Iterable[list[int]], steps: Steps[C, T], threads: int
-) -> Iterator[tuple[list[int], Sequence[C]]]:
-    """Each batch and its climbs, while the next one climbs."""
-    ahead: tuple[list[int], Callable[[], Sequence[C]]] | None = None
+    pairs: Sequence[Pair], batches: Iterable[list[int]], threads: int, alone: bool
+) -> Iterator[tuple[list[int], Climbs]]:
+    """Yield each batch and its climbs, while the next one climbs."""
+    ahead: tuple[list[int], Callable[[], Climbs]] | None = None
     for batch in batches:
+        if alone:
+            yield batch, [None] * len(batch)
+            continue
         climbed = ahead and (ahead[0], ahead[1]())
-        ahead = batch, steps.start_climbs([pairs[k] for k in batch], threads)
+        ahead = batch, start_climbs([pairs[k] for k in batch], threads)
         if climbed is not None:
             yield climbed
     if ahead is not None:
         yield ahead[0], ahead[1]()
 
 
-class _Workers:
-    """The threads of one run, started when the first pair needs them."""
-
-    def __init__(self, threads: int, stack: ExitStack) -> None:
-        self._threads = threads
-        self._stack = stack
-        self._pool: Executor | None = None
-
-    def do(self, pairs: list[Pair], climbs: Sequence[C], steps: Steps[C, T]) -> Iterator[T]:
-        heavy = [
-            k
-            for k, (pair, climb) in enumerate(zip(pairs, climbs, strict=True))
-            if steps.leaves_work(pair, climb)
-        ]
-        if self._threads == 1 or len(heavy) < PARALLEL_PAIRS:
-            yield from map(steps.examine, pairs, climbs)
-            return
-        try:
-            examined = self._started().map(
-                steps.examine, [pairs[k] for k in heavy], [climbs[k] for k in heavy]
-            )
-        except RuntimeError:  # the system grants no more threads
-            self._end(RuntimeError)
-            self._threads = 1
-            yield from map(steps.examine, pairs, climbs)
-            return
-        is_heavy = set(heavy)
-        for k, (pair, climb) in enumerate(zip(pairs, climbs, strict=True)):
-            yield next(examined) if k in is_heavy else steps.examine(pair, climb)
-
-    def _started(self) -> Executor:
-        if self._pool is None:
-            from concurrent.futures import ThreadPoolExecutor
-
-            self._pool = ThreadPoolExecutor(self._threads)
-            self._stack.push(self._end)
-        return self._pool
-
-    def _end(self, kind: type[BaseException] | None, *_: object) -> None:
-        """After an error, such as Ctrl-C, does not wait for running work."""
-        if self._pool is not None:
-            self._pool.shutdown(wait=kind is None, cancel_futures=True)
+def _examined(
+    pairs: Sequence[Pair], climbs: Climbs, examine: Examine[T], threads: int
+) -> Iterator[T]:
+    """Yield the results of a batch, those that take long from threads."""
+    heavy = [k for k, climb in enumerate(climbs) if leaves_work(pairs[k], climb)]
+    if threads == 1 or len(heavy) < PARALLEL_PAIRS:
+        yield from map(examine, pairs, climbs)
+        return
+    results = in_parallel(lambda k: examine(pairs[k], climbs[k]), heavy, threads)
+    is_heavy = set(heavy)
+    for k, (pair, climb) in enumerate(zip(pairs, climbs, strict=True)):
+        yield next(results) if k in is_heavy else examine(pair, climb)

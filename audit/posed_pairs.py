@@ -19,12 +19,13 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody, world_bounds
-from satcheck.audit.request.planner import Planner, Request
-from satcheck.audit.severity import Judgement, by_rule
+from satcheck.audit.request.planner import Planner
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
+from satcheck.report.judge import Judgement, by_rule
 from satcheck.report.report import SEVERITIES
+from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.half_spaces import holds, reach_in_world
 

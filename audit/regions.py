@@ -22,7 +22,6 @@ from satcheck import core
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.request.settings import Settings
-from satcheck.audit.severity import severity_of_answer
 from satcheck.audit.statics.answers import rule_report
 from satcheck.audit.statics.terms import contact_tolerance
 from satcheck.core.conventions import Vector
@@ -30,6 +29,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.report.certificate import OnBody
 from satcheck.report.regions import InsideFinding, Regions
+from satcheck.report.verdict import severity_of_answer
 from satcheck.scene.statics import terms_of
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.inside import check_answer
@@ -60,9 +60,9 @@ def regions_of(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Region
     places = {id_: k for k, id_ in enumerate(bodies.ids)}
     findings = []
     for id_, own in terms.items():
-        region = own.value("inside")
-        if region in (None, id_) or own.value("region"):
-            continue  # a region lies in no other one, and no body in itself
+        region = own.region_for(id_)
+        if region is None:
+            continue
         rule = own.rules["inside"].name
         asked = InsideFinding(body=id_, region=region, rule=rule, severity="none", answer="open")
         found = _answer(asked, bodies, places, tolerance)

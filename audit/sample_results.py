@@ -11,8 +11,9 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import FailOn, Settings
-from satcheck.audit.sampled import LISTED_NOTED, VERDICTS, PairTally, Sample, Samples, StatedPose
+from satcheck.audit.sampled import LISTED_NOTED, VERDICTS, PairTally, Samples, StatedPose
 from satcheck.report.report import Finding, Issue, Report, Verdict
+from satcheck.report.samples import SampledPose
 from satcheck.scene.robot.assembly import posed
 from satcheck.scene.robot.pose_batches import PoseBatch
 
@@ -26,7 +27,7 @@ class SampleResults:
     def __init__(self, fail_on: FailOn, *, lists_all: bool) -> None:
         self.fail_on, self.lists_all = fail_on, lists_all
         self.by_verdict: Counter[Verdict] = Counter()
-        self.listed: list[Sample] = []
+        self.listed: list[SampledPose] = []
         self.issues: dict[Issue, None] = {}
         self._tallies: dict[tuple[str, str], PairTally] = {}
 
@@ -38,7 +39,7 @@ class SampleResults:
     def tally(self, a: str, b: str) -> PairTally:
         return self._tallies.setdefault((a, b), PairTally(a, b))
 
-    def add(self, sample: Sample) -> None:
+    def add(self, sample: SampledPose) -> None:
         self.count(sample.number, sample.verdict, sample.findings)
         if self.lists_all or (sample.findings and self.room > 0):
             self.listed.append(sample)
@@ -83,7 +84,7 @@ class SampleResults:
         )
 
 
-def _incomplete_at_most(sample: Sample) -> Sample:
+def _incomplete_at_most(sample: SampledPose) -> SampledPose:
     return replace(sample, verdict="incomplete") if sample.verdict == "pass" else sample
 
 
@@ -96,7 +97,7 @@ class SingleChecks:
         self.scene, self.settings, self.cache, self.results = scene, settings, cache, results
         self.first: Report | None = None
 
-    def sample(self, batch: PoseBatch, row: int) -> Sample:
+    def sample(self, batch: PoseBatch, row: int) -> SampledPose:
         scene = posed(self.scene, batch.pose(row))
         report = check(scene, self.settings, cache=self.cache)
         self.first = self.first or report
@@ -108,7 +109,7 @@ class SingleChecks:
         self.results.issues |= dict.fromkeys(others)
         findings = tuple(finding for finding in report.findings if not is_plain(finding))
         verdict = report.summary.verdict
-        return Sample(batch.first + row, posture, verdict, findings, tuple(of_pose))
+        return SampledPose(batch.first + row, posture.pose(), verdict, findings, tuple(of_pose))
 
 
 def is_plain(finding: Finding) -> bool:

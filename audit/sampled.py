@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, get_args
+from typing import Any, get_args
 
 from msgspec import Struct, to_builtins
 
 from satcheck.audit.request.settings import FailOn
-from satcheck.audit.severity import fails
 from satcheck.report.report import (
     OVERLAPS,
     BodyReport,
@@ -31,9 +30,7 @@ from satcheck.report.samples import (
     SamplesTruncated,
 )
 from satcheck.report.settings import StatedConfig, StatedSettings
-
-if TYPE_CHECKING:
-    from satcheck.scene.robot import Posture
+from satcheck.report.verdict import fails
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -44,17 +41,6 @@ VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 # A pose as JSON: joint -> a number, or a list of numbers.
 StatedPose = dict[str, float | list[float]]
-
-
-class Sample(Struct, frozen=True):
-    """One pose. number: from 1. findings: the pairs that are not plainly separated there, at rest
-    and on the way."""
-
-    number: int
-    posture: Posture
-    verdict: Verdict
-    findings: tuple[Finding, ...]
-    issues: tuple[Issue, ...]
 
 
 class PairTally(Struct):
@@ -136,7 +122,7 @@ class Samples(Struct, frozen=True):
     rules: tuple[RuleReport, ...]
     number: int
     by_verdict: Mapping[Verdict, int]
-    samples: tuple[Sample, ...]
+    samples: tuple[SampledPose, ...]
     pairs: tuple[PairTally, ...]
     counts: PairCounts
     issues: tuple[Issue, ...]
@@ -166,10 +152,7 @@ class Samples(Struct, frozen=True):
             bodies=tuple(SampledBody(b.id, b.file, b.sha256, b.shape) for b in self.bodies),
             exempt=self.exempt,
             rules=self.rules,
-            samples=tuple(
-                SampledPose(s.number, s.posture.pose(), s.verdict, s.findings, s.issues)
-                for s in self.samples
-            ),
+            samples=self.samples,
             pairs=tuple(pair.stated() for pair in self.pairs if not pair.settled),
             issues=self.issues,
             truncated=self._truncated(),

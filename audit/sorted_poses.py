@@ -17,9 +17,9 @@ from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
-from satcheck.audit.sampled import Sample
-from satcheck.audit.severity import fails
 from satcheck.report.report import Finding, Issue, Verdict
+from satcheck.report.samples import SampledPose
+from satcheck.report.verdict import fails
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:
@@ -149,13 +149,13 @@ class _SortedBatch:
             row.by_pair[number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _sample(self, row: _Row) -> Sample:
+    def _sample(self, row: _Row) -> SampledPose:
         posture = self._batch.posture(self._checks.scene, row.row)
         findings = row.findings()
         verdict = self._verdict(findings)
         number = self._batch.first + row.row
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
-        return Sample(number, posture, verdict, findings, issues)
+        return SampledPose(number, posture.pose(), verdict, findings, issues)
 
     def _count_unlisted(self, row: _Row) -> None:
         """A pose with findings."""

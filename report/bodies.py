@@ -6,41 +6,9 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from satcheck.report.values import Count, Length, Sha256, Size, Sizes, Value
-
-
-class Box(Value, frozen=True, tag_field="type", tag="box"):
-    size: Sizes
-
-
-class Sphere(Value, frozen=True, tag_field="type", tag="sphere"):
-    radius: Size
-
-
-class Capsule(Value, frozen=True, tag_field="type", tag="capsule"):
-    radius: Size
-    length: Size
-
-
-class Cylinder(Value, frozen=True, tag_field="type", tag="cylinder"):
-    radius: Size
-    height: Size
-
-
-class Cone(Value, frozen=True, tag_field="type", tag="cone"):
-    radius: Size
-    height: Size
-
-
-class Ellipsoid(Value, frozen=True, tag_field="type", tag="ellipsoid"):
-    radii: Sizes
-
-
-class HalfSpace(Value, frozen=True, tag_field="type", tag="half-space"):
-    """All points with z <= 0. It is checked as the block |x|, |y| <= reach, -reach <= z <= 0, which
-    is the same to every body within 3/8 of the reach of the origin."""
-
-    reach: Size
+from satcheck.core.mesh_health import MeshHealth
+from satcheck.core.shapes import Primitive
+from satcheck.report.values import Count, Length, Sha256, Size, Value
 
 
 class Outline(Value, frozen=True, tag_field="type", tag="outline"):
@@ -49,40 +17,7 @@ class Outline(Value, frozen=True, tag_field="type", tag="outline"):
     points: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3)]
 
 
-StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | HalfSpace | Outline
-
-
-class Health(Value, frozen=True, kw_only=True):
-    """The result of the inspection of a mesh. Edges are counted where triangles meet.
-
-    cracks: gaps between faces no wider than the precision of the file; they are closed. holes:
-    loops of the boundary that remain. largest_hole: diagonal of the box around the largest hole,
-    file units; 0 without holes. closed: every edge has an even number of triangles, once cracks are
-    closed. manifold: exactly two. oriented: all triangles agree on which side is outside. volume:
-    signed, file units cubed. inside_out: some parts faced inward and were
-    turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
-    solid: after the repair, inside and outside are defined, and the inside is not empty.
-    """
-
-    vertices: Count
-    triangles: Count
-    components: Count
-    boundary_edges: Count
-    nonmanifold_edges: Count
-    misoriented_edges: Count
-    degenerate_triangles: Count
-    duplicate_triangles: Count
-    cracks: Count
-    holes: Count
-    largest_hole: Length
-    closed: bool
-    manifold: bool
-    oriented: bool
-    volume: float
-    inside_out: bool
-    double_sided: bool
-    flat: bool
-    solid: bool
+StatedShape = Primitive | Outline
 
 
 class PartError(Value, frozen=True):
@@ -117,19 +52,19 @@ class BodyReport(Value, frozen=True, kw_only=True):
     id: str
     name: str
     file: str
-    sha256: Sha256 | None
-    path: str | None
+    sha256: Sha256 | None = None
+    path: str | None = None
     shape: StatedShape | None = None
-    transform: Annotated[tuple[float, ...], Meta(min_length=16, max_length=16)] | None
+    transform: Annotated[tuple[float, ...], Meta(min_length=16, max_length=16)] | None = None
     units: Annotated[str, Meta(pattern="^(um|mm|cm|m|in|ft)$")] | None = None
     unit_scale: Size | None = None
     groups: tuple[str, ...]
     static: bool
-    triangles: Count | None
-    health: Health | None
-    resolution: Length | None
+    triangles: Count | None = None
+    health: MeshHealth | None = None
+    resolution: Length | None = None
     surface_tolerance: Length | None = None
-    convex: bool | None
-    parts: Annotated[int, Meta(ge=1)] | None
-    part_error: PartError | None
+    convex: bool | None = None
+    parts: Annotated[int, Meta(ge=1)] | None = None
+    part_error: PartError | None = None
     stated_at: Place | None = None

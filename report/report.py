@@ -8,6 +8,7 @@ None, never 0.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Mapping
@@ -36,6 +37,7 @@ from satcheck.report.values import Verdict as Verdict
 # The answer to a question of a rule about a single body.
 BodyAnswer = SupportFinding | InsideFinding
 
+_ID_DIGITS = 12
 SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
 # The severity of a finding, worst first. silenced: an error whose severity a rule sets to `none`.
@@ -241,6 +243,12 @@ class Finding(Value, frozen=True, kw_only=True):
         return self.placed_relation or self.relation
 
 
+def finding_id(a: str, b: str) -> str:
+    """Return an id that depends on the two bodies only, and not on their order, poses or result."""
+    key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
+    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:_ID_DIGITS]
+
+
 class EffectReport(Value, frozen=True):
     """An effect (a kind of computation) of a check, over all pairs.
 
@@ -360,6 +368,13 @@ class Report(Value, frozen=True, kw_only=True):
         """To all questions of rules about single bodies."""
         held = () if self.support is None else self.support.findings
         return held + (self.regions.findings if self.regions else ())
+
+    @property
+    def alone(self) -> bool:
+        """Return whether no pair has to be checked: the scene is one usable body, or none, or rules
+        ask for regions only."""
+        usable = all(body.triangles is not None for body in self.bodies)
+        return bool(self.regions) or (len(self.bodies) < 2 and usable)
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

@@ -11,42 +11,77 @@ from msgspec import Meta
 from satcheck.report.values import Count, Length, Size, Value
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
+FailOn = Literal["error", "warning", "note"]
 Method = Literal["auto", "sat", "gjk"]
 Plane = Literal["xy", "yz", "xz"]
 OptionValue = bool | int | float | str | tuple[str, ...]
 
 
-class StatedSettings(Value, frozen=True, kw_only=True):
-    """The settings that can change an answer."""
+# More than 0, less than 1.
+Width = Annotated[float, Meta(gt=0, lt=1)]
+# Seconds of a slow machine.
+MOST_BUDGET = 86400.0
+Budget = Annotated[float, Meta(gt=0, le=MOST_BUDGET)]
 
-    depth: bool
-    thickness: bool
-    volume: bool
-    volume_seconds: Length
-    volume_megabytes: Count
-    contacts: bool
-    contact_points: Count
-    components: bool
-    clearance: Length | None
-    tolerance: Length | Literal["input-precision"]
-    surface_tolerance: Length | None
-    accuracy: Accuracy
-    method: Method
-    fail_on: Literal["error", "warning", "note"]
-    accept: tuple[str, ...]
-    allow_open: bool
-    cross_check: bool
-    planar: Plane | None
-    list_pruned: bool | None
-    depth_width: Length
-    depth_budget: Length
-    thickness_width: Length
-    part_threshold: Length
-    part_seed: int
-    part_seconds: Length
-    part_megabytes: Count
-    seconds_per_file: Length
-    megabytes_per_file: Count
+
+class StatedSettings(Value, frozen=True, kw_only=True):
+    """The settings that can change an answer. Lengths are in the units of the files. None means
+    "not computed" unless said otherwise.
+
+    depth: depth and MTV of overlapping pairs; None: for mesh files always, in a scene only if a
+    rule requests it. thickness: of overlapping pairs; None: whenever `depth` requests the depth. A
+    report says whether they are computed for every overlap.
+    volume: the volume that bodies have in common; volume_*: limits for one pair.
+    contacts: where surfaces meet; contact_points: the most points listed for a pair.
+    components: the connected components of each overlap, with their thickness.
+    clearance: the gap that bodies must keep; pairs closer than this are `near`.
+    tolerance: half width of the touch band; None: the input precision of each pair.
+    surface_tolerance: how far surfaces may be off, for bodies whose scene does not state it; None:
+    0, or the chord tolerance of facets that a reader made.
+    accuracy: the highest rung of the ladder that is allowed.
+    method: for convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster one. It
+    changes no relation, and of a depth only the last digits.
+    fail_on: the least severity that makes a check fail. accept: issues that need not be solved
+    before a check passes, each as `CODE` or `CODE:NAME`.
+    allow_open: open meshes are intended. An open surface is then a sheet without an inside.
+    cross_check: also asks other libraries.
+    planar: check the outlines of the bodies in this plane; None: check in space.
+    list_pruned: findings for pairs that the broad phase settled; None: if there are few pairs.
+    depth_width, thickness_width: a search ends when its interval has this relative width.
+    depth_budget: for the interval of one depth, in seconds of a slow machine; one thickness gets
+    half of it. It limits the number of steps and not the time, so that the same input gives the
+    same answer on every machine.
+    part_*: how concave meshes are split into convex parts, and the limits for it.
+    """
+
+    depth: bool | None = None
+    thickness: bool | None = None
+    volume: bool = False
+    volume_seconds: Size = 60.0
+    volume_megabytes: Count = 4096
+    contacts: bool = False
+    contact_points: Count = 100_000  # about 5 MB of JSON
+    components: bool = False
+    clearance: Length | None = None
+    tolerance: Length | Literal["input-precision"] | None = None
+    surface_tolerance: Length | None = None
+    accuracy: Accuracy = "exact"
+    method: Method = "auto"
+    fail_on: FailOn = "error"
+    accept: tuple[str, ...] = ()
+    allow_open: bool = False
+    cross_check: bool = False
+    planar: Plane | None = None
+    list_pruned: bool | None = None
+    depth_width: Width = 0.01
+    depth_budget: Budget = 2.0
+    thickness_width: Width = 0.01
+    part_threshold: Length = 0.05
+    part_seed: int = 0
+    part_seconds: Size = 120.0
+    part_megabytes: Count = 4096
+    seconds_per_file: Size = 60.0
+    megabytes_per_file: Count = 2048
 
 
 class StatedConfig(Value, frozen=True):

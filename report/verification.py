@@ -87,3 +87,9 @@ class VerificationReport(Value, frozen=True, kw_only=True):
     missing: tuple[str, ...]
     support: tuple[CheckedSupport, ...] | UnsetType = UNSET
     not_covered: tuple[Uncovered, ...]
+
+    @property
+    def rejected(self) -> bool:
+        """Return whether a checked claim is false."""
+        outcomes = [f.outcome for f in self.findings] + [f.outcome for f in self.support or ()]
+        return bool(self.faults) or "rejected" in outcomes

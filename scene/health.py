@@ -8,42 +8,8 @@ from collections.abc import Callable
 from msgspec import Struct
 
 from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
+from satcheck.core.mesh_health import MeshHealth as MeshHealth
 from satcheck.scene.errors import MeshFileError
-
-
-class MeshHealth(Struct, frozen=True):
-    """The mesh as read, welded. Edges are counted where triangles meet.
-
-    closed: every edge has an even number of triangles, once cracks are closed. manifold: exactly
-    two. oriented: all triangles agree on which side is outside. cracks: gaps between neighbouring
-    faces no wider than the precision of the file; they are closed. holes: boundary loops that
-    remain after the repair. Loops of flat parts do not count, because these are sheets.
-    largest_hole: the extent of the largest hole, file units, 0.0 without holes. volume: signed,
-    file units cubed, 0.0 unless closed and oriented.
-    inside_out: some parts faced inward and were turned. double_sided: each face exists in both
-    orientations. flat: all vertices in one plane. solid: after the repair, inside and outside are
-    defined, and the inside is not empty.
-    """
-
-    vertices: int
-    triangles: int
-    components: int
-    boundary_edges: int
-    nonmanifold_edges: int
-    misoriented_edges: int
-    degenerate_triangles: int
-    duplicate_triangles: int
-    cracks: int
-    holes: int
-    largest_hole: float
-    closed: bool
-    manifold: bool
-    oriented: bool
-    volume: float
-    inside_out: bool
-    double_sided: bool
-    flat: bool
-    solid: bool
 
 
 class Examined(Struct, frozen=True):

@@ -40,7 +40,7 @@ class Selectable(Protocol):
     def id(self) -> str: ...
 
     @property
-    def groups(self) -> tuple[str, ...]: ...
+    def groups(self) -> Collection[str]: ...
 
 
 class HasSeverity(Protocol):
@@ -187,6 +187,28 @@ class Rule(Struct, frozen=True, kw_only=True):
     def name(self) -> str:
         """Its place in a file, else its two selectors."""
         return self.where or f"{self.a.text} and {self.b.text}"
+
+
+class Members:
+    """Finds the bodies of a selector, by their numbers."""
+
+    def __init__(self, bodies: Sequence[Selectable]) -> None:
+        self._chosen: dict[str, frozenset[int]] = {}
+        self._by_id: dict[str, list[int]] = {body.id: [k] for k, body in enumerate(bodies)}
+        self._by_group: dict[str, list[int]] = {}
+        for k, body in enumerate(bodies):
+            for group in dict.fromkeys(body.groups):
+                self._by_group.setdefault(group, []).append(k)
+
+    def of(self, text: str) -> frozenset[int]:
+        """Return the bodies of the selector of this text."""
+        if text not in self._chosen:
+            selector = Selector(text)
+            names = self._by_group if selector.of_groups else self._by_id
+            self._chosen[text] = frozenset(
+                k for name in selector.choose(names) for k in names[name]
+            )
+        return self._chosen[text]
 
 
 def require_effect(rule: HasSeverity, keys: Sequence[str]) -> None:

@@ -128,6 +128,12 @@ class BodyTerms(Struct, frozen=True):
         """The rule that asks this question; None: none does."""
         return self.rules.get(question) if self.value(question) else None
 
+    def region_for(self, body: str) -> str | None:
+        """Return the region in which this body has to lie; None: in none. A region lies in no other
+        one, and no body in itself."""
+        region = self.value("inside")
+        return None if region == body or self.value("region") else region
+
 
 def terms_of(bodies: Sequence[Selectable], rules: Sequence[BodyRule]) -> list[BodyTerms]:
     """What the rules say about each body."""

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 
 from satcheck.report.certificate import Certificate
-from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.report import Finding
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
-from satcheck.verify.clearance import keeps_clearance, least_gap
+from satcheck.verify.clearance import GapProof, check_claims, least_gap
 from satcheck.verify.curved_pair import CurvedPair, curved_pair_of
 from satcheck.verify.distances import spanned
 from satcheck.verify.evidence import axis, given
 from satcheck.verify.exact import Rejected
-from satcheck.verify.figures import EXACT_WIDTH, rounding_of
-from satcheck.verify.rules import Request
-from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
+from satcheck.verify.figures import rounding_of
+from satcheck.verify.severity import ProvenFields, proven_depth
 from satcheck.verify.way_out import check_mtv
 
 
@@ -30,7 +31,6 @@ def check_curved(
     certified."""
     pair = curved_pair_of(a, b)
     relation, exact = finding.relation, finding.exact_relation
-    clearance = Fraction(request.clearance or 0.0)
     separated = relation == "separated"
     beyond, least = (tolerance if separated else Fraction(0)), least_gap(finding, request)
     pair.prove(exact, certificate.relation, beyond, least)
@@ -41,27 +41,13 @@ def check_curved(
     if exact == "touching":
         error = Fraction(0)
     proven = ProvenFields(False, mtv, error, spans or mtv)
-    if relation != exact:
-        band = tolerance * (1 + EXACT_WIDTH)
-        if exact == "separated" and relation in ("touching", "near"):
-            squared, near = pair.squared_gap(given(certificate.gap, "gap")), relation == "near"
-            if not (squared < clearance**2 if near else squared <= band**2):
-                raise Rejected("the points of the gap are further apart than that")
-        elif not (
-            exact in OVERLAPS and relation == "touching" and _in_band(certificate, pair, band)
-        ):
-            raise Rejected(f"{relation!r} does not follow from {exact!r}")
-
-    def keeps(length: Fraction) -> bool | None:
-        return keeps_clearance(
-            finding,
-            length,
-            lambda: pair.squared_gap(given(certificate.gap, "gap")),
-            lambda least: pair.prove_apart(given(certificate.gap, "gap"), least),
-        )
-
+    gap = GapProof(
+        lambda: pair.squared_gap(given(certificate.gap, "gap")),
+        lambda least: pair.prove_apart(given(certificate.gap, "gap"), least),
+    )
     most = proven_depth(finding, proven)
-    check_severity(finding, request, ProvenFigures(most, most, keeps, EXACT_WIDTH))
+    in_band = partial(_in_band, certificate, pair)
+    check_claims(finding, request, tolerance, gap, in_band, (most, most))
     return proven
 
 

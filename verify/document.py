@@ -2,75 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from msgspec import to_builtins
+from msgspec import UNSET, to_builtins
 
-from satcheck.report.report import OVERLAPS, SUPPORT_OPEN, UNSUPPORTED, Finding, Report
-from satcheck.report.settings import StatedSettings
-from satcheck.report.verification import Checked, CheckedSupport, Outcome, Uncovered
+from satcheck._version import __version__
+from satcheck.report.report import (
+    OVERLAPS,
+    SUPPORT_OPEN,
+    UNSUPPORTED,
+    Exempt,
+    Finding,
+    Report,
+    RuleReport,
+    Tool,
+)
+from satcheck.report.request import Request, request_of
+from satcheck.report.rule_book import RuleBook
+from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.read_options import as_stated
+from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
-from satcheck.verify.boxes import boxes_apart
+from satcheck.verify.clearance import boxes_apart
 from satcheck.verify.coverage import uncovered
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import ACROSS
-from satcheck.verify.published import IllFormed, report_of
-from satcheck.verify.rules import TERMS, Request, Rules
+from satcheck.verify.published import report_of
 from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
 
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
-
-
-@dataclass(frozen=True, slots=True)
-class Verification:
-    """faults: what is wrong with the report as a whole. beyond: what no certificate covers. pruned:
-    pairs that are not listed because their boxes are apart. exempt: pairs whose boxes meet and that
-    are not listed because the scene exempts them. requested: the report says that certificates were
-    requested. missing: files that do not exist. If there are any, the report is not accepted, and
-    unlisted pairs and the summary are not checked. uncovered: fields of which only the type was
-    checked.
-    """
-
-    findings: tuple[Checked, ...]
-    faults: tuple[str, ...]
-    beyond: tuple[str, ...]
-    pruned: int
-    exempt: int
-    requested: bool
-    missing: tuple[str, ...] = ()
-    support: tuple[CheckedSupport, ...] = ()
-    uncovered: tuple[Uncovered, ...] = ()
-
-    @property
-    def accepted(self) -> bool:
-        settled = all(f.outcome in ("accepted", "open") for f in self.findings)
-        settled = settled and all(f.outcome in ("accepted", "open") for f in self.support)
-        return settled and not (self.faults or self.beyond or self.missing)
-
-    @property
-    def rejected(self) -> bool:
-        """Return whether a checked claim is false."""
-        outcomes = [f.outcome for f in self.findings] + [f.outcome for f in self.support]
-        return bool(self.faults) or "rejected" in outcomes
-
-    @property
-    def certified(self) -> bool:
-        """Return whether the report was made with certificates, has some, or needs none."""
-        outcomes = {f.outcome for f in self.findings}
-        return (
-            self.requested
-            or "not certified" not in outcomes
-            or bool(outcomes & {"accepted", "rejected"})
-        )
 
 
 def verify(
@@ -79,7 +46,7 @@ def verify(
     progress: Callable[[int, int], None] | None = None,
     *,
     allow_outside: bool = False,
-) -> Verification:
+) -> VerificationReport:
     """Re-check a report, parsed from JSON, from the mesh files. Their paths start at root.
 
     allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected if the
@@ -101,21 +68,28 @@ def verify(
             report.check_summary(pruned, left_open)
         except Rejected as why:
             faults.append(str(why))
-    return Verification(
-        tuple(checked),
-        tuple(faults),
-        tuple(report.beyond),
-        pruned,
-        exempt,
-        requested=_asks_for_certificates(report.report),
+    not_certified = tuple(report.beyond)
+    outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
+    whole = not (faults or not_certified or report.missing)
+    return VerificationReport(
+        tool=Tool("satcheck", __version__),
+        accepted=whole and outcomes <= {"accepted", "open"},
+        findings=tuple(checked),
+        faults=tuple(faults),
+        not_certified=not_certified,
+        pruned=pruned,
+        exempt=exempt,
         missing=report.missing,
-        support=support,
-        uncovered=uncovered(document, (field for finding in checked for field in finding.left)),
+        support=support or UNSET,
+        not_covered=uncovered(document, (field for finding in checked for field in finding.left)),
     )
 
 
-def _asks_for_certificates(report: Report) -> bool:
-    return any(e.effect == "certificate" and e.asked_by for e in report.effects)
+def is_certified(result: VerificationReport, document: Any) -> bool:
+    """Return whether the report was made with certificates, has some, or needs none."""
+    outcomes = {finding.outcome for finding in result.findings}
+    asked = any(e["effect"] == "certificate" and e["asked_by"] for e in document["effects"])
+    return asked or "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
 
 
 class _NoFile(Exception):
@@ -126,10 +100,9 @@ class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         self.report, self.findings = report_of(document)
         report = self.report
-        self.request = _request_of_settings(report.settings)
         reader = Bodies(
             root,
-            allow_open=self.request.allow_open,
+            allow_open=report.settings.allow_open,
             allow_outside=allow_outside,
             reading=as_stated(to_builtins(report.reading)),
         )
@@ -138,7 +111,7 @@ class _Report:
         if len(self.bodies) < len(placed):
             raise Rejected("not a report: two bodies have one id")
         self.units = {body.id: body.units for body in report.bodies}
-        self.rules = Rules(report.exempt, report.rules, self.bodies)
+        self.book = rule_book(report.exempt, report.rules, placed)
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
@@ -153,11 +126,11 @@ class _Report:
         if report.summary.accepted and report.summary.verdict != "fail":
             self.beyond.append("a baseline accepts findings: without it the verdict is 'fail'")
 
-    def check(self, finding: Finding | IllFormed) -> Checked:
+    def check(self, finding: Finding | Checked) -> Checked:
         a, b, relation = finding.a, finding.b, finding.relation
-        if isinstance(finding, IllFormed):
+        if isinstance(finding, Checked):
             self._list(a, b)
-            return Checked(a, b, relation, "rejected", f"not by the schema: {finding.reason}")
+            return finding
         try:
             proven = self._check(finding)
         except NotCertified as why:
@@ -194,7 +167,7 @@ class _Report:
 
     def _check(self, finding: Finding) -> ProvenFields | None:
         a, b = self._list(finding.a, finding.b)
-        if self.rules.is_exempt(a, b):
+        if not self.book.is_checked(self.order[a.id], self.order[b.id]):
             raise Rejected("the scene does not ask about this pair")
         if (finding.motion is None) is not (finding.placed_relation is None):
             raise Rejected("the relation as placed comes with a motion")
@@ -218,22 +191,18 @@ class _Report:
         return check_finding(finding, a, b, request)
 
     def request_of(self, a: Placed, b: Placed) -> Request:
-        """The settings, replaced by what rules say about this pair. A pair that may overlap has no
-        clearance to keep."""
-        terms = self.rules.terms(a, b)
-        request = replace(
-            self.request,
-            **{key: terms[key] for key in TERMS & terms.keys()},
-            names=self.rules.names(a, b),
-        )
-        return replace(request, clearance=None) if request.limited else request
+        """Return what the settings and the rules ask of this pair."""
+        settings, terms = self.report.settings, self.book.terms(self.order[a.id], self.order[b.id])
+        tolerance = None if isinstance(settings.tolerance, str) else settings.tolerance
+        across = None if settings.planar is None else ACROSS[settings.planar]
+        return request_of(terms, settings.clearance, tolerance, across)
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
         nothing decides, because a body cannot be used or compared."""
         pruned = exempted = left_open = 0
         for a, b in _unlisted(list(self.bodies.values()), self.listed):
-            if self.rules.is_exempt(a, b):
+            if not self.book.is_checked(self.order[a.id], self.order[b.id]):
                 exempted += 1
             elif self.units[a.id] != self.units[b.id] or not (a.claims and b.claims):
                 left_open += 1
@@ -269,7 +238,8 @@ class _Report:
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
             listed_apart = self.listed_apart
-            check_summary(self.report, findings, self.rules, pruned, listed_apart, left_open)
+            counted = self.book.count()
+            check_summary(self.report, findings, counted, pruned, listed_apart, left_open)
 
 
 def _judged(
@@ -332,10 +302,13 @@ def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tup
             yield a, b
 
 
-def _request_of_settings(settings: StatedSettings) -> Request:
-    return Request(
-        None if isinstance(settings.tolerance, str) else settings.tolerance,
-        settings.clearance,
-        settings.allow_open,
-        across=None if settings.planar is None else ACROSS[settings.planar],
+def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Placed]) -> RuleBook:
+    """Return the rules of a report, compiled for its bodies."""
+    members = Members(bodies)
+    return RuleBook(
+        bodies,
+        rules,
+        [(members.of(rule.a), members.of(rule.b)) for rule in rules],
+        frozenset(exempt.groups),
+        check_static=not exempt.static_pairs,
     )

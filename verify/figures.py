@@ -5,7 +5,6 @@ A certificate proves the other claims of the figures, or `coverage` lists them.
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,13 +14,13 @@ from typing import Any
 import numpy as np
 
 from satcheck.report.contacts import Contacts
-from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.report import OVERLAPS, Finding, finding_id
+from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
-from satcheck.verify.rules import Request
 from satcheck.verify.world import World
 
 # An interval of this relative width comes from rounding alone.
@@ -33,7 +32,6 @@ CURVED_ERROR = EXACT_WIDTH
 UNIT_ERROR = 1e-12  # of the length of a unit vector
 # A direction is checked only if rounding turns it by at most this angle, in radians.
 DIRECTION_ERROR = Fraction(1, 1000)
-ID_DIGITS = 12
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
 THICKNESS_FIGURES = ("thickness", "thickness_bounds", "ball")
@@ -63,9 +61,7 @@ def rounding_of(a: Placed, b: Placed) -> Rounding:
 
 
 def check_id(finding: Finding) -> None:
-    first, second = sorted((finding.a, finding.b))
-    key = f"{first}\0{second}".encode(errors="surrogatepass")
-    if finding.id != hashlib.sha256(key).hexdigest()[:ID_DIGITS]:
+    if finding.id != finding_id(finding.a, finding.b):
         raise Rejected("its id is not that of these two bodies")
 
 

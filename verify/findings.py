@@ -9,8 +9,9 @@ from msgspec import UnsetType
 
 from satcheck.report.certificate import Band, Certificate
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
-from satcheck.verify.clearance import keeps_clearance, least_gap, prove_apart
+from satcheck.verify.clearance import GapProof, check_claims, least_gap, prove_apart
 from satcheck.verify.cover import depth_is_at_least
 from satcheck.verify.curved_finding import check_curved
 from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
@@ -18,7 +19,6 @@ from satcheck.verify.evidence import axis, gap_along, given, vector
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
-    EXACT_WIDTH,
     Rounding,
     check_figures,
     check_id,
@@ -36,8 +36,7 @@ from satcheck.verify.in_plane import (
 )
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair, pair_of, prove
-from satcheck.verify.rules import Request
-from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
+from satcheck.verify.severity import ProvenFields, proven_depth
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.way_out import check_mtv, prove_way_out
 
@@ -51,7 +50,6 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
         raise Rejected("it has no certificate")
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
-    clearance = Fraction(request.clearance or 0.0)
     check_figures(finding, a, b)
     if a.curved is not None or b.curved is not None:
         return check_curved(finding, certificate, a, b, request, tolerance)
@@ -75,27 +73,25 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     most = proven_depth(finding, replace(proven, depth=depth))
     thickest = _check_thickness(finding, certificate, pair, closer, most)
     proven = _with_thickness(proven, finding, closer, thickest, rounding)
-    if relation != exact:
-        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
     if exact not in OVERLAPS and not hulls_apart:
-        check_holes(a, b, max(tolerance, clearance))
+        check_holes(a, b, max(tolerance, Fraction(request.clearance or 0.0)))
         check_pieces(a, b)
-
-    def keeps(length: Fraction) -> bool | None:
-        return keeps_clearance(
-            finding,
-            length,
-            lambda: squared_gap(given(certificate.gap, "gap"), pair),
-            lambda least: prove_apart(certificate, pair, (a, b), least),
-            closer,
-        )
 
     slack = rounding.of(tolerance)
     if relation == "near":
         prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
     if relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    check_severity(finding, request, ProvenFigures(most, thickest, keeps, EXACT_WIDTH))
+    gap = GapProof(
+        lambda: squared_gap(given(certificate.gap, "gap"), pair),
+        lambda least: prove_apart(certificate, pair, (a, b), least),
+        closer,
+    )
+
+    def is_in_band(band: Fraction) -> bool:
+        return _is_in_band(finding, certificate.band, pair, (a, b), band, proven)
+
+    check_claims(finding, request, tolerance, gap, is_in_band, (most, thickest))
     return proven
 
 
@@ -209,30 +205,6 @@ def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
     B."""
     overlap = -gap_along(pair.a, pair.b, n)
     return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
-
-
-def _check_band(
-    finding: Finding,
-    certificate: Certificate,
-    pair: Pair,
-    bodies: tuple[Placed, Placed],
-    tolerance: Fraction,
-    clearance: Fraction,
-    proven: ProvenFields,
-) -> None:
-    """Checks the proof that the relation differs from the exact one."""
-    relation, exact = finding.relation, finding.exact_relation
-    band = tolerance * (1 + EXACT_WIDTH)
-    if exact == "separated" and relation in ("touching", "near"):
-        squared = squared_gap(given(certificate.gap, "gap"), pair)
-        if not (squared < clearance**2 if relation == "near" else squared <= band**2):
-            raise Rejected("the points of the gap are further apart than that")
-    elif not (
-        exact in OVERLAPS
-        and relation == "touching"
-        and _is_in_band(finding, certificate.band, pair, bodies, band, proven)
-    ):
-        raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
 
 def _is_in_band(

@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
+from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import on_body, vector
@@ -27,8 +28,7 @@ from satcheck.verify.exact import (
 )
 from satcheck.verify.relations import check_within, pair_of
 from satcheck.verify.roots import sign_of
-from satcheck.verify.rules import selected_by
-from satcheck.verify.severity import severity_of_answer
+from satcheck.verify.statics.terms import body_terms
 from satcheck.verify.world import Exact, World
 
 
@@ -67,22 +67,11 @@ def _asked(
 ) -> dict[tuple[str, str], tuple[str, str | None]]:
     """(body, region) -> the rule that asks, and the severity that rules give the errors of the
     body."""
-    inside: dict[str, tuple[str, str]] = {}
-    severity: dict[str, str] = {}
-    spaces: dict[str, bool] = {}
-    select = selected_by(bodies)
-    for rule in regions.rules:
-        for id_ in select(rule.bodies):
-            if rule.inside is not None:
-                inside[id_] = rule.inside, rule.where or rule.bodies
-            if rule.severity is not None:
-                severity[id_] = rule.severity
-            if rule.region is not None:
-                spaces[id_] = rule.region
+    terms = body_terms(regions.rules, bodies)
     return {
-        (id_, inside[id_][0]): (inside[id_][1], severity.get(id_))
-        for id_ in bodies
-        if id_ in inside and inside[id_][0] != id_ and not spaces.get(id_)
+        (id_, region): (own.rules["inside"].name, own.value("severity"))
+        for id_, own in terms.items()
+        if (region := own.region_for(id_)) is not None
     }
 
 

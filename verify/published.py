@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from msgspec import ValidationError, convert, to_builtins
@@ -12,24 +11,15 @@ from msgspec import ValidationError, convert, to_builtins
 from satcheck.report.assets import SCHEMA as ASSETS
 from satcheck.report.report import SCHEMA, Finding, Report
 from satcheck.report.schema import TIMING
+from satcheck.report.verification import Checked
 from satcheck.verify.exact import Rejected
 
 LONGEST_MESSAGE = 200
 Form = TypeVar("Form", Report, Finding)
 
 
-@dataclass(frozen=True, slots=True)
-class IllFormed:
-    """A finding that breaks the schema, and its first error."""
-
-    a: str
-    b: str
-    relation: str
-    reason: str
-
-
-def report_of(document: Any) -> tuple[Report, list[Finding | IllFormed]]:
-    """The report without its findings, and these.
+def report_of(document: Any) -> tuple[Report, list[Finding | Checked]]:
+    """Return the report without its findings, and these; those that break the schema, as rejected.
 
     Rejected: a value of a wrong type, an unknown key or word, a missing key, or a number that is
     not finite, outside of the findings.
@@ -53,12 +43,13 @@ def report_of(document: Any) -> tuple[Report, list[Finding | IllFormed]]:
     return report, [_finding(finding) for finding in findings]
 
 
-def _finding(values: dict[str, Any]) -> Finding | IllFormed:
+def _finding(values: dict[str, Any]) -> Finding | Checked:
     try:
         return _strictly(values, Finding)
     except ValidationError as why:
         a, b, relation = (str(values.get(key)) for key in ("a", "b", "relation"))
-        return IllFormed(a, b, relation, _shortened(str(why)))
+        reason = f"not by the schema: {_shortened(str(why))}"
+        return Checked(a, b, relation, "rejected", reason)
 
 
 def _strictly(values: dict[str, Any], form: type[Form]) -> Form:

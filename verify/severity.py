@@ -1,21 +1,23 @@
-"""The severity of a finding, the rule behind it, and what stays open, from the proven facts.
+"""The severity of a finding, held against what its certificate proves.
 
-That an overlap is within its limit, or a gap keeps its clearance, has to be proven. That it is
-not follows from the figures of the finding. Volumes are not certified.
+That an overlap is within its limit, or a gap keeps its clearance, has to be proven. That it is not
+follows from the figures of the finding. Volumes are not certified.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
+from math import inf
 
+from msgspec.structs import replace
+
+from satcheck.report.judge import by_rule, disputed, judged
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Rejected, dot, root_above
-from satcheck.verify.rules import SEVERITIES, Request
-
-CLEARANCE = "clearance"
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,15 +35,6 @@ class ProvenFields:
 
 
 @dataclass(frozen=True, slots=True)
-class Judgement:
-    """severity, undecided and rule as a finding has them."""
-
-    severity: str
-    undecided: str | None = None
-    rule: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class ProvenFigures:
     """The needs of a judgement besides the relation.
 
@@ -54,101 +47,37 @@ class ProvenFigures:
     keeps: Callable[[Fraction], bool | None]
     rounding: Fraction
 
+    def within(self, request: Request) -> bool:
+        """Return whether the overlap is proven to be within all limits."""
+        bounds = (
+            (request.max_depth, self.depth_at_most),
+            (request.max_thickness, self.thickness_at_most),
+            (request.max_volume, None),
+        )
+        return all(
+            bound is not None and bound <= Fraction(limit) * (1 + self.rounding)
+            for limit, bound in bounds
+            if limit is not None
+        )
+
 
 def check_severity(finding: Finding, request: Request, proven: ProvenFigures) -> None:
     """Rejects a severity, a rule or an `undecided` that does not follow."""
-    relation = finding.relation
-    if relation in OVERLAPS:
-        judgement = _limited(finding, request, proven) if request.limited else Judgement("error")
-    else:
-        judgement = _apart(finding, request, proven)
-    if judgement.severity == "error" and request.severity is not None:
-        severity = "silenced" if request.severity == "none" else request.severity
-        judgement = replace(judgement, severity=severity, rule=request.name("severity"))
-    if _is_disputed(finding):
-        judgement = replace(
-            judgement,
-            severity=max(judgement.severity, "warning", key=SEVERITIES.index),
-            undecided=judgement.undecided or "cross-check",
-        )
-    said = Judgement(finding.severity, finding.undecided, finding.rule)
-    if said != judgement:
+    kept, overlap = None, finding.relation in OVERLAPS
+    if request.clearance and not overlap and finding.relation != "near":
+        kept = proven.keeps(Fraction(request.clearance))
+    judgement = judged(finding, replace(request, severity=None), (0.0, inf), kept)
+    if overlap and judgement.severity == "note" and not proven.within(request):
+        raise Rejected("that it is within its limits is not certified")
+    judgement = by_rule(judgement, request)
+    if any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan):
+        judgement = disputed(judgement, None)
+    follows = judgement.severity, judgement.undecided, judgement.rule
+    if (finding.severity, finding.undecided, finding.rule) != follows:
         raise Rejected(
             f"its severity is {judgement.severity!r} by the rule {judgement.rule!r}, "
             f"and what is undecided {judgement.undecided!r}"
         )
-
-
-def _is_disputed(finding: Finding) -> bool:
-    """Return whether the report says that another library contradicts the relation."""
-    return any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan)
-
-
-def _apart(finding: Finding, request: Request, proven: ProvenFigures) -> Judgement:
-    relation = finding.relation
-    rule = request.name("clearance") or CLEARANCE
-    if relation == "near":
-        return Judgement("error", None, rule)
-    if request.clearance:
-        kept = proven.keeps(Fraction(request.clearance))
-        if kept is False:
-            return Judgement("error", None, rule)
-        if kept is None:
-            return Judgement("warning", "limit", rule)
-    return Judgement("note" if relation == "touching" else "none")
-
-
-@dataclass(frozen=True, slots=True)
-class _Limit:
-    """The pair may have `most` of something, and has between least and greatest, by its figures.
-    kept: proven to be within; None: within by the figures only."""
-
-    key: str
-    most: Fraction
-    least: Fraction | None
-    greatest: Fraction | None
-    proven: bool
-
-    def is_kept(self, rounding: Fraction) -> bool:
-        return self.greatest is not None and self.greatest <= self.most * (1 + rounding)
-
-
-def _limited(finding: Finding, request: Request, proven: ProvenFigures) -> Judgement:
-    limits = list(_limits(finding, request, proven))
-    broken = [limit for limit in limits if not limit.is_kept(proven.rounding)]
-    for limit in broken:
-        if limit.least is not None and limit.least > limit.most:
-            return Judgement("error", None, request.name(limit.key))
-    for limit in broken:
-        return Judgement("warning", "limit", request.name(limit.key))
-    if not all(limit.proven for limit in limits):
-        raise Rejected("that it is within its limits is not certified")
-    names = (request.name(limit.key) or "" for limit in limits)
-    return Judgement("note", None, ", ".join(dict.fromkeys(names)))
-
-
-def _limits(finding: Finding, request: Request, proven: ProvenFigures) -> Iterator[_Limit]:
-    intervals = {
-        "max_depth": (finding.depth_bounds, proven.depth_at_most),
-        "max_thickness": (finding.thickness_bounds, proven.thickness_at_most),
-    }
-    for key, (interval, bound) in intervals.items():
-        if (limit := getattr(request, key)) is None:
-            continue
-        low, high = interval or (None, None)
-        most = Fraction(limit)
-        within = bound is not None and bound <= most * (1 + proven.rounding)
-        yield _Limit(key, most, _fraction(low), _fraction(high), within)
-    if request.max_volume is not None:
-        volume, error = _fraction(finding.volume), _fraction(finding.volume_error)
-        least = greatest = None
-        if volume is not None and error is not None:
-            least, greatest = volume - error, volume + error
-        yield _Limit("max_volume", Fraction(request.max_volume), least, greatest, False)
-
-
-def _fraction(value: float | None) -> Fraction | None:
-    return None if value is None else Fraction(value)
 
 
 def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
@@ -160,13 +89,3 @@ def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
         move = vector(finding.mtv)
         bounds.append(root_above(dot(move, move)))
     return min(bounds, default=None)
-
-
-def severity_of_answer(answer: str, own: str | None) -> str:
-    """Return the severity of an answer about a single body. own: the severity that rules give its
-    errors."""
-    if answer == "yes":
-        return "none"
-    if answer == "open":
-        return "error" if own == "error" else "warning"
-    return "silenced" if own == "none" else own or "error"

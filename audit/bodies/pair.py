@@ -9,9 +9,9 @@ from msgspec.structs import force_setattr
 
 from satcheck.audit.bodies.boxes import diagonal, largest_coordinate
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.request.planner import Request
 from satcheck.audit.request.settings import ACCURACIES, Accuracy, Settings
 from satcheck.core.conventions import axes_of
+from satcheck.report.request import Request
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter

@@ -52,7 +52,7 @@ def split_together(pair: Pair) -> None:
         return
     from satcheck.audit.parallel import in_parallel
 
-    in_parallel(lambda shared: shared.decomposition(), waiting, len(waiting))
+    list(in_parallel(lambda shared: shared.decomposition(), waiting, len(waiting)))
 
 
 def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:

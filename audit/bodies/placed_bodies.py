@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
@@ -16,11 +16,12 @@ from satcheck.audit.bodies.placed_body import (
     mesh_key,
     world_bounds,
 )
-from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.audit.request.settings import Settings
-from satcheck.report.report import Issue
-from satcheck.scene import Body
+from satcheck.report.report import Issue, RuleReport
+from satcheck.report.rule_book import RuleBook
+from satcheck.scene import Body, Unreadable
 from satcheck.scene.half_spaces import farthest, reach_in_world
+from satcheck.scene.rules import KEYS, Members
 from satcheck.scene.words import told_apart
 
 if TYPE_CHECKING:
@@ -37,12 +38,12 @@ LARGEST_PLACED = 2e44
 class UnusableBody(Struct, frozen=True):
     """A body whose pairs cannot be decided."""
 
-    id: str
-    file: str
+    body: Body | Unreadable
     reason: str
-    groups: tuple[str, ...] = ()
-    path: str | None = None
-    static: bool = False
+
+    @property
+    def id(self) -> str:
+        return self.body.id
 
 
 class PlacedBodies(Struct, frozen=True):
@@ -182,38 +183,51 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
     bounds = iter(world_bounds(readable, settings.jobs))
     for index, body in enumerate(members):
         if not isinstance(body, Body):
-            reason = f"unreadable {body.file}: {body.issue.code}"
-            unusable[index] = UnusableBody(
-                body.id, body.file, reason, body.groups, body.path, body.static
-            )
+            unusable[index] = UnusableBody(body, f"unreadable {body.file}: {body.issue.code}")
             continue
         try:
             placed[index] = cache.place(body, settings, next(bounds))
         except (ValueError, OverflowError) as error:
-            reason = f"cannot be placed: {error}"
-            unusable[index] = UnusableBody(
-                body.id, body.file.path, reason, body.groups, body.path, body.static
-            )
+            unusable[index] = UnusableBody(body, f"cannot be placed: {error}")
             issues.append(_unplaceable(body, error))
     for index, reason in _too_short(placed):
         body = placed.pop(index).body
-        unusable[index] = UnusableBody(
-            body.id, body.file.path, reason, body.groups, body.path, body.static
-        )
+        unusable[index] = UnusableBody(body, reason)
         issues.append(Issue("out-of-range", "warning", body.id, body.file.path, reason))
-    cache.book = cache.book or RuleBook(
-        [Subject(body.id, body.groups, body.static) for body in members],
-        scene.rules,
-        scene.ignore_within_groups,
-        scene.check_static,
+    cache.book = cache.book or book_of(
+        members, scene.rules, scene.ignore_within_groups, scene.check_static
     )
     return PlacedBodies(
         placed=placed,
         unusable=unusable,
         ids=tuple(body.id for body in members),
         book=cache.book,
-        issues=(*map(_unused, cache.book.unused()), *issues),
+        issues=(*(_unused(scene.rules[number]) for number in cache.book.unused()), *issues),
         units={k: body.body.units for k, body in placed.items()},
+    )
+
+
+def book_of(
+    bodies: Sequence[Body | Unreadable],
+    rules: Sequence[Rule],
+    ignored_groups: frozenset[str] = frozenset(),
+    check_static: bool = True,
+) -> RuleBook:
+    """Return the rules of a scene, compiled for these bodies."""
+    members = Members(bodies)
+    return RuleBook(
+        bodies,
+        [
+            RuleReport(
+                a=rule.a.text,
+                b=rule.b.text,
+                **{key: getattr(rule, key) for key in (*KEYS, "reason", "where")},
+            )
+            for rule in rules
+        ],
+        [(members.of(rule.a.text), members.of(rule.b.text)) for rule in rules],
+        ignored_groups,
+        check_static,
     )
 
 

@@ -43,6 +43,7 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
@@ -52,7 +53,6 @@ from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.relations import pair_of
-from satcheck.verify.rules import Request
 
 SURFACES = SurfacesProof()
 
@@ -63,27 +63,16 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
     if finding.exact_relation is None:
         return NoCertificate("the relation is not proven")
     a, b = pair.a.checked(), pair.b.checked()
-    request = Request(
-        pair.request.tolerance,
-        pair.request.clearance,
-        pair.settings.allow_open,
-        pair.request.max_depth,
-        pair.request.max_thickness,
-        pair.request.max_volume,
-        pair.request.severity,
-        pair.request.rules or {},
-        None if (plane := pair.settings.planar) is None else axis_across(plane),
-    )
     if pair.curved:
         certificate = curved_certificate(pair, finding)
     else:
         certificate = _Maker(pair, examined).certificate()
     if isinstance(certificate, NoCertificate):
         return certificate
-    why = _refusal(replace(finding, certificate=certificate), a, b, request)
+    why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
     if why is not None and certificate.thickness is not UNSET:  # it may be that alone
         certificate = replace(certificate, thickness=UNSET)
-        why = _refusal(replace(finding, certificate=certificate), a, b, request)
+        why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
     return certificate if why is None else NoCertificate(f"what was found does not prove it: {why}")
 
 
@@ -97,7 +86,7 @@ def _refusal(finding: Finding, a: Placed, b: Placed, request: Request) -> str | 
 
 class _Maker:
     def __init__(self, pair: Pair, examined: Examined) -> None:
-        self.pair, self.examined, self.finding = pair, examined, examined.finding
+        self.pair, self.draft, self.finding = pair, examined.draft, examined.finding
         a, b = pair.a.checked(), pair.b.checked()
         self.a, self.b = a, b
         self.worlds = a.mesh, b.mesh
@@ -159,7 +148,7 @@ class _Maker:
 
     def _crossing(self) -> tuple[int, int] | None:
         """Triangles that meet. A lower rung may have settled the pair without any."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         if climb is not None and climb.triangles is not None:
             return climb.crossing
         relation = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
@@ -169,7 +158,7 @@ class _Maker:
 
     def _hulls(self) -> core.PairResult:
         """Prove how the hulls of the bodies are apart; a lower rung may have settled the pair."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         if climb is not None and climb.hulls is not None:
             return climb.hulls
         return core.check_pair(self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="distance")
@@ -257,8 +246,7 @@ class _Maker:
 
     def _cells(self) -> Cells | None:
         """Certify the thickness of an overlap that is thinner than it is deep."""
-        answer, finding = self.examined.answer, self.finding
-        thickness = None if answer is None else answer.thickness
+        thickness, finding = self.draft.thickness, self.finding
         if thickness is None or thickness.proof is None:
             return None
         if finding.mtv_verified and finding.depth is not None and thickness.upper >= finding.depth:
@@ -323,8 +311,7 @@ class _Maker:
             band = Fraction(self.pair.tolerance) * (1 + EXACT_WIDTH)
             if axis is not None and depth_at_most(vector(list(axis)), self.placed, band):
                 return Band(axis)
-        answer = self.examined.answer
-        move = None if answer is None or answer.band is None else answer.band.move
+        move = None if self.draft.band is None else self.draft.band.move
         if move is not None:
             return Band(move=move, free=self._free(move))
         explained = excuse(self.pair)
@@ -332,7 +319,7 @@ class _Maker:
 
     def _nearest(self) -> Ends:
         """Points next to each other, on the nearest triangles."""
-        climb = self.examined.verdict.climb
+        climb = self.draft.verdict.climb
         near = None if climb is None else climb.gap
         if near is None or near.triangle_a < 0:
             near = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())

@@ -14,7 +14,6 @@ import math
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.escape import Escape, verified_escape
@@ -22,8 +21,8 @@ from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
 
 # An interval on both sides of a limit is narrowed again, each time by this factor.
@@ -132,7 +131,7 @@ def _cheap_lower_bound(pair: Pair, verdict: Verdict, trace: Trace) -> float:
     gap = gap_around(pair, verdict)
     if gap > 0:
         trace.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
-    return max(gap, crossing_depth(pair, verdict.crossing))
+    return max(gap, _crossing_depth(pair, verdict))
 
 
 def depth_by_move(pair: Pair, verdict: Verdict, move: Vector, trace: Trace) -> Depth:
@@ -142,7 +141,7 @@ def depth_by_move(pair: Pair, verdict: Verdict, move: Vector, trace: Trace) -> D
     a band. Within the input precision there is nothing to refine.
     """
     if pair.request.tolerance is None:
-        return depth_of_move(pair, move, crossing_depth(pair, verdict.crossing))
+        return depth_of_move(pair, move, _crossing_depth(pair, verdict))
     depth = concave_depth(pair, verdict, trace)
     if depth.escape.verified and depth.upper <= math.hypot(*move):
         return depth
@@ -161,3 +160,11 @@ def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
     length = math.hypot(*translation)
     x, y, z = (0.0 - c / length for c in translation)
     return length, (x, y, z)
+
+
+def _crossing_depth(pair: Pair, verdict: Verdict) -> float:
+    """Return a proven lower bound of the depth from one pair of triangles that cross; 0.0 without
+    one."""
+    if verdict.crossing is None:
+        return 0.0
+    return core.crossing_depth(pair.a.surface(), pair.b.surface(), *verdict.crossing)

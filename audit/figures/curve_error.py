@@ -26,10 +26,10 @@ from satcheck.audit.figures.gap import Gap
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.in_plane import wall_gap
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import keeps
 from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import axes_of
 from satcheck.core.rounding import rounding_pad
+from satcheck.report.judge import keeps
 from satcheck.report.report import Vector
 
 # A way out is tried longer by so many times the deviations: what it leads away from may be oblique.

@@ -9,11 +9,15 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import LENGTHENING_ULPS
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import Vector
 
 FREE = frozenset({"separated", "touching"})
+
+# By how much an MTV may be lengthened until the moved mesh is free, in ulps of the largest
+# coordinate of the pair. The first step covers another order of rounding. Each step is four times
+# longer than the last. The longest is about 1e-9 of the size.
+LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
 
 
 class Escape(Struct, frozen=True):

@@ -13,7 +13,7 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.exact_hulls import nearest_point
-from satcheck.audit.rounding import EXACT_WIDTH
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector, Witness
 from satcheck.verify.exact import Point, dot, nearest_to_origin, sub
 from satcheck.verify.figures import square_root

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Literal
 from satcheck import core
 from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.figures.thickness import across, why_not_thick
-from satcheck.audit.rounding import EXACT_WIDTH
+from satcheck.report.judge import EXACT_WIDTH
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.pair import Pair

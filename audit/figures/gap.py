@@ -12,8 +12,8 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH, keeps
 from satcheck.core.rounding import rounding_pad
+from satcheck.report.judge import EXACT_WIDTH, keeps
 from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.figures.search_progress import shown
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Ball
 
 if TYPE_CHECKING:

@@ -24,9 +24,9 @@ from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.figures.gap import compare_convex
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
 from satcheck.core.rounding import UNIT_ROUNDOFF, rounding_pad
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
 
 if TYPE_CHECKING:

@@ -10,9 +10,14 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.report.judge import is_within
+
+# The signed volume of a mesh is a sum of determinants from one of its corners: six products of box
+# edges with 9 roundings each, as much again for the sum, divided by six. So the error for each
+# triangle is this number of roundoffs of the volume of the box.
+VOLUME_ROUNDOFFS = 18
 
 
 class CommonVolume(Struct, frozen=True):

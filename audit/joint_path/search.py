@@ -23,10 +23,11 @@ from satcheck.audit.motion.impact_point import impact_point
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
-from satcheck.audit.request.planner import ALWAYS, Request
+from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
 from satcheck.core.conventions import Vector
 from satcheck.report.report import Effect, Finding
+from satcheck.report.request import Request
 from satcheck.scene.robot import JointPath
 
 Flags = NDArray[np.bool_]

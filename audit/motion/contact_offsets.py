@@ -11,12 +11,12 @@ from itertools import combinations
 
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.triangles import triangle_normal
+from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import is_step
 from satcheck.audit.motion.moving_pair import MovingPair, overlaps
-from satcheck.audit.vectors import scaled, unit
+from satcheck.audit.vectors import crossed, scaled, unit
 from satcheck.core.conventions import Vector
 
 # A part in a corner has to leave three walls.
@@ -107,10 +107,19 @@ def _normals(placed: Pair, pairs: Iterable[tuple[int, int]]) -> Counter[Vector]:
     normals: Counter[Vector] = Counter()
     for triangles in pairs:
         for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
-            normal = triangle_normal(body, triangle)
+            normal = _triangle_normal(body, triangle)
             if normal is None:
                 continue
             for sign in (way,) if body.solid else (way, -way):
                 x, y, z = (round(sign * c, DIGITS) + 0.0 for c in normal)
                 normals[x, y, z] += 1
     return normals
+
+
+def _triangle_normal(body: PlacedBody, index: int) -> Vector | None:
+    """Unit, outward where the body is solid; None for a triangle without an area."""
+    p, q, r = body.mesh.corners(index)
+    u = (q[0] - p[0], q[1] - p[1], q[2] - p[2])
+    v = (r[0] - p[0], r[1] - p[1], r[2] - p[2])
+    normal = crossed(u, v)
+    return unit(normal) if any(normal) else None

@@ -15,11 +15,12 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
-from satcheck.audit.request.planner import ALWAYS, Request
+from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import OVERLAPS
+from satcheck.report.request import Request
 
 if TYPE_CHECKING:
     from collections.abc import Callable

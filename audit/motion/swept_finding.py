@@ -9,11 +9,10 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.request.planner import LIMITS, Request
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.audit.severity import Judgement, by_rule, clearance_judgement
+from satcheck.report.judge import EXACT_WIDTH, Judgement, by_rule, clearance_judgement
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
+from satcheck.report.request import LIMITS, Request
 from satcheck.report.sweep import Sweep
 
 CLEAR = "clear"  # the rule of a touch on a way that must be free

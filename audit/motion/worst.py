@@ -21,7 +21,7 @@ from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_RE
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.rounding import keeps
+from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
 
 Bounds = Callable[[float, float, float], tuple[float, float]]

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.request.settings import Settings
-from satcheck.audit.rounding import EXACT_WIDTH
-from satcheck.report.report import Effect
+from satcheck.report.judge import EXACT_WIDTH
+from satcheck.report.report import Effect, RuleReport
+from satcheck.report.request import Request, request_of
+from satcheck.report.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.report.settings import StatedSettings
-from satcheck.scene.rules import Rule, Severity
 
 # The key of a rule that requests an effect.
 KEY_OF_EFFECT: dict[Effect, str] = {
@@ -25,46 +24,9 @@ KEY_OF_EFFECT: dict[Effect, str] = {
     "distance": "clearance",
     "volume": "max_volume",
 }
-# The keys that limit an overlap.
-LIMITS = ("max_depth", "max_thickness", "max_volume")
 ALWAYS = "always"
 MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
-
-
-class Request(Struct, frozen=True):
-    """The request for one pair. Lengths and volumes are in units of the scene.
-
-    by: effect -> the flag or rule that requests it; no entry: it is not requested. clearance: None:
-    no clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
-    max_volume: limits of an overlap. severity: of the errors of the pair; None: the default. rules:
-    key -> the name of the rule that set it.
-    """
-
-    by: Mapping[Effect, str]
-    clearance: float | None = None
-    tolerance: float | None = None
-    max_depth: float | None = None
-    max_thickness: float | None = None
-    max_volume: float | None = None
-    severity: Severity | None = None
-    rules: Mapping[str, str] | None = None
-
-    def wants(self, effect: Effect) -> bool:
-        return effect in self.by
-
-    def swept(self) -> Request:
-        """The same request for a pair whose bodies move relative to each other."""
-        return replace(self, by={**self.by, "sweep": MOTIONS})
-
-    @property
-    def limited(self) -> bool:
-        """Whether the pair may overlap within limits."""
-        return not (self.max_depth is self.max_thickness is self.max_volume is None)
-
-    def rule(self, key: str) -> str | None:
-        """The name of the rule that set this key."""
-        return None if self.rules is None else self.rules.get(key)
 
 
 class Planner:
@@ -138,43 +100,30 @@ class Planner:
 
 
 def request_for(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
-    """The request that follows from flags and rules. A key of a rule overrides the flag. A pair
-    that may overlap within limits has no clearance."""
-    limits = {key: getattr(terms, key) for key in LIMITS}
-    limited = any(limits.values())
-    clearance = None if limited else settings.clearance
-    if terms.clearance is not None and not limited:
-        clearance = terms.clearance.clearance or None
-    deciding = {
-        **limits,
-        "clearance": None if limited else terms.clearance,
-        "tolerance": terms.tolerance,
-        "severity": terms.severity,
-    }
+    """Return the request that follows from flags and rules, with who requests each effect."""
+    across = None if settings.planar is None else settings.across
+    request = request_of(terms, settings.clearance, settings.tolerance, across)
     thickness = settings.depth if settings.thickness is None else settings.thickness
     by: dict[Effect, str | None] = {
         "overlap": ALWAYS,
         "depth": _requester_of_figure(settings.depth, terms.max_depth, composed),
         "thickness": _requester_of_figure(thickness, terms.max_thickness, composed)
         or _requester_of_tolerance(settings),
-        "distance": None if clearance is None else _name(terms.clearance) or "--clearance",
+        "distance": None
+        if request.clearance is None
+        else request.rule("clearance") or "--clearance",
         "volume": "--volume" if settings.volume else _name(terms.max_volume),
         "contacts": "--contacts" if settings.contacts else None,
         "components": "--components" if settings.components else None,
         "cross-check": "--cross-check" if settings.cross_check else None,
         "certificate": "--certificate" if settings.certificate else None,
     }
-    return Request(
-        by={effect: who for effect, who in by.items() if who},
-        clearance=clearance,
-        tolerance=_value(terms.tolerance, "tolerance", settings.tolerance),
-        **{key: _value(rule, key, None) for key, rule in limits.items()},
-        severity=None if terms.severity is None else terms.severity.severity,
-        rules={key: rule.name for key, rule in deciding.items() if rule is not None} or None,
-    )
+    return replace(request, by={effect: who for effect, who in by.items() if who})
 
 
-def _requester_of_figure(setting: bool | None, rule: Rule | None, composed: bool) -> str | None:
+def _requester_of_figure(
+    setting: bool | None, rule: RuleReport | None, composed: bool
+) -> str | None:
     """The flag or rule that requests the depth or the thickness. rule: the one that limits it."""
     if setting:
         return "--depth"
@@ -189,17 +138,12 @@ def _requester_of_tolerance(settings: Settings) -> str | None:
     return "--surface-tolerance"
 
 
-def _requests_effect(rule: Rule, key: str) -> bool:
+def _requests_effect(rule: RuleReport, key: str) -> bool:
     """Whether the rule requests the effect of the key. A clearance of 0 requests nothing; a limit
     of 0 does."""
     value = getattr(rule, key)
     return bool(value) if key == "clearance" else value is not None
 
 
-def _name(rule: Rule | None) -> str | None:
+def _name(rule: RuleReport | None) -> str | None:
     return None if rule is None else rule.name
-
-
-def _value(rule: Rule | None, key: str, default: float | None) -> float | None:
-    value = default if rule is None else getattr(rule, key)
-    return None if value is None else float(value)  # Python callers may give an integer

@@ -13,11 +13,11 @@ from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.settings import FailOn
-from satcheck.audit.severity import fails
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.verdict import fails
 
 
 class PairState(Struct, frozen=True):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import severity_of_answer
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.margins import Margins
@@ -19,7 +18,8 @@ from satcheck.report.statics import (
     State,
     SupportFinding,
 )
-from satcheck.scene.statics import BodyRule, BodyTerms
+from satcheck.report.verdict import severity_of_answer
+from satcheck.scene.statics import KEYS, BodyRule, BodyTerms
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
@@ -111,20 +111,8 @@ def island_report(
 
 
 def rule_report(rule: BodyRule) -> BodyRuleReport:
-    return BodyRuleReport(
-        bodies=rule.bodies.text,
-        supported=rule.supported,
-        stable=rule.stable,
-        mounted=rule.mounted,
-        inside=rule.inside,
-        region=rule.region,
-        density=rule.density,
-        mass=rule.mass,
-        friction=rule.friction,
-        severity=rule.severity,
-        reason=rule.reason,
-        where=rule.where,
-    )
+    values = {key: getattr(rule, key) for key in (*KEYS, "reason", "where")}
+    return BodyRuleReport(bodies=rule.bodies.text, **values)
 
 
 def vector(values: Floats) -> Vector:

@@ -106,7 +106,7 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
     # A clearance is asked only to have the gap measured.
     relation = "separated" if finding.relation == "near" else finding.relation
     known = is_of_bodies(finding) and relation != "indeterminate"
-    figure = signed_distance(finding, examined.verdict)
+    figure = signed_distance(finding, examined.draft.verdict)
     row = Row(
         rung=rung.name,
         threshold=rung.threshold,

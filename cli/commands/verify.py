@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
-from msgspec import UNSET
 
-from satcheck._version import __version__
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
@@ -19,10 +17,9 @@ from satcheck.cli.output import harmless, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.stated_scene import MOST_BYTES
 from satcheck.core.errors import SatcheckError
-from satcheck.report.values import Tool
-from satcheck.report.verification import CheckedSupport, Outcome, VerificationReport
+from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.scene.loading.regular_file import read_whole
-from satcheck.verify import Checked, Rejected, Verification, parse, verify
+from satcheck.verify import Checked, Rejected, VerificationReport, is_certified, parse, verify
 
 # At most this many files that are not there are named.
 MOST_NAMED = 3
@@ -69,11 +66,12 @@ def command(
             result = verify(content, root, bar, allow_outside=allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
-    if result.certified or result.faults or form == "json" or output is not None:
-        deliver(document, _report(result), form, output, lambda _: _table(result))
+    certified = is_certified(result, content)
+    if certified or result.faults or form == "json" or output is not None:
+        deliver(document, result, form, output, lambda _: _table(result))
     if result.missing:
         talk(f"satcheck: {_missing(result, root)}")
-    if not result.certified:
+    if not certified:
         talk(f"satcheck: {report}: no certificates: was it made with --certificate?")
         return exit_codes.ERROR
     if result.missing and not result.rejected:
@@ -92,22 +90,7 @@ def _read(report: Path) -> Any:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
 
 
-def _report(result: Verification) -> VerificationReport:
-    return VerificationReport(
-        tool=Tool("satcheck", __version__),
-        accepted=result.accepted and result.certified,
-        findings=result.findings,
-        faults=result.faults,
-        not_certified=result.beyond,
-        pruned=result.pruned,
-        exempt=result.exempt,
-        missing=result.missing,
-        support=result.support or UNSET,
-        not_covered=result.uncovered,
-    )
-
-
-def _missing(result: Verification, root: Path) -> str:
+def _missing(result: VerificationReport, root: Path) -> str:
     first = ", ".join(result.missing[:MOST_NAMED])
     more = len(result.missing) - MOST_NAMED
     files = first + (f" and {more:,} more" if more > 0 else "")
@@ -117,26 +100,28 @@ def _missing(result: Verification, root: Path) -> str:
     )
 
 
-def _table(result: Verification) -> str:
+def _table(result: VerificationReport) -> str:
     """Return what was not accepted, line by line, and a sentence about all."""
     unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
     lines = [_line(finding) for finding in result.findings if finding.outcome not in unsaid]
-    lines += [_support_line(answer) for answer in result.support if answer.outcome != "accepted"]
+    lines += [
+        _support_line(answer) for answer in result.support or () if answer.outcome != "accepted"
+    ]
     lines += [f"rejected: {fault}" for fault in result.faults]
-    lines += [f"not certified: {what}" for what in result.beyond]
+    lines += [f"not certified: {what}" for what in result.not_certified]
     lines.append(_summary(result))
     lines += _not_covered(result)
     return "".join(f"{harmless(line)}\n" for line in lines)
 
 
-def _not_covered(result: Verification) -> Iterator[str]:
+def _not_covered(result: VerificationReport) -> Iterator[str]:
     """The fields that are not proven, by the names that readers know."""
     for title, kinds in (
         ("Taken as stated", ("stated",)),
         ("Not covered", ("not covered", "certified")),
     ):
         names: dict[str, int] = {}
-        for field in result.uncovered:
+        for field in result.not_covered:
             if field.kind in kinds:
                 names[field.called] = max(names.get(field.called, 0), field.findings or 0)
         if names:
@@ -153,7 +138,7 @@ def _support_line(answer: CheckedSupport) -> str:
     return f"{answer.outcome}: {said}: {answer.reason}"
 
 
-def _summary(result: Verification) -> str:
+def _summary(result: VerificationReport) -> str:
     accepted = [f for f in result.findings if f.outcome == "accepted"]
     parts = [f"{counted(len(accepted), 'verdict')} accepted"]
     for outcome, called in _CALLED.items():

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.audit.severity import is_unmet
 from satcheck.cli.formats.numbers import number
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.cli.formats.words import counted, with_unit
+from satcheck.report.verdict import is_unmet
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:

@@ -10,8 +10,6 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from satcheck.audit.acceptance import words_to_accept
-from satcheck.audit.severity import is_failure
-from satcheck.audit.summary import unlisted_indeterminate
 from satcheck.cli.formats.numbers import after_rounding, bounds, number, vector
 from satcheck.cli.formats.order import severity, worst_first
 from satcheck.cli.formats.summary import counts_line, nothing_checked
@@ -27,6 +25,7 @@ from satcheck.cli.formats.words import (
     with_unit,
 )
 from satcheck.report.report import INTERNAL_ERROR, OVERLAPS
+from satcheck.report.verdict import is_failure, unlisted_indeterminate
 from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 

@@ -27,11 +27,12 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from satcheck.audit.sampled import PairTally, Sample, Samples, StatedPose
+    from satcheck.audit.sampled import PairTally, Samples
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding
+    from satcheck.report.samples import SampledPose
 
 # More poses than this, and pairs are listed instead of poses.
 FEW_POSES = 20
@@ -75,14 +76,14 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
     return joined([*lines, *fitted_each(said, page)], page)
 
 
-def _worst(samples: Sequence[Sample]) -> list[Sample]:
+def _worst(samples: Sequence[SampledPose]) -> list[SampledPose]:
     return sorted(samples, key=lambda sample: list(_STYLES).index(sample.verdict))
 
 
-def _poses(samples: Sequence[Sample], unit: str | None, page: Page) -> list[str]:
+def _poses(samples: Sequence[SampledPose], unit: str | None, page: Page) -> list[str]:
     columns = (
         Column("#", tuple(str(sample.number) for sample in samples), right=True),
-        Column("pose", tuple(map(_pose, samples)), folds=True),
+        Column("pose", tuple(_as_text(sample.pose) for sample in samples), folds=True),
         Column("verdict", tuple(sample.verdict for sample in samples), graded=True),
         Column("found", tuple("\n".join(_found(s.findings, unit)) for s in samples), folds=True),
     )
@@ -135,16 +136,12 @@ def _share(count: int, total: int) -> str:
     return f"{count:,} ({percent} %)"
 
 
-def _pose(sample: Sample) -> str:
-    return _as_text(sample.posture.pose())
-
-
-def _as_text(pose: StatedPose) -> str:
+def _as_text(pose: Mapping[str, float | list[float]]) -> str:
     """As --pose takes it."""
     return json.dumps(pose, ensure_ascii=False)
 
 
-def _remarks(samples: Sequence[Sample]) -> list[str]:
+def _remarks(samples: Sequence[SampledPose]) -> list[str]:
     lines = [
         f"pose {sample.number}: {issue_line(issue)}"
         for sample in samples

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
-from satcheck.audit.summary import exempt_by
 from satcheck.cli.formats.numbers import number
 from satcheck.cli.formats.words import counted, is_hit
 from satcheck.report.report import (
@@ -19,6 +18,7 @@ from satcheck.report.report import (
     SIZES_DIFFER,
     TOLERANCE_LARGE,
 )
+from satcheck.report.verdict import exempt_by
 from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:

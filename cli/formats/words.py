@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.cli.formats.numbers import at_least, at_most, bounds, number, vector
 from satcheck.cli.output import harmless
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 

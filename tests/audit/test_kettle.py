@@ -10,7 +10,7 @@ import numpy as np
 from sample_meshes.kitchen import kettle_parts, snowflake_parts
 from satcheck import core
 from satcheck.audit import check
-from satcheck.audit.rounding import EXACT_WIDTH
+from satcheck.report.judge import EXACT_WIDTH
 from tests.oracles.free_directions import along, directions, is_free, sampled_depth
 
 SAMPLES = Path(__file__).parents[2] / "sample_meshes"

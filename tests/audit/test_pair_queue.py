@@ -9,7 +9,8 @@ from time import sleep
 
 import pytest
 
-from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue, Steps
+from satcheck.audit import pair_queue
+from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue
 
 
 @dataclass(eq=False)
@@ -35,22 +36,25 @@ def chain(count):
     return bodies, [FakePair(bodies[k], bodies[k + 1]) for k in order]
 
 
-def steps(examine, heavy=lambda _: False):
-    """The climb of a pair is the pair itself."""
-    return Steps(
-        start_climbs=lambda pairs, _: lambda: list(pairs),
-        examine=lambda pair, climb: examine(pair) if climb is pair else None,
-        leaves_work=lambda pair, _: heavy(pair),
-    )
+@pytest.fixture(autouse=True)
+def climbs(monkeypatch):
+    """The climb of a pair is the pair itself, and no pair takes long."""
+    monkeypatch.setattr(pair_queue, "start_climbs", lambda pairs, _: lambda: list(pairs))
+    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: False)
+
+
+def by(examine):
+    return lambda pair, climb: examine(pair) if climb is pair else None
 
 
 @pytest.mark.parametrize("every", [None, 1, 3])
 @pytest.mark.parametrize("jobs", [1, 3])
 @pytest.mark.parametrize("count", [1, PARALLEL_PAIRS + 1, BATCH_PAIRS + 100])
-def test_every_pair_has_its_result(jobs, count, every):
+def test_every_pair_has_its_result(jobs, count, every, monkeypatch):
     _, pairs = chain(count)
     heavy = {id(pair) for pair in pairs[::every]} if every else set()
-    found = dict(PairQueue(jobs).each(pairs, steps(id, lambda pair: id(pair) in heavy)))
+    monkeypatch.setattr(pair_queue, "leaves_work", lambda pair, _: id(pair) in heavy)
+    found = dict(PairQueue(jobs).each(pairs, by(id)))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
 
@@ -66,13 +70,13 @@ def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, mo
 
     monkeypatch.setattr(Thread, "start", refuse)
     _, pairs = chain(2 * BATCH_PAIRS)
-    examined = steps(lambda pair: sleep(1e-4) or id(pair), heavy=lambda _: True)
-    found = dict(PairQueue(3).each(pairs, examined))
+    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
+    found = dict(PairQueue(3).each(pairs, by(lambda pair: sleep(1e-4) or id(pair))))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
 
 @pytest.mark.parametrize("jobs", [1, 3])
-def test_batches_are_bounded_in_pairs_and_in_triangles(jobs):
+def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch):
     _, pairs = chain(BATCH_PAIRS + 100)
     for pair in pairs[:40]:
         pair.triangles = BATCH_TRIANGLES
@@ -83,10 +87,8 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs):
         batches.append(list(batch))
         return lambda: batch
 
-    done = steps(id)
-    assert len(
-        list(PairQueue(jobs).each(pairs, Steps(start_climbs, done.examine, done.leaves_work)))
-    )
+    monkeypatch.setattr(pair_queue, "start_climbs", start_climbs)
+    assert len(list(PairQueue(jobs).each(pairs, by(id)))) == len(pairs)
     assert sum(map(len, batches)) == len(pairs)
     assert max(map(len, batches)) <= BATCH_PAIRS
     assert len(batches) > 40 // (jobs + 1)
@@ -104,7 +106,7 @@ def test_a_body_is_let_go_after_its_last_pair():
             met[id(body)] += 1
 
     most = 0
-    for _ in PairQueue(1).each(pairs, steps(meet)):
+    for _ in PairQueue(1).each(pairs, by(meet)):
         most = max(most, sum(met[id(body)] > 0 and not body.gone for body in bodies))
     assert all(body.gone == [True] for body in bodies)
     assert most <= 4
@@ -112,18 +114,18 @@ def test_a_body_is_let_go_after_its_last_pair():
 
 def test_what_another_check_needs_is_kept():
     bodies, pairs = chain(20)
-    assert len(list(PairQueue(1, keep=True).each(pairs, steps(id)))) == 20
+    assert len(list(PairQueue(1, keep=True).each(pairs, by(id)))) == 20
     assert not any(body.gone for body in bodies)
 
 
 def test_no_pairs_at_all():
-    assert list(PairQueue(0).each([], steps(id))) == []
+    assert list(PairQueue(0).each([], by(id))) == []
 
 
-def test_after_an_error_nobody_waits_for_the_others():
+def test_after_an_error_nobody_waits_for_the_others(monkeypatch):
     _, pairs = chain(PARALLEL_PAIRS + 2)
     in_order = []
-    list(PairQueue(jobs=1).each(pairs, steps(in_order.append)))
+    list(PairQueue(jobs=1).each(pairs, by(in_order.append)))
     started, answered, heard = Event(), Event(), SimpleQueue()
 
     def examine(pair):
@@ -133,7 +135,8 @@ def test_after_an_error_nobody_waits_for_the_others():
         started.set()
         heard.put(answered.wait(timeout=20))
 
+    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
     with pytest.raises(KeyboardInterrupt):
-        list(PairQueue(jobs=2).each(pairs, steps(examine, heavy=lambda _: True)))
+        list(PairQueue(jobs=2).each(pairs, by(examine)))
     answered.set()
     assert heard.get(timeout=20)

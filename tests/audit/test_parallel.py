@@ -13,7 +13,7 @@ from satcheck.audit.parallel import in_parallel
 
 @pytest.mark.parametrize("threads", [1, 3])
 def test_each_has_its_result(threads: int) -> None:
-    assert in_parallel(lambda x: x * x, range(10), threads) == [x * x for x in range(10)]
+    assert list(in_parallel(lambda x: x * x, range(10), threads)) == [x * x for x in range(10)]
 
 
 @pytest.mark.parametrize("granted", [0, 1])
@@ -34,7 +34,7 @@ def test_each_has_its_result_where_no_more_threads_are_granted(
         return x * x
 
     monkeypatch.setattr(Thread, "start", refuse)
-    assert in_parallel(squared, range(10), 3) == [x * x for x in range(10)]
+    assert list(in_parallel(squared, range(10), 3)) == [x * x for x in range(10)]
     assert len(started) == granted
 
 
@@ -50,6 +50,6 @@ def test_after_an_error_nobody_waits_for_the_others() -> None:
         heard.put(answered.wait(timeout=20))
 
     with pytest.raises(KeyboardInterrupt):
-        in_parallel(work, ["first", "other"], 2)
+        list(in_parallel(work, ["first", "other"], 2))
     answered.set()
     assert heard.get(timeout=20)

@@ -13,7 +13,7 @@ from satcheck.audit import Settings, check
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import Report
 from satcheck.scene import load_scene
-from satcheck.verify import Verification, verify
+from satcheck.verify import VerificationReport, verify
 
 Json = dict[str, Any]
 TOLERANCE = 1e-3
@@ -67,7 +67,7 @@ def finding(report: Report, body: str) -> InsideFinding:
     return found
 
 
-def verified(report: Report, **forged: Any) -> Verification:
+def verified(report: Report, **forged: Any) -> VerificationReport:
     document = json.loads(json.dumps(report.to_dict()))
     document["regions"]["findings"][0].update(forged)
     return verify(document, Path())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
-from satcheck.report.bodies import Health
+from satcheck.core.mesh_health import MeshHealth
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (
     Ball,
@@ -143,7 +143,7 @@ CROSSING = replace(
     volume_error=1e-12,
     contacts=CONTACTS,
 )
-HEALTH = Health(
+HEALTH = MeshHealth(
     vertices=8,
     triangles=12,
     components=1,

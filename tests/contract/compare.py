@@ -16,7 +16,7 @@ from typing import Any
 
 OUTWARDS = 1 / 20
 # A figure with bounds that are this close together, relative to it, counts as exact up to rounding
-# (EXACT_WIDTH in audit/rounding.py): the quality of a depth is `exact` then. So exact figures may
+# (EXACT_WIDTH in report/judge.py): the quality of a depth is `exact` then. So exact figures may
 # differ by as much and stay exact.
 ROUNDING = 1e-9
 LONGER = 1.25

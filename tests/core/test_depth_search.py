@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from satcheck.audit.request.settings import DEPTH_BUDGET, WORK_PER_SECOND
+from satcheck.audit import Settings
 from satcheck.core import DepthInterval, Mesh, Surface, mesh_relation, search_depth
 from tests.core.voxel_solids import Cell, VoxelSolid, box
 from tests.oracles.free_directions import along, directions, is_free, sampled_depth
 
 WORK = 200_000_000
-DEFAULT = math.ceil(DEPTH_BUDGET * WORK_PER_SECOND)
+DEFAULT = Settings().work
 
 
 def search(a: Mesh, b: Mesh, upper: float, width: float = 0.01, work: int = WORK) -> DepthInterval:

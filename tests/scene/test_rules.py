@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from satcheck.audit.request.rule_book import Subject
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Rule, Selector
+from tests.report.books import Subject
 
 ANY = Selector("*")
 

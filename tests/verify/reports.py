@@ -11,7 +11,7 @@ from typing import Any
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from satcheck.verify import Rejected, Verification, verify
+from satcheck.verify import Rejected, VerificationReport, verify
 from tests.audit.shapes import Mesh, bracket, moved, unit_box, write
 
 Json = dict[str, Any]
@@ -174,7 +174,7 @@ def report_of(name: str, *, depth: bool = False) -> Json:
     return document
 
 
-def verified(document: Any) -> Verification:
+def verified(document: Any) -> VerificationReport:
     return verify(document, Path("/"))
 
 
@@ -186,7 +186,7 @@ def is_accepted(document: Any) -> bool:
         return False
 
 
-def forged(name: str, forge: Callable[[Json], None], *, depth: bool = False) -> Verification:
+def forged(name: str, forge: Callable[[Json], None], *, depth: bool = False) -> VerificationReport:
     """The first finding of a report, changed by `forge`."""
     document = report_of(name, depth=depth)
     forge(document["findings"][0])

@@ -83,7 +83,7 @@ def test_curved_shapes_are_placed_as_what_they_are() -> None:
     for settings in (Settings(certificate=True), Settings(certificate=True, list_pruned=False)):
         document = json.loads(json.dumps(check(scene, settings).to_dict()))
         found = verified(document)
-        assert found.accepted, (found.faults, found.beyond)
+        assert found.accepted, (found.faults, found.not_certified)
         document["bodies"][1]["transform"][3] = 1.0
         assert not verified(document).accepted
         document["bodies"][1]["transform"] = [0.0] * 12 + [0.0, 0.0, 0.0, 1.0]

@@ -56,7 +56,7 @@ def test_a_report_proves_its_lower_end(name: str, tmp_path: Path) -> None:
     found = verified(made)
     assert found.accepted
     assert found.findings[0].depth
-    assert "findings[].depth_bounds" not in {one.field for one in found.uncovered}
+    assert "findings[].depth_bounds" not in {one.field for one in found.not_covered}
 
 
 @pytest.mark.parametrize("name", DEEP)

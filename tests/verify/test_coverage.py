@@ -61,7 +61,7 @@ def test_what_is_listed_has_a_name() -> None:
 
 def test_what_is_not_proven_is_named() -> None:
     document = report_of("sheet-in-wall", depth=True)
-    left = {one.field: one.findings for one in verified(document).uncovered}
+    left = {one.field: one.findings for one in verified(document).not_covered}
     assert left["findings[].depth_bounds"] == 1
     assert "findings[].mtv" not in left
     assert {"settings", "bodies[].id", "findings[].plan"} <= left.keys()
@@ -74,5 +74,5 @@ def test_what_is_not_proven_is_named() -> None:
 def test_a_volume_of_nothing_is_named_where_bodies_overlap() -> None:
     document = honest("concave")
     document["findings"][0].update(volume=0.0, volume_error=0.0)
-    left = {one.field for one in verified(document).uncovered}
+    left = {one.field for one in verified(document).not_covered}
     assert {"findings[].volume", "findings[].volume_error"} <= left

@@ -11,7 +11,7 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.core.shapes import Box, Cone, Cylinder, Ellipsoid, Sphere
 from satcheck.scene import Body, Scene
-from satcheck.verify import Verification
+from satcheck.verify import VerificationReport
 from tests.core.curved.bodies import moved, shape, tilted
 from tests.core.curved.exact.contacts import all_contacts, bodies, turn
 from tests.verify.reports import Json, verified
@@ -38,7 +38,7 @@ def report(*pair: Body, **settings: Any) -> Json:
     return made
 
 
-def changed(document: Json, *path: str | int, to: Any) -> Verification:
+def changed(document: Json, *path: str | int, to: Any) -> VerificationReport:
     other = copy.deepcopy(document)
     place = other["findings"][0]
     for key in path[:-1]:

@@ -23,7 +23,7 @@ APART = ("apart in a notch", "near", "in parts", "curved")
 def left(made: Json) -> set[str]:
     found = verified(made)
     assert found.accepted, [one.reason for one in found.findings]
-    return {one.field for one in found.uncovered}
+    return {one.field for one in found.not_covered}
 
 
 @pytest.mark.parametrize("name", [*APART, "a gap in the touch band"])

@@ -15,7 +15,7 @@ import pytest
 from msgspec import to_builtins
 
 from satcheck.report.components import Component, Components
-from satcheck.verify import Rejected, Verification
+from satcheck.verify import Rejected, VerificationReport
 from satcheck.verify.coverage import COVERAGE
 from tests.verify.honest import HONEST, honest
 from tests.verify.reports import Json, verified
@@ -135,9 +135,9 @@ def entry_of(path: Place) -> str:
     return entries[0]
 
 
-def left_uncovered(found: Verification, path: Place) -> bool:
+def left_uncovered(found: VerificationReport, path: Place) -> bool:
     """Whether the checker says of this very place that it is not covered."""
-    return entry_of(path) in {one.field for one in found.uncovered}
+    return entry_of(path) in {one.field for one in found.not_covered}
 
 
 @cache

@@ -29,7 +29,7 @@ SETTINGS: tuple[Json, ...] = ({"depth": True}, {"clearance": 1.5})
 def proven(made: Json) -> None:
     found = verified(made)
     assert found.accepted, (found.faults, [one.reason for one in found.findings])
-    assert not found.beyond
+    assert not found.not_certified
     made["settings"]["planar"] = None
     assert not is_accepted(made)
 

@@ -11,16 +11,17 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.request.rule_book import RuleBook, Subject
+from satcheck.audit.bodies.placed_bodies import book_of
 from satcheck.core.shapes import Box
-from satcheck.report.report import Exempt, RuleReport
+from satcheck.report.report import Exempt
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
-from satcheck.verify.rules import Rules
-from tests.audit.request.test_rule_book import random_rules, subjects
+from satcheck.verify.document import rule_book
 from tests.cli.process import VALIDATOR
+from tests.report.books import Subject
+from tests.report.test_rule_book import random_rules, subjects
 from tests.verify.reports import Json, is_accepted, verified
 
 SHAPE = Box((1.0, 1.0, 1.0))
@@ -147,17 +148,13 @@ def test_a_rule_that_is_none_makes_it_no_report(change: Json) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_the_same_as_the_rules_of_the_solver(seed: int) -> None:
+def test_the_rules_of_the_report_are_those_of_the_scene(seed: int) -> None:
     rules, bodies = random_rules(seed), subjects(seed)
-    book = RuleBook(bodies, rules, frozenset("gh"), check_static=False)
-    stated = [stated_rule(each.a.text, each.b.text, each.allowed, each.clearance) for each in rules]
-    placed = {one.id: _placed(one) for one in bodies}
-    found = Rules(Exempt(("g", "h"), True), stated, placed)
+    book = book_of(bodies, rules, frozenset("gh"), check_static=False)
+    found = rule_book(Exempt(("g", "h"), True), book.rules, list(map(_placed, bodies)))
     for i, j in combinations(range(len(bodies)), 2):
-        a, b = placed[bodies[i].id], placed[bodies[j].id]
-        assert found.is_exempt(a, b) == (not book.is_checked(i, j))
-        clearance = book.terms(i, j).clearance
-        assert found.terms(a, b).get("clearance") == (clearance and clearance.clearance)
+        assert found.is_checked(i, j) == book.is_checked(i, j)
+        assert found.terms(i, j) == book.terms(i, j)
     assert found.count() == book.count()
 
 
@@ -168,18 +165,11 @@ TEXTS = (*NAMES, "[a]b", "br?", "[b]r[0]", "*x", "[!a]*")
 @pytest.mark.parametrize("text", [*TEXTS, *(f"group:{text}" for text in TEXTS)])
 def test_brackets_read_the_same_as_by_the_solver(text: str) -> None:
     bodies = [Subject(name, (name,)) for name in NAMES]
-    book = RuleBook(bodies, [rule(text, "*", allowed=True)], check_static=True)
-    stated = [stated_rule(text, "*", True)]
-    placed = {one.id: _placed(one) for one in bodies}
-    found = Rules(Exempt(), stated, placed)
+    book = book_of(bodies, [rule(text, "*", allowed=True)])
+    found = rule_book(Exempt(), book.rules, list(map(_placed, bodies)))
     for i, j in combinations(range(len(bodies)), 2):
-        exempt = found.is_exempt(placed[bodies[i].id], placed[bodies[j].id])
-        assert exempt == (not book.is_checked(i, j))
+        assert found.is_checked(i, j) == book.is_checked(i, j)
     assert book.count()[1] > 0
-
-
-def stated_rule(a: str, b: str, allowed: bool | None, clearance: float | None = None) -> RuleReport:
-    return RuleReport(a, b, allowed, None, None, None, clearance, None, None, "", "")
 
 
 def _placed(body: Subject) -> Placed:

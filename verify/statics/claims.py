@@ -16,11 +16,11 @@ from satcheck.report.statics import (
     SupportedBody,
     SupportFinding,
 )
+from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import NotCertified, Point, Rejected
-from satcheck.verify.severity import severity_of_answer
 from satcheck.verify.statics.contacts import ROUNDING, Contacts
 from satcheck.verify.statics.gaps import check_apart
 from satcheck.verify.statics.sums import (

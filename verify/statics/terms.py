@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from satcheck.report.statics import Statics
+from satcheck.report.statics import BodyRuleReport, Statics
+from satcheck.scene.rules import Selector
+from satcheck.scene.statics import KEYS, QUESTIONS, BodyRule, BodyTerms, terms_of
 from satcheck.verify.bodies import Placed
-from satcheck.verify.rules import selected_by
 from satcheck.verify.statics.weights import Weight, weight_of
 
-QUESTIONS = ("supported", "stable")
-KEYS = (*QUESTIONS, "mounted", "region", "density", "mass", "friction", "severity")
+
+def body_terms(
+    rules: Sequence[BodyRuleReport], bodies: Mapping[str, Placed]
+) -> dict[str, BodyTerms]:
+    """Return what the rules say about each body of the report, by id."""
+    of_scene = [
+        BodyRule(
+            bodies=Selector(rule.bodies),
+            **{key: getattr(rule, key) for key in (*KEYS, "reason", "where")},
+        )
+        for rule in rules
+    ]
+    return dict(zip(bodies, terms_of(list(bodies.values()), of_scene), strict=True))
 
 
 class Terms:
@@ -19,29 +31,22 @@ class Terms:
 
     def __init__(self, statics: Statics, bodies: Mapping[str, Placed]) -> None:
         self._friction, self._bodies = statics.friction, bodies
-        self._values: dict[str, dict[str, Any]] = {id_: {} for id_ in bodies}
-        self._rules: dict[str, dict[str, str]] = {id_: {} for id_ in bodies}
-        select = selected_by(bodies)
-        for rule in statics.rules:
-            values = {key: getattr(rule, key) for key in KEYS}
-            known = {key: value for key, value in values.items() if value is not None}
-            for id_ in select(rule.bodies):
-                self._values[id_] |= known
-                self._rules[id_] |= dict.fromkeys(known, rule.where or rule.bodies)
+        self._terms = body_terms(statics.rules, bodies)
 
     def value(self, id_: str, key: str) -> Any:
         """Of the last rule that sets the key; None: none does."""
-        return self._values[id_].get(key)
+        return self._terms[id_].value(key)
 
     def rule(self, id_: str, key: str) -> str | None:
         """The name of that rule."""
-        return self._rules[id_].get(key)
+        rule = self._terms[id_].rules.get(key)
+        return None if rule is None else rule.name
 
     def asked(self) -> Iterator[tuple[str, str]]:
         """Each body with each question about it."""
-        for id_ in self._bodies:
+        for id_, terms in self._terms.items():
             for question in QUESTIONS:
-                if self.value(id_, question):
+                if terms.asks(question):
                     yield id_, question
 
     def friction(self, a: str, b: str) -> float:

@@ -12,8 +12,8 @@ import csv
 import io
 from typing import TYPE_CHECKING, Any
 
-from satcheck.audit.severity import is_failure
 from satcheck.cli.output import harmless
+from satcheck.report.verdict import is_failure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

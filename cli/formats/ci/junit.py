@@ -11,12 +11,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.audit.severity import fails, is_unmet
 from satcheck.cli.formats.messages import finding_message, kind_of, summary_line
 from satcheck.cli.formats.words import config_line, counted, issue_line
 from satcheck.cli.output import harmless
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
+from satcheck.report.verdict import fails, is_unmet
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

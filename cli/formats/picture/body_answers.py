@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from msgspec.structs import replace
 
-from satcheck.audit.severity import is_unmet
 from satcheck.cli.formats.picture.marks import sphere_around
+from satcheck.report.verdict import is_unmet
 
 if TYPE_CHECKING:
     import numpy.typing as npt

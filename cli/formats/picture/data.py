@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.audit.severity import is_failure
 from satcheck.cli.formats.components import facts
 from satcheck.cli.formats.messages import finding_message, measured, summary_line
 from satcheck.cli.formats.order import is_listed, severity, worst_first
@@ -16,6 +15,7 @@ from satcheck.cli.formats.picture.geometry import geometry
 from satcheck.cli.formats.picture.packing import packed_points
 from satcheck.cli.formats.words import counted, interval, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
+from satcheck.report.verdict import is_failure
 from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 

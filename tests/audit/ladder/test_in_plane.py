@@ -12,11 +12,11 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
-from satcheck.audit.rounding import EXACT_WIDTH
 from satcheck.core import Mesh, Surface
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Sphere
+from satcheck.report.judge import EXACT_WIDTH
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.rules import Rule, Selector

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from satcheck.audit.bodies.placed_bodies import book_of
 from satcheck.audit.request.planner import ALWAYS, FOR_MESHES, Planner, request_for
-from satcheck.audit.request.rule_book import RuleBook, Subject, Terms
 from satcheck.audit.request.settings import Settings
+from satcheck.report.rule_book import Terms
 from satcheck.scene import Rule, Selector
+from tests.report.books import Subject
 
 
 def rule(a: str = "*", b: str = "*", **keys) -> Rule:
@@ -95,7 +97,7 @@ def test_what_may_overlap_keeps_no_clearance(limit) -> None:
 
 
 def test_pairs_of_one_kind_share_what_is_asked() -> None:
-    book = RuleBook([Subject(f"b{k}") for k in range(4)], [rule("b0", "b*", max_depth=1.0)])
+    book = book_of([Subject(f"b{k}") for k in range(4)], [rule("b0", "b*", max_depth=1.0)])
     planner = Planner(Settings(), book, composed=True)
     assert planner.request(0, 1) is planner.request(0, 3)
     assert planner.request(0, 1).wants("depth")
@@ -109,7 +111,7 @@ def test_no_pair_is_asked_further_than_its_reach() -> None:
         rule("b1", "b2", tolerance=6.0),
         rule("b1", "b*", clearance=1.0),
     ]
-    book = RuleBook([Subject(f"b{k}") for k in range(4)], rules)
+    book = book_of([Subject(f"b{k}") for k in range(4)], rules)
     for settings in (Settings(), Settings(clearance=3.0), Settings(tolerance=0.5)):
         planner = Planner(settings, book)
         resolution = [0.1, 0.2, 0.3, 0.4]
@@ -128,7 +130,7 @@ def test_no_pair_is_asked_further_than_its_reach() -> None:
 def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
     """A clearance of 0 is none, but an overlap that must have no depth has one to be measured."""
     none = rule(where="none", clearance=0.0)
-    book = RuleBook([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
+    book = book_of([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
     planner = Planner(Settings(), book, composed=True)
     assert planner.request(0, 1).by[effect] == "zero"
     assert planner.requested_by(effect) == ("zero",)

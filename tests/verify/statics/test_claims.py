@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from satcheck.verify import Verification, verify
+from satcheck.verify import VerificationReport, verify
 from satcheck.verify.statics.weights import covers_once
 from satcheck.verify.world import World
 from tests.audit.statics.scenes import about_y, ball, box, floor, on_slope, report_of, tower
@@ -27,7 +27,7 @@ def document(folder: Path, bodies: list[Json], *rest: Any, **statics: Any) -> Js
     return made
 
 
-def judged(document: Json) -> Verification:
+def judged(document: Json) -> VerificationReport:
     return verify(document, Path())
 
 

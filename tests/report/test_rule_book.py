@@ -8,8 +8,10 @@ from itertools import combinations
 
 import pytest
 
-from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Subject
+from satcheck.audit.bodies.placed_bodies import book_of
+from satcheck.report.rule_book import NO_TERMS
 from satcheck.scene import Rule, Selector
+from tests.report.books import Subject
 
 SELECTORS = ["*", "a*", "b?", "a1", "b2", "[ab]3", "nobody", "group:g", "group:h", "group:*"]
 
@@ -57,7 +59,7 @@ def random_rules(seed: int) -> list[Rule]:
 def test_as_if_every_pair_were_gone_through(seed: int) -> None:
     bodies, rules = subjects(seed), random_rules(seed)
     ignored, check_static = frozenset("gi" if seed % 2 else ""), seed % 3 == 0
-    book = RuleBook(bodies, rules, ignored, check_static)
+    book = book_of(bodies, rules, ignored, check_static)
     total = allowed = 0
     for i, j in combinations(range(len(bodies)), 2):
         p, q = bodies[i], bodies[j]
@@ -66,11 +68,11 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
         )
         assert book.is_ignored(i, j) == book.is_ignored(j, i) == skipped
         deciding = {}
-        for one in rules:
+        for one, stated in zip(rules, book.rules, strict=True):
             if is_about(one, p, q):
                 for key in ("allowed", "max_depth", "clearance", "tolerance"):
                     if getattr(one, key) is not None:
-                        deciding[key] = one
+                        deciding[key] = stated
         for terms in (book.terms(i, j), book.terms(j, i)):
             assert terms.allowed is deciding.get("allowed")
             assert terms.max_depth is deciding.get("max_depth")
@@ -89,14 +91,16 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
     among = [(i, j) for i, j in combinations(some, 2) if not book.is_ignored(i, j)]
     assert book.count(some) == (len(among), sum(book.terms(i, j).allows for i, j in among))
     unused = [
-        one for one in rules if not any(is_about(one, p, q) for p, q in combinations(bodies, 2))
+        number
+        for number, one in enumerate(rules)
+        if not any(is_about(one, p, q) for p, q in combinations(bodies, 2))
     ]
     assert list(book.unused()) == unused
 
 
 def test_an_id_with_brackets_is_matched_by_its_own_name() -> None:
     bodies = [Subject(name) for name in ("br0", "br1", "br[0]", "br[1]")]
-    book = RuleBook(bodies, [rule("br[0]", "br[1]", allowed=True)])
+    book = book_of(bodies, [rule("br[0]", "br[1]", allowed=True)])
     assert not book.terms(0, 1).allows
     assert book.terms(2, 3).allows
     assert book.count() == (6, 1)
@@ -104,14 +108,14 @@ def test_an_id_with_brackets_is_matched_by_its_own_name() -> None:
 
 def test_the_last_rule_that_sets_a_key_decides_it() -> None:
     first, second = rule("*", "*", clearance=1.0, max_volume=2.0), rule("a", "*", max_volume=1.0)
-    book = RuleBook([Subject("a"), Subject("b"), Subject("c")], [first, second])
-    assert book.terms(0, 1).clearance is first
-    assert book.terms(0, 1).max_volume is second
-    assert book.terms(1, 2).max_volume is first
+    book = book_of([Subject("a"), Subject("b"), Subject("c")], [first, second])
+    assert book.terms(0, 1).clearance is book.rules[0]
+    assert book.terms(0, 1).max_volume is book.rules[1]
+    assert book.terms(1, 2).max_volume is book.rules[0]
 
 
 def test_a_later_rule_takes_a_permission_back() -> None:
-    book = RuleBook(
+    book = book_of(
         [Subject("a"), Subject("b"), Subject("c")],
         [rule("*", "*", allowed=True), rule("b", "c", allowed=False)],
     )
@@ -121,9 +125,8 @@ def test_a_later_rule_takes_a_permission_back() -> None:
 
 
 def test_one_rule_is_about_no_body_and_itself() -> None:
-    alone = rule("a", "a", allowed=True)
-    book = RuleBook([Subject("a"), Subject("b")], [alone])
-    assert list(book.unused()) == [alone]
+    book = book_of([Subject("a"), Subject("b")], [rule("a", "a", allowed=True)])
+    assert list(book.unused()) == [0]
     assert book.terms(0, 1) is NO_TERMS
 
 
@@ -132,6 +135,6 @@ def test_ten_thousand_bodies_are_counted_without_their_pairs() -> None:
     count = 10_000
     bodies = [Subject(f"bolt-{k}" if k % 2 else f"plate-{k}") for k in range(count)]
     named = [rule(f"plate-{k}", f"bolt-{k + 1}", allowed=True) for k in range(0, count, 2)]
-    book = RuleBook(bodies, [*named, rule("bolt-*", "bolt-*", allowed=True)])
+    book = book_of(bodies, [*named, rule("bolt-*", "bolt-*", allowed=True)])
     bolts = count // 2
     assert book.count() == (count * (count - 1) // 2, bolts * (bolts - 1) // 2 + bolts)

@@ -1,4 +1,4 @@
-"""Looks up and counts the rules of a scene without visiting every pair.
+"""Looks up and counts the rules of a report without visiting every pair.
 
 Bodies are indices. If each selector of a rule chooses one body, the rule is stored under this pair.
 All other rules sort the bodies into kinds, and their effect on a pair depends only on the two
@@ -8,12 +8,13 @@ kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for eac
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import Protocol
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.request.pair_rows import A, B, Kind, PairRows, ones, row_of
-from satcheck.scene.rules import KEYS, Rule, Selector
+from satcheck.report.pair_rows import A, B, Kind, PairRows, Sides, ones, row_of
+from satcheck.report.report import RuleReport
 
 # At most this many exempt pairs of kinds are listed.
 _MOST_KINDS = 1_000_000
@@ -23,13 +24,13 @@ class Terms(Struct, frozen=True):
     """For each key the rule that decides it for a pair: the last rule that sets it; None: no rule
     does."""
 
-    allowed: Rule | None = None
-    max_depth: Rule | None = None
-    max_thickness: Rule | None = None
-    max_volume: Rule | None = None
-    clearance: Rule | None = None
-    tolerance: Rule | None = None
-    severity: Rule | None = None
+    allowed: RuleReport | None = None
+    max_depth: RuleReport | None = None
+    max_thickness: RuleReport | None = None
+    max_volume: RuleReport | None = None
+    clearance: RuleReport | None = None
+    tolerance: RuleReport | None = None
+    severity: RuleReport | None = None
 
     @property
     def allows(self) -> bool:
@@ -37,18 +38,22 @@ class Terms(Struct, frozen=True):
 
 
 NO_TERMS = Terms()
+_KEYS = Terms.__struct_fields__
 
 
-class Subject(Struct, frozen=True):
-    """The properties of a body that rules depend on."""
+class Subject(Protocol):
+    """The properties of a body that rules depend on, beside the sides that it is on."""
 
-    id: str
-    groups: tuple[str, ...] = ()
-    static: bool = False
+    @property
+    def groups(self) -> Collection[str]: ...
+
+    @property
+    def static(self) -> bool: ...
 
 
 class RuleBook:
-    """rules: later ones override earlier ones. Pairs within an ignored group are not checked, nor
+    """rules: later ones override earlier ones. sides: of each rule the bodies that its selectors
+    `a` and `b` choose. Pairs within an ignored group are not checked, nor
     are pairs of static bodies unless check_static is set.
 
     kind_of: the number of the kind of each body.
@@ -57,14 +62,14 @@ class RuleBook:
     def __init__(
         self,
         subjects: Sequence[Subject],
-        rules: Sequence[Rule] = (),
+        rules: Sequence[RuleReport] = (),
+        sides: Sequence[Sides] = (),
         ignored_groups: frozenset[str] = frozenset(),
         check_static: bool = True,
     ) -> None:
         self.rules = tuple(rules)
         self._count = len(subjects)
-        members = _Members(subjects)
-        self._sides = [(members.of(rule.a), members.of(rule.b)) for rule in self.rules]
+        self._sides = sides
         self._named: dict[tuple[int, int], list[int]] = {}
         self._kinds: list[Kind] = []
         self._bodies: list[list[int]] = []
@@ -79,8 +84,8 @@ class RuleBook:
             alike = (tuple(chosen_by[index]), ignored, fixed)
             number = numbers.setdefault(alike, len(self._kinds))
             if number == len(self._kinds):
-                sides = _sides_of(chosen_by[index], about)
-                self._kinds.append(Kind(sides, ignored, fixed))
+                chosen = _sides_of(chosen_by[index], about)
+                self._kinds.append(Kind(chosen, ignored, fixed))
                 self._bodies.append([])
             self._bodies[number].append(index)
             self.kind_of.append(number)
@@ -152,10 +157,10 @@ class RuleBook:
         ]
 
     def _merged(self, numbers: Iterable[int]) -> Terms:
-        deciding: dict[str, Rule] = {}
+        deciding: dict[str, RuleReport] = {}
         for number in numbers:
             rule = self.rules[number]
-            deciding |= {key: rule for key in KEYS if getattr(rule, key) is not None}
+            deciding |= {key: rule for key in _KEYS if getattr(rule, key) is not None}
         return replace(NO_TERMS, **deciding) if deciding else NO_TERMS
 
     def sets(self, key: str) -> bool:
@@ -172,12 +177,12 @@ class RuleBook:
                 values[body] = max(values[body], value)
         return values
 
-    def unused(self) -> Iterator[Rule]:
-        """Rules that apply to no pair of bodies."""
-        for rule, (a, b) in zip(self.rules, self._sides, strict=True):
+    def unused(self) -> Iterator[int]:
+        """The numbers of rules that apply to no pair of bodies."""
+        for number, (a, b) in enumerate(self._sides):
             alone = len(a) <= 1 and len(b) <= 1 and a == b
             if not a or not b or alone:
-                yield rule
+                yield number
 
     def count(self, among: Collection[int] | None = None) -> tuple[int, int]:
         """The number of pairs that are not exempt, and the number of these that are allowed.
@@ -236,24 +241,3 @@ def _sides_of(
         for rule, side in about[number]:
             sides[rule] = sides.get(rule, 0) | side
     return tuple(sorted(sides.items()))
-
-
-class _Members:
-    """Finds the bodies of a selector."""
-
-    def __init__(self, subjects: Sequence[Subject]) -> None:
-        self._found: dict[Selector, frozenset[int]] = {}
-        self._by_id: dict[str, list[int]] = {body.id: [k] for k, body in enumerate(subjects)}
-        self._by_group: dict[str, list[int]] = {}
-        for k, body in enumerate(subjects):
-            for group in dict.fromkeys(body.groups):
-                self._by_group.setdefault(group, []).append(k)
-
-    def of(self, selector: Selector) -> frozenset[int]:
-        if selector not in self._found:
-            self._found[selector] = frozenset(self._choose(selector))
-        return self._found[selector]
-
-    def _choose(self, selector: Selector) -> Iterable[int]:
-        known = self._by_group if selector.of_groups else self._by_id
-        return (k for name in selector.choose(known) for k in known[name])

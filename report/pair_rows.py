@@ -9,10 +9,12 @@ from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 
-from satcheck.scene.rules import Rule
+from satcheck.report.report import RuleReport
 
 # The side of a rule that a body is on, as bits. A body may be on both.
 A, B = 1, 2
+# The members on either side of a rule.
+Sides = tuple[frozenset[int], frozenset[int]]
 
 
 class Kind(Struct, frozen=True):
@@ -34,8 +36,8 @@ class PairRows:
     def __init__(
         self,
         kinds: Sequence[Kind],
-        rules: Sequence[Rule],
-        sides: Sequence[tuple[frozenset[int], ...]],
+        rules: Sequence[RuleReport],
+        sides: Sequence[Sides],
         of_kinds: Sequence[Iterable[int]],
     ) -> None:
         self._rules, self._sides = rules, sides

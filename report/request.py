@@ -1,0 +1,66 @@
+"""What is asked of one pair, by the settings and the rules of a report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from msgspec import Struct
+
+from satcheck.report.report import Effect, RuleReport
+from satcheck.report.rule_book import Terms
+
+# The keys that limit an overlap.
+LIMITS = ("max_depth", "max_thickness", "max_volume")
+
+
+class Request(Struct, frozen=True):
+    """Lengths and volumes are in units of the scene.
+
+    by: effect -> the flag or rule that requests it; no entry: it is not requested. clearance: None:
+    no clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
+    max_volume: limits of an overlap. severity: of the errors of the pair; None: the default. rules:
+    key -> the name of the rule that set it. across: in a check in a plane, the axis across it.
+    """
+
+    by: Mapping[Effect, str] = {}
+    clearance: float | None = None
+    tolerance: float | None = None
+    max_depth: float | None = None
+    max_thickness: float | None = None
+    max_volume: float | None = None
+    severity: Literal["error", "warning", "note", "none"] | None = None
+    rules: Mapping[str, str] = {}
+    across: int | None = None
+
+    def wants(self, effect: Effect) -> bool:
+        return effect in self.by
+
+    @property
+    def limited(self) -> bool:
+        """Return whether the pair may overlap within limits."""
+        return not (self.max_depth is self.max_thickness is self.max_volume is None)
+
+    def rule(self, key: str) -> str | None:
+        """Return the name of the rule that set this key."""
+        return self.rules.get(key)
+
+
+def request_of(
+    terms: Terms, clearance: float | None, tolerance: float | None, across: int | None
+) -> Request:
+    """Return what rules make of the settings for their pairs. A key of a rule overrides the
+    setting. A pair that may overlap within limits has no clearance."""
+    deciding: dict[str, RuleReport | None] = {
+        key: getattr(terms, key) for key in (*LIMITS, "clearance", "tolerance", "severity")
+    }
+    if any(deciding[key] for key in LIMITS):
+        clearance = deciding["clearance"] = None
+    by = {key: rule for key, rule in deciding.items() if rule is not None}
+    values: dict[str, Any] = {"clearance": clearance, "tolerance": tolerance}
+    values |= {key: getattr(rule, key) for key, rule in by.items()}
+    if "clearance" in by:
+        values["clearance"] = values["clearance"] or None
+    lengths = values.keys() - {"severity"}  # Python callers may give an integer
+    values |= {key: float(values[key]) for key in lengths if values[key] is not None}
+    return Request(**values, rules={key: rule.name for key, rule in by.items()}, across=across)
