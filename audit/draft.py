@@ -9,7 +9,8 @@ from msgspec import Struct
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.request.trace import Trace
-from satcheck.report.report import Finding, Quality, Relation, finding_id
+from satcheck.report.judge import quality_of
+from satcheck.report.report import Finding, Relation, finding_id
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.depth import Depth
@@ -24,10 +25,9 @@ if TYPE_CHECKING:
 class Draft(Struct):
     """Each stage fills in what it finds. verdict: of the ladder.
 
-    relation: with the touch band. exact_relation: without it; None: not proven. quality: of the
-    weakest of relation, depth and gap. undecided: why nothing follows. gap: of bodies without a
-    common interior. band: of an overlap. depth, thickness, volume, contacts and components are None
-    if they were not requested.
+    relation: with the touch band. exact_relation: without it; None: not proven. proven: the
+    relation, with the touch band. gap: of bodies without a common interior. band: of an overlap.
+    depth, thickness, volume, contacts and components are None if they were not requested.
     """
 
     pair: Pair
@@ -35,7 +35,7 @@ class Draft(Struct):
     verdict: Verdict
     relation: Relation = "indeterminate"
     exact_relation: Relation | None = None
-    quality: Quality = "exact"
+    proven: bool = True
     reason: str | None = None
     gap: Gap | None = None
     band: Band | None = None
@@ -45,24 +45,17 @@ class Draft(Struct):
     contacts: Contacts | None = None
     components: Components | None = None
 
-    @property
-    def shown_gap(self) -> Gap | None:
-        """Return the gap if the finding states it."""
-        if self.gap is None or self.pair.request.clearance is None or self.gap.distance is None:
-            return None
-        return self.gap
-
-    @property
-    def has_bounds(self) -> bool:
-        """Return whether the finding states bounds of the gap."""
-        gap = self.shown_gap
-        return gap is not None and (self.pair.closer > 0 or not gap.exact)
-
     def finding(self) -> Finding:
         """Return the finding, not yet judged."""
         pair, depth, thick, volume = self.pair, self.depth, self.thickness, self.volume
-        gap = self.shown_gap
+        gap = self.gap if pair.request.clearance is not None else None
+        if gap is not None and gap.distance is None:
+            gap = None
         figure = gap if depth is None else depth  # a pair has at most one of them
+        depths = None if depth is None else (depth.lower, depth.upper)
+        gaps = None
+        if gap is not None and (pair.closer > 0 or not gap.exact):
+            gaps = gap.lower, gap.upper
         return Finding(
             id=finding_id(pair.a.id, pair.b.id),
             a=pair.a.id,
@@ -72,10 +65,10 @@ class Draft(Struct):
             exact_relation=self.exact_relation,
             tolerance=pair.tolerance,
             distance=None if gap is None else gap.distance,
-            distance_bounds=(gap.lower, gap.upper) if gap is not None and self.has_bounds else None,
+            distance_bounds=gaps,
             depth=None if depth is None else depth.upper,
-            depth_bounds=None if depth is None else (depth.lower, depth.upper),
-            quality=self.quality,
+            depth_bounds=depths,
+            quality=quality_of(depths, gaps) if self.proven else "estimate",
             normal=None if figure is None else figure.normal,
             mtv=None if depth is None else depth.escape.mtv,
             mtv_moves=None if depth is None else "a",

@@ -25,14 +25,13 @@ from satcheck.audit.request.trace import Trace
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.judge import (
-    EXACT_WIDTH,
     Judgement,
     by_rule,
     clearance_judgement,
     disputed,
     judged,
 )
-from satcheck.report.report import OVERLAPS, Finding, Quality, finding_id
+from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.scene.loading.readers import is_complete
 
 if TYPE_CHECKING:
@@ -72,12 +71,12 @@ def _judged(draft: Draft) -> Finding:
     """Return the finding that the stages have drafted, with its severity."""
     pair, gap = draft.pair, draft.gap
     contradiction = _contradiction(draft)
-    is_estimate = draft.quality == "estimate"
+    was_proven = draft.proven
     _cap(draft)
     finding = draft.finding()
     bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
     judgement = judged(finding, pair.request, bounds, kept)
-    if is_estimate:
+    if not was_proven:
         judgement = _of_estimate(judgement, finding, pair, overlaps=draft.verdict.overlaps)
     if contradiction is not None:
         judgement = disputed(judgement, contradiction)
@@ -143,7 +142,7 @@ def _cap(draft: Draft) -> None:
     bodies = draft.pair.a, draft.pair.b
     known = all(is_complete(placed.body.file.format) for placed in bodies)
     if not known and draft.relation not in OVERLAPS:
-        draft.quality, draft.reason = "estimate", draft.reason or INCOMPLETE
+        draft.proven, draft.reason = False, draft.reason or INCOMPLETE
 
 
 def _why_open(draft: Draft) -> str | None:
@@ -247,8 +246,7 @@ def _overlap(draft: Draft) -> str | None:
         depth = depth and depth_of_curves(pair, verdict, depth, trace)
         shown = shown and overlap_of_curves(pair, verdict)
     draft.exact_relation = verdict.relation if shown else None
-    draft.quality = _depth_quality(depth, proven=verdict.proven)
-    draft.band, draft.depth = band, depth
+    draft.proven, draft.band, draft.depth = verdict.proven, band, depth
     return None
 
 
@@ -266,14 +264,6 @@ def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
     if not depth.escape.verified or depth.lower > pair.tolerance:
         return None
     return band_of(pair, depth.escape.mtv)
-
-
-def _depth_quality(depth: Depth | None, *, proven: bool) -> Quality:
-    if not proven:
-        return "estimate"
-    if depth is None or depth.upper - depth.lower <= EXACT_WIDTH * depth.upper:
-        return "exact"
-    return "bounded"
 
 
 def _gap(draft: Draft) -> None:
@@ -303,8 +293,7 @@ def _gap(draft: Draft) -> None:
         if pair.tolerance < pair.closer:
             proven, reason = False, reason or _within_curves(pair)
     draft.gap, draft.relation, draft.reason = gap, relation, reason
-    draft.exact_relation = verdict.relation if shown else None
-    draft.quality = "estimate" if not proven else "bounded" if draft.has_bounds else "exact"
+    draft.exact_relation, draft.proven = verdict.relation if shown else None, proven
 
 
 def _within_curves(pair: Pair) -> str:

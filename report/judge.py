@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
 from satcheck.report.request import Request
+from satcheck.report.values import Interval, Quality
 
 CLEARANCE_RULE = "clearance"
 # A depth interval of this relative width comes from rounding alone and counts as exact.
@@ -93,6 +94,13 @@ def keeps(clearance: float, least: float, most: float) -> bool | None:
     if most < clearance:
         return False
     return True if least >= clearance * (1 - EXACT_WIDTH) else None
+
+
+def quality_of(depth_bounds: Interval | None, distance_bounds: Interval | None) -> Quality:
+    """Return the quality of a proven relation with these figures."""
+    low, high = depth_bounds or (0.0, 0.0)
+    wide = high - low > EXACT_WIDTH * high
+    return "bounded" if wide or distance_bounds is not None else "exact"
 
 
 def _by_default(

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from satcheck.report.contacts import Contacts
+from satcheck.report.judge import quality_of
 from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.report.request import Request
 from satcheck.report.values import Vector
@@ -109,7 +110,9 @@ def check_figures(finding: Finding, a: Placed, b: Placed) -> None:
         _check_gap(finding)
     _check_distance_bounds(finding, a, b, rounding)
     _check_witness(finding, (a, b), rounding)
-    _check_quality(finding)
+    expected = quality_of(finding.depth_bounds, finding.distance_bounds)
+    if finding.quality != expected:
+        raise Rejected(f"the quality that follows is {expected!r}")
     _check_thickness(finding)
     _check_volume(finding, a, b)
 
@@ -254,16 +257,6 @@ def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rou
     slack = rounding.of(length)
     if low > max(length - closer + slack, Fraction(0)) or high < length - slack:
         raise Rejected("the bounds of the distance leave out how far the curves may be off")
-
-
-def _check_quality(finding: Finding) -> None:
-    """Check the quality of a relation that is proven."""
-    bounds = finding.depth_bounds
-    low, high = map(Fraction, bounds or (0, 0))
-    wide = high - low > EXACT_WIDTH * high
-    expected = "bounded" if wide or finding.distance_bounds is not None else "exact"
-    if finding.quality != expected:
-        raise Rejected(f"the quality that follows is {expected!r}")
 
 
 def _check_thickness(finding: Finding) -> None:
