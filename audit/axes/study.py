@@ -44,6 +44,13 @@ MOST_EDGE_PAIRS = 10_000_000
 MOST_FACET_PAIRS = 250_000
 
 
+RELATIONS: dict[str, HullRelation] = {
+    "separating": "separated",
+    "touching": "touching",
+    "mtv": "penetrating",
+}
+
+
 def axes_of(
     scene: Scene,
     bodies: tuple[str, str] | None = None,
@@ -210,13 +217,6 @@ def _corners(body: PlacedBody, plane: Plane) -> Floats:
 def _outlined(body: PlacedBody, corners: int) -> AxesBody:
     file = body.body.file
     return AxesBody(body.id, file.path, file.outline is not None, corners, 0, corners)
-
-
-RELATIONS: dict[str, HullRelation] = {
-    "separating": "separated",
-    "touching": "touching",
-    "mtv": "penetrating",
-}
 
 
 def axes_shown(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
+from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.formats.picture.data import listed
 from satcheck.cli.formats.registry import pieces
 from satcheck.cli.formats.table import render as render_table
-from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.output import PLAIN_PAGE
 from satcheck.report.report import Finding, Report
 from tests.cli.reports import BLOCK, PENETRATING, report
