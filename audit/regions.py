@@ -23,7 +23,7 @@ from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.statics.answers import rule_report
-from satcheck.audit.statics.terms import contact_tolerance
+from satcheck.audit.statics.subjects import contact_tolerance
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory

@@ -15,6 +15,28 @@ from satcheck.cli.output import Document
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 
 
+# Help with fewer options has no headings.
+MANY = 15
+OTHER = "Other options"
+# The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
+_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
+# The names of the parameters, in the order of the help.
+SECTIONS = {
+    "What to check": "bodies pairs manifest shard exclude changed_since split merge planar units "
+    "allow_open package packages geometry purpose time mesh_hulls pose state "
+    "joint_path sample seed root allow_outside",
+    "What to compute": "depth contacts components volume never cross_check certificate",
+    "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
+    "angular_tolerance rules between baseline fail_on accept exit_zero pins",
+    "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
+    "quiet color",
+    "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
+    "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
+    "scene_seconds scene_megabytes engine scheduler jobs cache",
+}
+DEFAULT_COMMAND = "check"
+
+
 class Command(click.Command):
     """Its help is a document like any other: when it cannot be written, that is said. Many options
     stand under headings. A wrong value of a config file is told with its line."""
@@ -62,27 +84,6 @@ def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         ctx.exit()
 
 
-# Help with fewer options has no headings.
-MANY = 15
-OTHER = "Other options"
-# The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
-_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
-# The names of the parameters, in the order of the help.
-SECTIONS = {
-    "What to check": "bodies pairs manifest shard exclude changed_since split merge planar units "
-    "allow_open package packages geometry purpose time mesh_hulls pose state "
-    "joint_path sample seed root allow_outside",
-    "What to compute": "depth contacts components volume never cross_check certificate",
-    "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
-    "angular_tolerance rules between baseline fail_on accept exit_zero pins",
-    "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
-    "quiet color",
-    "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
-    "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
-    "scene_seconds scene_megabytes engine scheduler jobs cache",
-}
-
-
 def brief(record: tuple[str, str]) -> tuple[str, str]:
     """Without the range of a number: a message states it where it matters."""
     option, text = record
@@ -98,9 +99,6 @@ def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:
     }
     made[OTHER] = list(by_name.values())
     return {heading: chosen for heading, chosen in made.items() if chosen}
-
-
-DEFAULT_COMMAND = "check"
 
 
 class _Satcheck(Group):

@@ -10,7 +10,7 @@ from typing import Any, Self
 import click
 from msgspec import Struct
 
-from satcheck.audit.batch.load_options import LoadOptions
+from satcheck.audit.batch.options import LoadOptions
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 CHANGED, GONE = "changed-file", "not-drawn"
 
 
+MOST_BYTES = 1 << 30
+
+
 def stated_scene(
     report: Report, root: Path, *, allow_outside: bool = False
 ) -> tuple[Scene, list[Issue]]:
@@ -90,9 +93,6 @@ def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
         if cause not in told:
             told.add(cause)
             yield issue
-
-
-MOST_BYTES = 1 << 30
 
 
 def read_report(path: Path) -> Report | AssetsReport:

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
+import click
 from msgspec.structs import asdict
 
 from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot_server import Answer, Wanted
 from satcheck.cli import exit_codes
 from satcheck.cli.formats.assets import (
-    Assets,
+    AssetReports,
     Overview,
     overview,
     summary_line,
@@ -33,17 +34,23 @@ from satcheck.cli.lengths import names_of_lengths
 from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
+from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict
 from satcheck.report.batch import Result
 from satcheck.report.json import read_line
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.report.settings import StatedConfig
-from satcheck.scene.loader import read_rules
+from satcheck.scene.asset_files import Assets, asset_files
+from satcheck.scene.loader import has_only_rules, read_rules
 
 INTERRUPTED = "interrupted"
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
 _MOST_THREADS = 8
+
+
+STANDARD_INPUT = "-"
+_NAMED = 6
 
 
 def check_worlds(
@@ -163,7 +170,7 @@ def _deliver(
         return
     if delivery.output is None and delivery.form == "table" and not assets:
         return  # no asset changed, and stderr says so
-    made = Assets(lambda: assets, len(assets))
+    made = AssetReports(lambda: assets, len(assets))
     document.deliver(
         lambda page: written(seen, made, delivery.form, page, timings=timings),
         delivery.output,
@@ -184,3 +191,49 @@ def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
     tell_issues(seen)
     if assets:
         talk(f"{summary_line(seen)} Report: {output}")
+
+
+def asset_names(inputs: Inputs) -> Assets:
+    """Folders and patterns are expanded, and - stands for the names on standard input. A file of
+    rules is no asset. click.UsageError if there is none."""
+    names: list[str] = []
+    for name in inputs.paths:
+        names += _standard_input() if name == STANDARD_INPUT else [name]
+    assets = asset_files(filter(None, names), inputs.exclude)
+    if inputs.exclude:
+        talk(f"satcheck: --exclude leaves out {counted(assets.excluded, 'file')}")
+    rules = {os.path.realpath(path) for path in inputs.rules}
+    files = [
+        file
+        for file in assets.files
+        if os.path.realpath(file) not in rules and not _is_skipped(file)
+    ]
+    if not files:
+        raise click.UsageError("no file is named: give a folder or files")
+    return assets._replace(files=files)
+
+
+def tell_foreign(worlds: Iterable[World]) -> None:
+    """`kit: no reader knows 2 files: kit/a.fbx, kit/b.blend`. worlds: of `foreign_worlds`."""
+    for folder, *files in worlds:
+        named = ", ".join(files[:_NAMED]) + (", ..." if len(files) > _NAMED else "")
+        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {named}")
+
+
+def _is_skipped(file: str) -> bool:
+    """Files that only have rules are told, as their rules do not count here."""
+    try:
+        skipped = has_only_rules(file)
+    except SatcheckError:  # the check of this asset says why
+        return False
+    if skipped:
+        talk(f"satcheck: {file} has only rules and is no asset: --rules {file} applies them")
+    return skipped
+
+
+def _standard_input() -> list[str]:
+    """A name for each line, or with a NUL behind each. click.UsageError if it is closed."""
+    if sys.stdin is None:
+        raise click.UsageError("standard input is closed: give a folder or files")
+    text = os.fsdecode(sys.stdin.buffer.read()).replace(os.linesep, "\n")
+    return text.split("\0" if "\0" in text else "\n")

@@ -44,6 +44,13 @@ MOST_EDGE_PAIRS = 10_000_000
 MOST_FACET_PAIRS = 250_000
 
 
+RELATIONS: dict[str, HullRelation] = {
+    "separating": "separated",
+    "touching": "touching",
+    "mtv": "penetrating",
+}
+
+
 def axes_of(
     scene: Scene,
     bodies: tuple[str, str] | None = None,
@@ -216,13 +223,6 @@ def _prism(corners: Floats) -> core.Hull:
 def _outlined(body: PlacedBody, corners: int) -> AxesBody:
     file = body.body.file
     return AxesBody(body.id, file.path, file.outline is not None, corners, 0, corners)
-
-
-RELATIONS: dict[str, HullRelation] = {
-    "separating": "separated",
-    "touching": "touching",
-    "mtv": "penetrating",
-}
 
 
 def axes_shown(

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from satcheck.audit.assets import check_asset
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.baseline_file import asset_key, current_baseline
-from satcheck.audit.batch.check_options import CheckOptions, World
+from satcheck.audit.batch.options import CheckOptions, World
 from satcheck.core.errors import SatcheckError
 from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
@@ -20,6 +20,10 @@ from satcheck.scene import Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.known_meshes import KnownMeshes
 from satcheck.scene.path_kind import exists, is_folder
+
+# Why a file that is as it should be has no body that can collide.
+_NO_BODY = "no-body"
+_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out", _NO_BODY)
 
 
 def foreign_worlds(files: Mapping[str, Sequence[str]]) -> list[World]:
@@ -58,11 +62,6 @@ def check_world(
 def _beside(report: Report, file: str, baseline: Path) -> Report:
     known = current_baseline(baseline)
     return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
-
-
-# Why a file that is as it should be has no body that can collide.
-_NO_BODY = "no-body"
-_WITHOUT_BODIES = ("no-collision-geometry", "not-a-body", "left-out", _NO_BODY)
 
 
 def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:

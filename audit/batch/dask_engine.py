@@ -15,9 +15,8 @@ from uuid import uuid4
 
 from distributed import Client, Future, KilledWorker, as_completed
 
-from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.dask_worker import Chunk, Slots, Terms, check_chunk
-from satcheck.audit.batch.limits import Limits, Pace
+from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
 from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.slot import lost
 from satcheck.audit.batch.slot_server import Answer

@@ -13,8 +13,7 @@ from distributed import Worker, WorkerPlugin, get_worker
 from msgspec import Struct
 
 from satcheck._version import __version__
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits, Pace
+from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
 from satcheck.audit.batch.slot import Slot
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError

@@ -16,8 +16,7 @@ from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.audit.batch import remote
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.permitted import Permitted

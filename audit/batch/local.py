@@ -8,8 +8,7 @@ from collections.abc import Callable, Generator, Sequence
 from queue import Queue
 from threading import Thread
 
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits, Pace
+from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
 from satcheck.audit.batch.slot import RESULTS, Slot
 from satcheck.audit.batch.slot_server import Answer, Wanted
 from satcheck.core.worker_errors import WorkerNotStarted

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import codecs
+import hashlib
 import json
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
+from msgspec import Struct
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.audit.batch.remote import at, is_url
 from satcheck.core.errors import SatcheckError
 
 _JSON_LIST = "["
+
+
+_FORM = re.compile(r"([0-9]{1,9})/([0-9]{1,9})")
 
 
 def read_manifest(name: str) -> Iterator[World]:
@@ -53,3 +59,27 @@ def _world(line: str, place: str) -> World:
     if not world:
         raise SatcheckError("bad-manifest", "the list of files is empty", file=place)
     return world
+
+
+class Shard(Struct, frozen=True):
+    """Number `number` of `count`, from 1. The names of its files alone decide in which shard a
+    world is: adding worlds to a batch moves none to another shard."""
+
+    number: int
+    count: int
+
+    def has(self, world: World) -> bool:
+        return _hash(world) % self.count == self.number - 1
+
+
+def parse_shard(text: str) -> Shard:
+    """`I/N`. Raises ValueError."""
+    given = _FORM.fullmatch(text)
+    if given is None or not 1 <= int(given[1]) <= int(given[2]):
+        raise ValueError(f"{text} is not I/N, with I from 1 to N")
+    return Shard(int(given[1]), int(given[2]))
+
+
+def _hash(world: World) -> int:
+    names = b"\0".join(map(os.fsencode, world))
+    return int.from_bytes(hashlib.sha256(names).digest()[:8], "big")

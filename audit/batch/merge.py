@@ -11,7 +11,7 @@ from typing import BinaryIO
 
 import msgspec
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.audit.batch.results import PART, part_of, resolved
 from satcheck.core.errors import SatcheckError
 from satcheck.report.atomic_file import replace_file

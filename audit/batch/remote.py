@@ -22,7 +22,7 @@ from urllib.parse import quote, unquote
 import msgspec
 from msgspec.structs import replace
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
 from satcheck.report.batch import InputFile
 from satcheck.scene.loading.readers import robots

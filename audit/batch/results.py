@@ -14,7 +14,7 @@ from typing import NamedTuple, Self
 import msgspec
 from filelock import FileLock, Timeout
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.atomic_file import replace_file

@@ -8,9 +8,8 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.key import digest, inputs_of, key_of, terms_of
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import Head, ResultsFile
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict

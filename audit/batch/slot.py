@@ -13,8 +13,7 @@ from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 from satcheck.audit.assets import lost_asset
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import is_remote
 from satcheck.audit.batch.slot_server import (
     STEP_LINE,

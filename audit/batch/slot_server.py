@@ -17,10 +17,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.assets import unreadable_asset, without_unused_rules
-from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.check_world import check_world
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import Copies, is_remote, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError

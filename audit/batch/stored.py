@@ -15,7 +15,7 @@ from typing import NamedTuple, Self, TypeVar
 import msgspec
 
 from satcheck.audit.assets import unreadable_asset
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.audit.batch.results import PART, part_of, resolved
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict, worst_verdict

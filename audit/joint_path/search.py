@@ -19,7 +19,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
-from satcheck.audit.motion.impact_point import impact_point
+from satcheck.audit.motion.impact import impact_point
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs

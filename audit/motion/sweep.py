@@ -7,8 +7,7 @@ import math
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.motion.impact import Impact, first_impact, possible_overlap
-from satcheck.audit.motion.impact_point import impact_point
+from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
 from satcheck.audit.motion.worst import (

@@ -15,7 +15,6 @@ import numpy as np
 from msgspec import Struct
 
 from satcheck.audit.statics.near import Floats, Indices, cross
-from satcheck.audit.statics.programme import cone, friction_rows, minimum
 from satcheck.core.errors import SatcheckError
 
 # Cones are narrowed by this share to look for forces, and widened to look for a motion: rounding of
@@ -29,6 +28,10 @@ BALANCED = 1e-9
 RESTS = (1e-3, 1e-5, 1e-7, 1e-9, 0.0)
 # A motion is a proof if no forces below this many times the weight of the island prevent it.
 LEAST_FACTOR = 1e6
+
+
+SOLVED = ("Solved", "AlmostSolved")
+PRECISION = 1e-10
 
 
 class Island(Struct, frozen=True):
@@ -242,3 +245,48 @@ def _balance(island: Island, frame: Floats) -> Any:
     shape = (6 * len(island.weights), 3 * len(island.at))
     flat = [np.concatenate([part.ravel() for part in parts]) for parts in (values, rows, columns)]
     return sparse.csc_matrix((flat[0], (flat[1], flat[2])), shape=shape)
+
+
+def friction_rows(friction: Floats, columns: int) -> Any:
+    """Rows of -(mu x_n, x_t, x_t) for each contact, of `columns` variables in all: each three are
+    in a second-order cone."""
+    from scipy import sparse
+
+    scale = np.ones((len(friction), 3))
+    scale[:, 0] = friction
+    own = sparse.diags(-scale.ravel())
+    return sparse.hstack([own, sparse.csc_matrix((own.shape[0], columns - own.shape[1]))])
+
+
+def minimum(quadratic: Any, linear: Floats, rows: Any, limits: Floats, cones: list[Any]) -> Any:
+    """The solution of: minimise x'Px / 2 + q'x with b - A x in the cones."""
+    import clarabel
+    from scipy import sparse
+
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = PRECISION
+    solver = clarabel.DefaultSolver(
+        sparse.csc_matrix(quadratic), linear, sparse.csc_matrix(rows), limits, cones, settings
+    )
+    return solver.solve()
+
+
+def cone(size: int) -> Any:
+    """A second-order cone."""
+    import clarabel
+
+    return clarabel.SecondOrderConeT(size)
+
+
+def zeros(size: int) -> Any:
+    import clarabel
+
+    return clarabel.ZeroConeT(size)
+
+
+def positive(size: int) -> Any:
+    import clarabel
+
+    return clarabel.NonnegativeConeT(size)

@@ -14,8 +14,7 @@ from msgspec.structs import replace
 from satcheck.audit.statics.contacts import PARALLEL, Points
 from satcheck.audit.statics.features import Features
 from satcheck.audit.statics.near import Floats, cross
-from satcheck.audit.statics.subjects import Subject
-from satcheck.audit.statics.terms import Terms
+from satcheck.audit.statics.subjects import Subject, Terms
 from satcheck.audit.statics.touching import Contact, rounding_of
 
 # Contacts with normals that differ by less are of one patch.

@@ -9,8 +9,7 @@ from msgspec import Struct
 
 from satcheck.audit.statics.equilibrium import Answer, Island, find_forces, solve
 from satcheck.audit.statics.near import Floats
-from satcheck.audit.statics.subjects import Subject
-from satcheck.audit.statics.terms import Terms
+from satcheck.audit.statics.subjects import Subject, Terms
 from satcheck.audit.statics.touching import Contact
 from satcheck.report.statics import State
 

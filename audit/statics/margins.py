@@ -10,16 +10,19 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.statics.equilibrium import Island, Programme, find_forces, tangents
-from satcheck.audit.statics.near import Floats
-from satcheck.audit.statics.programme import (
+from satcheck.audit.statics.equilibrium import (
     SOLVED,
+    Island,
+    Programme,
     cone,
+    find_forces,
     friction_rows,
     minimum,
     positive,
+    tangents,
     zeros,
 )
+from satcheck.audit.statics.near import Floats
 from satcheck.report.statics import BALANCED_DEGREES
 
 # The most contact points of all islands together whose tilt and friction are looked for, by some

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from msgspec import Struct
 
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.statics.features import Features, features_of
-from satcheck.audit.statics.mass import (
-    centre_above_origin,
-    volume_and_centre,
-    volume_of_shape,
-)
-from satcheck.audit.statics.near import Floats
+from satcheck.audit.statics.near import Floats, Indices, cross
+from satcheck.core.conventions import Vector
 from satcheck.core.curved.placed import CurvedShape, rows_of
-from satcheck.core.shapes import Sphere
-from satcheck.scene.statics import BodyTerms
+from satcheck.core.shapes import Cone, Primitive, Sphere, half_sizes
+from satcheck.scene.statics import FRICTION, BodyTerms, StaticsTerms, down_of
+from satcheck.scene.units import MICROMETRES, unit_of
+
+if TYPE_CHECKING:
+    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.scene import Scene
+
+
+TOLERANCE_MICROMETRES = 1000  # 1 mm, if the unit of length is known
+TOLERANCE_SHARE = 1e-3  # of the smallest free body, if it is not
+Stated = Literal["gravity", "friction", "tolerance"]
 
 
 class Ball(Struct, frozen=True):
@@ -103,3 +110,80 @@ def _weighed(
 def _centre_of_shape(curved: CurvedShape) -> Floats:
     axis = np.array([row[2] for row in rows_of(curved.turn)])
     return np.array(curved.centre) + centre_above_origin(curved.primitive) * axis
+
+
+def volume_and_centre(points: Floats, triangles: Indices) -> tuple[float, Floats]:
+    """Of the region that the surface winds around once. The volume may be 0 or less."""
+    used = points[triangles]
+    middle = 0.5 * (used.min(axis=(0, 1)) + used.max(axis=(0, 1)))
+    corners = used - middle
+    six = np.einsum("ti,ti->t", corners[:, 0], cross(corners[:, 1], corners[:, 2]))
+    volume = math.fsum(six) / 6.0
+    if volume <= 0:
+        return volume, middle
+    moments = [math.fsum(six * corners[:, :, k].sum(axis=1)) / 24.0 for k in range(3)]
+    return volume, middle + np.array(moments) / volume
+
+
+def volume_of_shape(shape: Primitive) -> float:
+    """Of a curved shape: that of a ball, a cylinder or a cone of its half sizes."""
+    from satcheck.core.shapes import Capsule, Cylinder, Ellipsoid, Sphere
+
+    a, b, c = half_sizes(shape)
+    match shape:
+        case Sphere():
+            return 4.0 / 3.0 * math.pi * a**3
+        case Ellipsoid():
+            return 4.0 / 3.0 * math.pi * a * b * c
+        case Capsule():
+            return math.pi * a * a * (2 * c + 4.0 / 3.0 * a)
+        case Cylinder():
+            return math.pi * a * a * 2 * c
+        case Cone():
+            return math.pi * a * a * 2 * c / 3.0
+        case _:
+            return 8 * a * b * c
+
+
+def centre_above_origin(shape: Primitive) -> float:
+    """The height of the centre of mass of a shape along its own axis."""
+    return -shape.height / 4.0 if isinstance(shape, Cone) else 0.0
+
+
+class Terms(Struct, frozen=True):
+    """gravity: unit. stated: which of these the scene states."""
+
+    gravity: Vector
+    friction: float
+    tolerance: float
+    stated: tuple[Stated, ...]
+
+    def friction_of(self, a: BodyTerms, b: BodyTerms) -> float:
+        """Of a contact of two bodies: the smaller of theirs."""
+        own = [terms.value("friction") for terms in (a, b)]
+        return min([value for value in own if value is not None], default=self.friction)
+
+
+def terms_for(scene: Scene, free: Sequence[PlacedBody]) -> Terms:
+    """free: the bodies that may fall."""
+    stated = scene.statics or StaticsTerms()
+    gravity = stated.gravity or down_of(scene)
+    size = math.hypot(*gravity)
+    x, y, z = (c / size for c in gravity)
+    names: tuple[Stated, ...] = ("gravity", "friction", "tolerance")
+    return Terms(
+        (x, y, z),
+        FRICTION if stated.friction is None else stated.friction,
+        contact_tolerance(scene, free),
+        tuple(name for name in names if getattr(stated, name) is not None),
+    )
+
+
+def contact_tolerance(scene: Scene, free: Sequence[PlacedBody]) -> float:
+    """As stated, else by the unit of length, else by the smallest of these bodies."""
+    if scene.statics is not None and scene.statics.tolerance is not None:
+        return scene.statics.tolerance
+    unit = unit_of(scene.units)
+    if unit is not None:
+        return TOLERANCE_MICROMETRES / MICROMETRES[unit]
+    return TOLERANCE_SHARE * min((body.diagonal for body in free), default=0.0)

@@ -26,8 +26,7 @@ from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, outcome_of
 from satcheck.audit.statics.margins import margins_of
-from satcheck.audit.statics.subjects import subjects_of
-from satcheck.audit.statics.terms import terms_for
+from satcheck.audit.statics.subjects import subjects_of, terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory

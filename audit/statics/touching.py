@@ -18,12 +18,16 @@ from satcheck.audit.ladder.core_climb import start_climbs
 from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.statics.balls import ball_on_ball, ball_on_mesh
-from satcheck.audit.statics.contacts import NOBODY, Points, contact_points
+from satcheck.audit.statics.contacts import (
+    NOBODY,
+    Points,
+    ball_on_ball,
+    ball_on_mesh,
+    contact_points,
+)
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.near import TooManyNear, near_boxes
+from satcheck.audit.statics.near import Floats, TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
-from satcheck.audit.statics.thin import TOO_THIN, may_be_through
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Finding
@@ -32,6 +36,13 @@ from satcheck.report.statics import Touch
 # Coordinates are off by the precision of the files, up to this share of the tolerance.
 PRECISION_SHARE = 0.01
 TOO_FINE = "too many facets within the tolerance of contacts: state a smaller [statics] tolerance"
+
+
+TOO_THIN = "thinner than the tolerance of contacts: state a smaller [statics] tolerance"
+# The cosine below which two normals are opposed.
+OPPOSED = -0.5
+# More pairs of contacts at one place are those of facets finer than the tolerance.
+MOST_NEAR = 2_000_000
 
 
 class Contact(Struct, frozen=True):
@@ -134,3 +145,30 @@ def rounding_of(one: Subject, other: Subject, tolerance: float) -> float:
     """How far coordinates of both may be off by themselves."""
     written = min(one.body.resolution + other.body.resolution, PRECISION_SHARE * tolerance)
     return written + rounding_pad(largest_coordinate(one.body.bounds, other.body.bounds))
+
+
+def may_be_through(
+    points: Points, a: Features | Ball | None, b: Features | Ball | None, tolerance: float
+) -> bool:
+    """Whether a contact may be on the far side. There, the overlap is the thickness of both less
+    the real overlap, and both overlaps are up to the tolerance. Walls may be thinner than their
+    body: then contacts at one place have opposed normals. So may contacts too many to compare."""
+    if a is None or b is None or not len(points):
+        return False
+    normals = np.unique(np.round(points.normals, 7), axis=0)
+    if (_widths(a, normals) + _widths(b, normals)).min() <= 2 * tolerance:
+        return True
+    at = points.at
+    try:
+        i, j = near_boxes(at, at, at, at, 4 * tolerance, MOST_NEAR)
+    except TooManyNear:
+        return True
+    cosines = np.einsum("ci,ci->c", points.normals[i], points.normals[j])
+    return bool((cosines < OPPOSED).any())
+
+
+def _widths(form: Features | Ball, normals: Floats) -> Floats:
+    """Of a body along each normal."""
+    if isinstance(form, Ball):
+        return np.full(len(normals), 2 * form.radius)
+    return np.array([np.ptp(form.points @ normal) for normal in normals])

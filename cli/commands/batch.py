@@ -14,17 +14,14 @@ from typing import Any
 import click
 from msgspec.structs import replace
 
-from satcheck.audit.batch.check_options import World
 from satcheck.audit.batch.check_world import foreign_worlds
-from satcheck.audit.batch.limits import Limits
-from satcheck.audit.batch.manifest import read_manifest
+from satcheck.audit.batch.manifest import Shard, parse_shard, read_manifest
+from satcheck.audit.batch.options import Limits, World
 from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
 from satcheck.audit.batch.results import PART, ResultsFile
 from satcheck.audit.batch.run import ENGINES, Tally, run
-from satcheck.audit.batch.shard import Shard, parse_shard
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.cli import exit_codes, option
-from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
@@ -33,7 +30,7 @@ from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.worlds import check_options
+from satcheck.cli.worlds import asset_names, check_options, tell_foreign
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.plugins import function_at

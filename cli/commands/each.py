@@ -10,9 +10,8 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.check_world import foreign_worlds
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import Limits
 from satcheck.cli import option
-from satcheck.cli.asset_names import asset_names, tell_foreign
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
@@ -21,7 +20,7 @@ from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.worlds import check_worlds
+from satcheck.cli.worlds import asset_names, check_worlds, tell_foreign
 from satcheck.scene.changed_assets import changed_since
 
 # What is about one world, or about one report.

@@ -14,7 +14,7 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats import worst_page
-from satcheck.cli.formats.assets import Assets, overview, summary_line, tell_issues, written
+from satcheck.cli.formats.assets import AssetReports, overview, summary_line, tell_issues, written
 from satcheck.cli.formats.registry import REPORTS
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import Document, talk
@@ -88,9 +88,9 @@ def command(
         most = top or TOP
         found = (each.asset for each in stored)
         seen = overview(found, stored.issues, least=stored.least, top=most)
-        assets = Assets(lambda: (each.asset for each in stored), len(stored))
+        assets = AssetReports(lambda: (each.asset for each in stored), len(stored))
         if top is not None:
-            assets = Assets(lambda: seen.shown, len(seen.shown))
+            assets = AssetReports(lambda: seen.shown, len(seen.shown))
         illustrated: Iterator[Illustrated] = iter(())
         if form == "html" or folder is not None:
             worst = worst_findings(stored, most)

@@ -38,6 +38,9 @@ STRUCTS: dict[str, type[Struct]] = {
 DOCUMENTS = ("report", *sorted({"config", "scene", *STRUCTS} - {"report"}))
 
 
+_PATTERN_OF_LENGTH = r"^[0-9.]+([eE][+-]?[0-9]+)?\s*[a-zA-Z]*$"
+
+
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
@@ -59,9 +62,6 @@ def text(name: str = "report") -> str:
     if name == "config":
         return _of_config()
     return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
-
-
-_PATTERN_OF_LENGTH = r"^[0-9.]+([eE][+-]?[0-9]+)?\s*[a-zA-Z]*$"
 
 
 def _of_config() -> str:

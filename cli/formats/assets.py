@@ -48,7 +48,13 @@ _STYLES = {
 }
 
 
-class Assets:
+# Passing assets are listed up to this many assets.
+LISTED = 60
+# So many are named in the summary.
+NAMED = 3
+
+
+class AssetReports:
     """Assets, also as `Reports`. make: them anew, as there may be more than fit into memory."""
 
     def __init__(self, make: Callable[[], Iterable[Asset]], count: int) -> None:
@@ -68,7 +74,7 @@ class Assets:
 
 
 def written(
-    seen: Overview, assets: Assets, form: str, page: Page, *, timings: bool
+    seen: Overview, assets: AssetReports, form: str, page: Page, *, timings: bool
 ) -> str | Iterable[str]:
     """Return the document about these assets in a format that has no pictures."""
     if form == "json":
@@ -181,12 +187,6 @@ def _listed(asset: Asset) -> list[Problem]:
     if asset.verdict == "incomplete":
         listed.sort(key=lambda p: p.kind not in _OPEN)
     return listed
-
-
-# Passing assets are listed up to this many assets.
-LISTED = 60
-# So many are named in the summary.
-NAMED = 3
 
 
 class Overview(Struct):

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 MOST_NAMES = 4
 
 
+# What was computed, its pairs or result, microseconds (None: none), and more about it.
+_Row = tuple[str, str, float | None, str]
+
+
 def explanation(
     page: Page, report: Report, findings: Sequence[Finding], *, timings: bool
 ) -> list[str]:
@@ -37,10 +41,6 @@ def explanation(
         lines += ["", *fitted(title, page, BOLD)]
         lines += aligned(_rows(plan, timings=timings), page, bold=False)
     return [*lines, ""]
-
-
-# What was computed, its pairs or result, microseconds (None: none), and more about it.
-_Row = tuple[str, str, float | None, str]
 
 
 def _rows(rows: Sequence[_Row], *, timings: bool) -> list[tuple[str, ...]]:

@@ -38,8 +38,6 @@ if TYPE_CHECKING:
 NAMED = 3
 # More overlaps than this are rarely mended one by one.
 MANY = 10
-# Relations of a sweep that a message tells beside that of the bodies as they are placed.
-_ON_THE_WAY = ("penetrating", "touching", "indeterminate")
 _OVERLAP = {
     "penetrating": "{} and {} overlap",
     "contains": "{} contains {}",
@@ -82,7 +80,7 @@ def _passed(report: Report) -> str:
     warnings = sum(severity(finding) == "warning" for finding in report.findings)
     said = _no_collision(report)
     if report.support is not None:
-        from satcheck.cli.formats.support import held, warned
+        from satcheck.cli.formats.details import held, warned
 
         said += f", {held(report.support)}"
         warnings += warned(report.support)
@@ -127,7 +125,7 @@ def _failed(report: Report) -> str:
 
 
 def _unmet(report: Report) -> list[str]:
-    from satcheck.cli.formats.body_answers import unmet
+    from satcheck.cli.formats.details import unmet
 
     failed = unmet(report)
     more = len(failed) - NAMED
@@ -139,7 +137,7 @@ def finding_message(finding: Finding, report: Report) -> str:
     """Return `box and lid overlap (thickness 0.5 mm, depth 1 mm); moving box by (-1, 0, 0) ends the
     overlap.`"""
     text, swept = _clause(finding, report), finding.motion
-    if swept and swept.relation in _ON_THE_WAY and not _hits_only(finding):
+    if swept and not _hits_only(finding) and swept.relation not in ("separated", finding.at_rest):
         text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
     if finding.mtv is not None and finding.mtv_verified:
         way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
@@ -251,7 +249,7 @@ def _left_open(report: Report) -> list[str]:
     if disputed := summary.disputed:
         said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
     if report.answers:
-        from satcheck.cli.formats.body_answers import undecided as undecided_bodies
+        from satcheck.cli.formats.details import undecided as undecided_bodies
 
         said += undecided_bodies(report)
     return said

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 _MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
 
 
+_T = TypeVar("_T")
+
+
 def severity(finding: Finding) -> Severity:
     """A finding that a baseline holds, unchanged, is a note."""
     return "note" if finding.baseline_state == "unchanged" else finding.severity
@@ -57,9 +60,6 @@ def asset_rank(asset: Asset) -> tuple[float, ...]:
     """The lower the worse: by verdict, then by the worst finding."""
     worst = min(map(rank, asset.report.findings), default=(inf,))
     return (ASSET_VERDICTS.index(asset.verdict), *worst)
-
-
-_T = TypeVar("_T")
 
 
 def worst_of(

@@ -23,6 +23,18 @@ if TYPE_CHECKING:
 ROWS = 60
 
 
+_RELATIONS = {
+    "separated": "{a} and {b} are separated",
+    "near": "{a} and {b} are closer than their clearance",
+    "touching": "{a} and {b} touch",
+    "penetrating": "{a} and {b} penetrate",
+    "contains": "{a} contains {b}",
+    "inside": "{a} lies inside {b}",
+    "coincident": "{a} and {b} coincide",
+    "indeterminate": "{a} and {b} are indeterminate",
+}
+
+
 def render(resolution: Resolution, page: Page, output: str | None) -> str:
     """The whole text, final newline included. output: the file that the scene was written to."""
     shown = _shown(resolution.moves)
@@ -60,18 +72,6 @@ def _moves(moves: Sequence[Move], page: Page) -> list[str]:
 
 def _left_line(left: Left) -> str:
     return f"not resolved: {_RELATIONS[left.relation].format(a=left.a, b=left.b)}: {left.reason}"
-
-
-_RELATIONS = {
-    "separated": "{a} and {b} are separated",
-    "near": "{a} and {b} are closer than their clearance",
-    "touching": "{a} and {b} touch",
-    "penetrating": "{a} and {b} penetrate",
-    "contains": "{a} contains {b}",
-    "inside": "{a} lies inside {b}",
-    "coincident": "{a} and {b} coincide",
-    "indeterminate": "{a} and {b} are indeterminate",
-}
 
 
 def _conflicts(summary: ResolutionSummary) -> str:

@@ -46,6 +46,10 @@ REMARKS = 10
 _STYLES = {"fail": BOLD_RED, "incomplete": BOLD_MAGENTA, "pass": GREEN}
 
 
+# Failing pairs that are named, the most frequent first.
+NAMED = 3
+
+
 def render(result: Samples, page: Page, *, top: int | None = None) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr.
 
@@ -150,10 +154,6 @@ def _remarks(samples: Sequence[SampledPose]) -> list[str]:
     if len(lines) > REMARKS:
         return [*lines[:REMARKS], f"{counted(len(lines) - REMARKS, 'more remark')}: JSON has all"]
     return lines
-
-
-# Failing pairs that are named, the most frequent first.
-NAMED = 3
 
 
 def samples_counts(result: Samples) -> str:

@@ -30,6 +30,13 @@ _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
 
 
+_OPEN: tuple[BaselineState, ...] = ("new", "worse", "undecided")
+_UNDECIDED = (
+    " Undecided findings need figures: add --depth, --clearance or --volume, and update the "
+    "baseline from a report that has them."
+)
+
+
 def counts_line(report: Report) -> str:
     """`3 bodies, 3 pairs: 2 separated, 1 penetrating; 1 pair exempt (static).`"""
     pairs = report.summary.pairs
@@ -135,13 +142,6 @@ def doubts(issues: Iterable[Issue]) -> list[str]:
     """Warnings under which the counts say little, once more."""
     said = [issue.message for issue in issues if issue.code in _DOUBTS]
     return [f"Warning: {text}{'' if text.endswith('?') else '.'}" for text in said]
-
-
-_OPEN: tuple[BaselineState, ...] = ("new", "worse", "undecided")
-_UNDECIDED = (
-    " Undecided findings need figures: add --depth, --clearance or --volume, and update the "
-    "baseline from a report that has them."
-)
 
 
 class BesideBaseline(Struct):

@@ -75,15 +75,15 @@ def render(
     for rest in _left_out(report, rows, top):
         lines += fitted(rest, page)
     if any(finding.components for finding in shown):
-        from satcheck.cli.formats.components import component_lines
+        from satcheck.cli.formats.details import component_lines
 
         lines += component_lines(page, shown)
     if report.support is not None:
-        from satcheck.cli.formats.support import support_lines
+        from satcheck.cli.formats.details import support_lines
 
         lines += support_lines(report, page)
     if report.regions:
-        from satcheck.cli.formats.body_answers import region_lines
+        from satcheck.cli.formats.details import region_lines
 
         lines += region_lines(report, page)
     if explain:

@@ -29,6 +29,18 @@ _OTHER_VIEWS = frozenset(
 _ONLY_EXTENT = {"Box": "a bounding box", "Clearance": "a clearance"}
 
 
+_ROOT = "IfcElement"  # the superclass of all bodies; no group
+# Entities that make curved surfaces.
+_CURVED = (
+    *("IfcConic", "IfcBSplineCurve", "IfcBSplineSurface", "IfcSpiral", "IfcPolynomialCurve"),
+    *("IfcCircleProfileDef", "IfcEllipseProfileDef", "IfcRoundedRectangleProfileDef"),
+    *("IfcRevolvedAreaSolid", "IfcSweptDiskSolid", "IfcSurfaceOfRevolution"),
+    *("IfcSphere", "IfcRightCircularCone", "IfcRightCircularCylinder"),
+    *("IfcCylindricalSurface", "IfcSphericalSurface", "IfcToroidalSurface"),
+)
+_FACETS = ("IfcFacetedBrep", "IfcTessellatedItem")  # which the file itself has
+
+
 class Elements(Struct, frozen=True):
     """bodies: by GlobalId. unread: the number of a body -> why its shape is not read. without:
     elements that have neither a shape nor parts. wholes: elements whose parts have the shape.
@@ -131,9 +143,6 @@ def _order(product: Any) -> tuple[str, int]:
     return product.GlobalId or "", product.id()
 
 
-_ROOT = "IfcElement"  # the superclass of all bodies; no group
-
-
 def groups_of(model: Any, bodies: Sequence[Any]) -> dict[int, tuple[str, ...]]:
     """The number of each instance -> its groups."""
     classes: dict[str, tuple[str, ...]] = {}
@@ -167,17 +176,6 @@ def _memberships(body: Any) -> tuple[str, ...]:
 
 def _name(thing: Any) -> str:
     return tidy_name(thing.Name, thing.GlobalId)
-
-
-# Entities that make curved surfaces.
-_CURVED = (
-    *("IfcConic", "IfcBSplineCurve", "IfcBSplineSurface", "IfcSpiral", "IfcPolynomialCurve"),
-    *("IfcCircleProfileDef", "IfcEllipseProfileDef", "IfcRoundedRectangleProfileDef"),
-    *("IfcRevolvedAreaSolid", "IfcSweptDiskSolid", "IfcSurfaceOfRevolution"),
-    *("IfcSphere", "IfcRightCircularCone", "IfcRightCircularCylinder"),
-    *("IfcCylindricalSurface", "IfcSphericalSurface", "IfcToroidalSurface"),
-)
-_FACETS = ("IfcFacetedBrep", "IfcTessellatedItem")  # which the file itself has
 
 
 def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:

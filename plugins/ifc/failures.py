@@ -24,6 +24,9 @@ _ABOVE = (
 )
 
 
+_INSTANCE = re.compile(r"#(\d+)=")
+
+
 class Failures(Struct, frozen=True):
     """Number of a body -> the first message about something that its shape lacks. faces: number of
     a body -> the number of messages about faces that it lacks."""
@@ -73,9 +76,6 @@ def _users(model: Any, number: int) -> set[int]:
             seen.update(each.id() for each in above)
             waiting += above
     return users
-
-
-_INSTANCE = re.compile(r"#(\d+)=")
 
 
 class Message(Struct, frozen=True):

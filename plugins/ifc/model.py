@@ -40,6 +40,21 @@ _SHAPING = (
 )
 
 
+# Of these classes, and of those below them.
+_READ = (
+    *("IfcProduct", "IfcTypeProduct", "IfcGroup", "IfcContext", "IfcProject", "IfcUnitAssignment"),
+    *("IfcObjectPlacement", "IfcProductRepresentation", "IfcRepresentation"),
+    *("IfcRepresentationMap", "IfcMappedItem", "IfcRelAggregates", "IfcRelNests"),
+    *("IfcRelVoidsElement", "IfcRelFillsElement", "IfcRelProjectsElement"),
+    *("IfcRelConnectsElements", "IfcRelCoversBldgElements", "IfcRelConnectsPorts"),
+    *("IfcRelConnectsPortToElement", "IfcRelAssignsToGroup", "IfcRelDefinesByType"),
+    "IfcRelContainedInSpatialStructure",
+)
+_TEXTS = frozenset(("GlobalId", "RepresentationIdentifier", "RepresentationType"))
+# Many programs leave it empty, and nobody reads it.
+_UNREAD = frozenset(("OwnerHistory",))
+
+
 def open_model(data: memoryview) -> Any:
     """The ifcopenshell.file. Raises MeshFileError."""
     content = unpacked(data)
@@ -150,21 +165,6 @@ def _refuse_cycles(model: Any) -> None:
             chain[place] = None
             place = above.get(place)
         fine.update(chain)
-
-
-# Of these classes, and of those below them.
-_READ = (
-    *("IfcProduct", "IfcTypeProduct", "IfcGroup", "IfcContext", "IfcProject", "IfcUnitAssignment"),
-    *("IfcObjectPlacement", "IfcProductRepresentation", "IfcRepresentation"),
-    *("IfcRepresentationMap", "IfcMappedItem", "IfcRelAggregates", "IfcRelNests"),
-    *("IfcRelVoidsElement", "IfcRelFillsElement", "IfcRelProjectsElement"),
-    *("IfcRelConnectsElements", "IfcRelCoversBldgElements", "IfcRelConnectsPorts"),
-    *("IfcRelConnectsPortToElement", "IfcRelAssignsToGroup", "IfcRelDefinesByType"),
-    "IfcRelContainedInSpatialStructure",
-)
-_TEXTS = frozenset(("GlobalId", "RepresentationIdentifier", "RepresentationType"))
-# Many programs leave it empty, and nobody reads it.
-_UNREAD = frozenset(("OwnerHistory",))
 
 
 class _Attribute(Struct, frozen=True):

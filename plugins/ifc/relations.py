@@ -31,6 +31,10 @@ _HOSTS = (
 )  # what may be of reinforced concrete
 
 
+# Of the smaller box: less than what a wall shares with its duplicate.
+_MOST_SHARED = 0.5
+
+
 class Relations(Struct, frozen=True):
     """groups: the number of a body -> the groups that rules name."""
 
@@ -163,10 +167,6 @@ def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
 
 def _called(element: Any) -> str:
     return f"{element.is_a()} {element.GlobalId}"
-
-
-# Of the smaller box: less than what a wall shares with its duplicate.
-_MOST_SHARED = 0.5
 
 
 def meet_in_a_corner(a: Shape, b: Shape) -> bool:

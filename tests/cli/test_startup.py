@@ -94,8 +94,8 @@ def test_a_slot_of_a_batch_imports_no_large_library(tmp_path: Path) -> None:
     (tmp_path / "apart.toml").write_text(scene)
     code = """
 import sys
-from satcheck.audit.batch.check_options import CheckOptions
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions
+from satcheck.audit.batch.options import Limits
 from satcheck.audit.batch.slot_server import Chunk, answers_in, request_of, serve
 worlds = ((sys.argv[1],), ("box.obj", "box_pushed.stl"), ("box.obj", "box_flush.stl"))
 reply = serve(request_of(Chunk(worlds, CheckOptions(), Limits())))

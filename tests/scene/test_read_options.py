@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.batch.check_options import CheckOptions
 from satcheck.audit.batch.key import terms_of
+from satcheck.audit.batch.options import CheckOptions
 from satcheck.scene import load_scene
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.readers import readers, stated_options

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.cli.formats.components import facts
+from satcheck.cli.formats.details import facts
 from satcheck.cli.formats.messages import finding_message, measured, summary_line
 from satcheck.cli.formats.order import is_listed, severity, worst_first
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh
-from satcheck.cli.formats.picture.simplified import simplified
+from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh, simplified
 from satcheck.core import Mesh
 from satcheck.scene.bodies import IDENTITY
 

@@ -39,6 +39,13 @@ if TYPE_CHECKING:
 AUTHOR = "satcheck"
 
 
+SIZE = (800, 600)  # of a picture, in pixels
+COLOURS = ("2970D6", "E68C1A")  # of A and B, as in the pictures: red, green, blue
+_UNIT = "m"  # of BCF
+# From y up to z up, the axes of BCF: (x, y, z) becomes (x, -z, y).
+_Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+
 def render(report: Report, scene: Scene) -> bytes:
     """The zip archive."""
     require_drawable(scene)
@@ -127,13 +134,6 @@ def _xml(element: Any) -> str:
     depends on whether lxml is installed."""
     text = XmlSerializer(writer=XmlEventWriter).render(element)
     return "\n".join(map(harmless, text.split("\n")))
-
-
-SIZE = (800, 600)  # of a picture, in pixels
-COLOURS = ("2970D6", "E68C1A")  # of A and B, as in the pictures: red, green, blue
-_UNIT = "m"  # of BCF
-# From y up to z up, the axes of BCF: (x, y, z) becomes (x, -z, y).
-_Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
 class Snapshots:

@@ -13,10 +13,9 @@ from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from satcheck._version import __version__
 from satcheck.audit.batch import dask_worker
-from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.dask_engine import check_with_dask
-from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot import Slot
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError

@@ -12,9 +12,8 @@ from typing import Any
 
 import pytest
 
-from satcheck.audit.batch.check_options import CheckOptions, World
 from satcheck.audit.batch.key import digest
-from satcheck.audit.batch.limits import Limits
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_of, serve

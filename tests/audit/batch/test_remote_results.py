@@ -10,7 +10,7 @@ from typing import Any
 import fsspec
 import pytest
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from satcheck.audit.batch.remote import local_results
 from satcheck.audit.batch.results import PART, Head, ResultsFile
 from satcheck.core.errors import SatcheckError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.audit.batch.shard import Shard
+from satcheck.audit.batch.manifest import Shard
 
 WORLDS = [(f"scenes/{number}.toml",) for number in range(10_000)]
 

@@ -16,9 +16,8 @@ from typing import Any
 
 import pytest
 
-from satcheck.audit.batch.check_options import CheckOptions, World
-from satcheck.audit.batch.limits import Limits
 from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot import Slot

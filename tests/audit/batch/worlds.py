@@ -6,7 +6,7 @@ import random
 import shutil
 from pathlib import Path
 
-from satcheck.audit.batch.check_options import World
+from satcheck.audit.batch.options import World
 from tests.cli.process import SAMPLES
 
 

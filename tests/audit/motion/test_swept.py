@@ -8,8 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.movers import Movers
-from satcheck.audit.motion.swept import EVERYWHERE, SweptBoxes, may_meet, swept_box
+from satcheck.audit.motion.movers import EVERYWHERE, Movers, SweptBoxes, may_meet, swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.motion.turn import applied
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint

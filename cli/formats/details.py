@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.numbers import number, vector
+from satcheck.cli.formats.numbers import at_most, bounds, number, vector
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
-from satcheck.cli.formats.words import counted, with_unit
+from satcheck.cli.formats.words import NEGLIGIBLE, counted, with_unit
+from satcheck.report.verdict import is_unmet
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
-    from satcheck.report.report import Report
+    from satcheck.report.components import Component
+    from satcheck.report.regions import InsideFinding
+    from satcheck.report.report import Finding, Report
     from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding
 
 MOST_BODIES = 40  # JSON has them all
@@ -21,6 +24,11 @@ MOST_LINKS = 5  # of a chain
 _RANK = {"no": 0, "open": 1, "yes": 2}
 _WORDS = {"yes": "{}", "no": "not {}", "open": "{} is open"}
 _STYLES = {"no": BOLD_RED, "open": YELLOW, "yes": ""}
+
+
+# Of each pair; JSON has them all.
+MOST_COMPONENTS = 8
+MOST_BODIES = 40  # JSON has them all
 
 
 def support_lines(report: Report, page: Page) -> list[str]:
@@ -125,3 +133,85 @@ def _assumptions(statics: Statics, units: str | None) -> Iterator[str]:
     }
     for name, value in values.items():
         yield f"{name} {value}" + ("" if name in statics.stated else " (assumed)")
+
+
+def component_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
+    """The lines between the table and the remarks."""
+    lines: list[str] = []
+    for finding in findings:
+        if finding.components is None or not (items := finding.components.items):
+            continue
+        title = f"{finding.a} and {finding.b}: {counted(len(items), 'connected overlap')}"
+        title += "" if finding.components.resolved else ", perhaps not all"
+        lines += fitted(title, page, BOLD)
+        for item in items[:MOST_COMPONENTS]:
+            lines += fitted("  " + ", ".join(facts(item, finding)), page)
+        if rest := len(items) - MOST_COMPONENTS:
+            lines += fitted(f"  {counted(rest, 'thinner one')}", page) if rest > 0 else []
+    return lines
+
+
+def facts(item: Component, finding: Finding) -> Iterator[str]:
+    if item.thickness_bounds is None:
+        yield "thickness not known"
+    else:
+        low, high = item.thickness_bounds
+        yield f"{'<= ' + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)} thick"
+    yield f"at {vector(item.point)}"
+    if item.volume is not None:
+        yield f"volume {number(item.volume)}"
+    if item.passes in ("a-through-b", "both"):
+        yield f"{finding.a} passes through {finding.b}"
+    if item.passes in ("b-through-a", "both"):
+        yield f"{finding.b} passes through {finding.a}"
+
+
+def unmet(report: Report) -> list[str]:
+    """`top is not stable: no contact forces hold it`, of each failing body once."""
+    said: dict[str, str] = {}
+    for answer in report.answers:
+        if is_unmet(answer, report.settings.fail_on):
+            sentence = f"{answer.body} is not {answer.question}: {answer.reason}"
+            said.setdefault(answer.body, sentence)
+    return list(said.values())
+
+
+def undecided(report: Report) -> list[str]:
+    """`the support of 2 bodies is open`."""
+    held = report.support.findings if report.support else ()
+    lying = report.regions.findings if report.regions else ()
+    counts = {
+        "the support of {} is open": len({f.body for f in held if f.answer == "open"}),
+        "the region of {} is open": len({f.body for f in lying if f.answer == "open"}),
+    }
+    return [said.format(counted(n, "body", "bodies")) for said, n in counts.items() if n]
+
+
+def region_lines(report: Report, page: Page) -> list[str]:
+    """A line for each region with the number of bodies in it, and one for each other body."""
+    regions = report.regions
+    if not regions:
+        return []
+    unit = unit_of(report.units)
+    lines = []
+    findings = sorted(regions.findings, key=lambda finding: finding.region)
+    for region, group in groupby(findings, key=lambda finding: finding.region):
+        own = list(group)
+        count = sum(finding.answer == "yes" for finding in own)
+        tolerance = with_unit(number(regions.tolerance), unit)
+        said = f"Inside {region}: {count} of {counted(len(own), 'body', 'bodies')}"
+        lines += fitted(f"{said} (tolerance {tolerance})", page, BOLD)
+        lines += _others(own, page)
+    return lines
+
+
+def _others(findings: list[InsideFinding], page: Page) -> Iterator[str]:
+    """Bodies that are outside first."""
+    others = [finding for finding in findings if finding.answer != "yes"]
+    others.sort(key=lambda finding: finding.answer)  # no before open
+    for finding in others[:MOST_BODIES]:
+        state = "not inside" if finding.answer == "no" else "open"
+        style = BOLD_RED if finding.answer == "no" else YELLOW
+        yield from fitted(f"  {finding.body}: {state}: {finding.reason}", page, style)
+    if (rest := len(others) - MOST_BODIES) > 0:
+        yield from fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page)

@@ -1,0 +1,101 @@
+"""How worlds are read: the options of `load_scene` that a call gives for all its worlds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from msgspec import Struct
+
+from satcheck.audit import Settings
+from satcheck.audit.request.in_units import settings_in_units
+from satcheck.core.errors import SatcheckError
+from satcheck.report.settings import StatedConfig
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.known_meshes import KnownMeshes
+from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
+from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.scene_builder import Split
+from satcheck.scene.units import Length
+
+# The files of a world, in the order in which they are read; the first one names it.
+World = tuple[str, ...]
+SettingValue = bool | int | float | str | tuple[str, ...] | Length | None
+# A measured time is at least this long, as clocks are coarse.
+_SHORTEST_SECONDS = 1e-3
+
+
+class LoadOptions(Struct, frozen=True, kw_only=True):
+    """As in `load_scene`."""
+
+    split: Split | None = None
+    packages: Mapping[str, str] | None = None
+    geometry: GeometryKind | None = None
+    folders: tuple[str, ...] = ()
+    allow_outside: bool = False
+    units: str | None = None
+    rules: tuple[str, ...] = ()
+    between: tuple[tuple[str, str], ...] = ()
+    reading: ReadOptions = ReadOptions()
+    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
+    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
+
+    def load(
+        self, files: Sequence[str], *, hashed: bool = True, known: KnownMeshes | None = None
+    ) -> Scene:
+        """hashed, known: as in `load_scene`. Raises what `load_scene` raises."""
+        return load_scene(
+            files,
+            split=self.split,
+            packages=self.packages,
+            geometry=self.geometry,
+            folders=self.folders,
+            allow_outside=self.allow_outside,
+            units=self.units,
+            hashed=hashed,
+            known=known,
+            rules=self.rules,
+            between=self.between,
+            reading=self.reading,
+            seconds_per_file=self.seconds_per_file,
+            megabytes_per_file=self.megabytes_per_file,
+        )
+
+
+class CheckOptions(LoadOptions, frozen=True, kw_only=True):
+    """settings: values of `audit.Settings` by name, lengths as given. names: what messages call
+    these lengths. places: state where scene files name the bodies of findings. baseline: a file of
+    known findings. config: what a report states of a config file."""
+
+    settings: Mapping[str, SettingValue] = {}
+    names: Mapping[str, str] = {}
+    places: bool = True
+    baseline: str | None = None
+    config: StatedConfig | None = None
+
+    def settings_for(self, scene: Scene) -> Settings:
+        """Lengths are in the units of the scene. Raises SatcheckError (`bad-setting`)."""
+        try:
+            return settings_in_units(self.settings, scene, self.names)
+        except ValueError as error:
+            raise SatcheckError("bad-setting", str(error)) from None
+
+
+class Limits(Struct, frozen=True):
+    """For one world. seconds: wall-clock time. megabytes: address space of its process, in MiB."""
+
+    seconds: float = 600.0
+    megabytes: int = 4096
+
+
+class Pace:
+    """size: worlds of the next chunk. It begins at 1, as the first world may take long, and at most
+    doubles with each chunk that is measured."""
+
+    def __init__(self, largest: int) -> None:
+        self._largest = largest
+        self.size = 1
+
+    def measure(self, worlds: int, took: float, wanted: float) -> None:
+        """took, wanted: seconds, for these worlds and for the next chunk."""
+        fitting = round(worlds * wanted / max(took, _SHORTEST_SECONDS))
+        self.size = max(1, min(2 * self.size, fitting, self._largest))
