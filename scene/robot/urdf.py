@@ -18,6 +18,7 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.readers import RobotFile
+from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy
@@ -37,7 +38,6 @@ from satcheck.scene.robot.model import (
 )
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
-from satcheck.scene.robot.xml_tree import Element, RefusedElement
 
 _KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
