@@ -16,15 +16,8 @@ if TYPE_CHECKING:
     from satcheck.scene.planar.turns import Floats, Indices
 
 Coordinate = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
-Point = Annotated[tuple[Coordinate, Coordinate], Meta(extra={"wanted": "[x, y]"})]
-Points = Annotated[
-    tuple[Point, ...],
-    Meta(
-        min_length=3,
-        extra={"wanted": "a list of at least three points"},
-        extra_json_schema={"uniqueItems": True},
-    ),
-]
+Point = tuple[Coordinate, Coordinate]
+Points = Annotated[tuple[Point, ...], Meta(min_length=3, extra_json_schema={"uniqueItems": True})]
 
 
 class Outline(Struct, frozen=True, forbid_unknown_fields=True, tag_field="type", tag="outline"):
