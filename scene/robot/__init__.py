@@ -16,7 +16,7 @@ from satcheck.scene.robot.assembly import (
 )
 from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
 from satcheck.scene.robot.model import Joint, Link, Robot, State
-from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.pose_batches import RandomPoses
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
@@ -28,7 +28,6 @@ __all__ = [
     "Joint",
     "JointPath",
     "Link",
-    "MeshPlaces",
     "Part",
     "Pose",
     "Posture",

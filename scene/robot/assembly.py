@@ -25,7 +25,7 @@ from satcheck.scene.robot.model import (
     Robot,
     State,
 )
-from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf
 from satcheck.scene.words import listed
@@ -245,7 +245,7 @@ def _piece(collision: Collision) -> str | None:
     return None
 
 
-def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | MeshFileError:
+def _source(collision: Collision, places: FilePlaces) -> Path | Primitive | MeshFileError:
     match collision.geometry:
         case MeshReference(uri):
             try:

@@ -36,14 +36,13 @@ _MODELS = "models"  # the usual name of a folder with Gazebo models, each a fold
 MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old Gazebo models
 
 
-class MeshPlaces:
-    """Resolves the URIs of one URDF or SDFormat file.
+class FilePlaces:
+    """Resolves the URIs of one URDF or SDFormat file, and of the files that it includes (`of`).
 
     packages: the name of a package or a server, or of a folder in it ("name/meshes") -> its
     location; the longest matching name counts. Other packages are searched in the folders above the
     file, their siblings and the folders `models` among these, then in the folders of environment
     variables. They match by the name of the folder, or else by the <name> in package.xml.
-    included_by: the file that leads to this one; what it may open, this one may open too.
     """
 
     def __init__(
@@ -51,15 +50,22 @@ class MeshPlaces:
         file: str,
         packages: Mapping[str, str | Path] | None = None,
         permitted: Permitted = NOTHING_ELSE,
-        *,
-        included_by: MeshPlaces | None = None,
     ) -> None:
-        self._included_by = included_by
         self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._permitted = permitted
         self._root = self._upwards(self._steps_to_root())
         self._own = followed(self._root)
+        self._includer: FilePlaces | None = None
+        self._places = {file: self}
+
+    def of(self, file: str) -> FilePlaces:
+        """The places of an included file, which may open what this one may open."""
+        if file not in self._places:
+            included = FilePlaces(file, self._packages, self._permitted)
+            included._includer = self
+            self._places[file] = included
+        return self._places[file]
 
     def locate(self, uri: str, *, models: bool = False) -> Path:
         """The path of an existing file, relative if the path of the URDF is relative. models: or of
@@ -194,36 +200,10 @@ class MeshPlaces:
     def _may_open(self, place: Path) -> bool:
         if self._permitted.has(place, self._own):
             return True
-        return self._included_by is not None and self._included_by._may_open(place)
+        return self._includer is not None and self._includer._may_open(place)
 
     def _outside(self) -> str:
         return self._permitted.beyond(f"of {self._own}, where the package of the file is")
-
-
-class FilePlaces:
-    """The MeshPlaces of a file and of the files that it includes. All of these may open what the
-    first file may open. packages, permitted: as for MeshPlaces."""
-
-    def __init__(
-        self,
-        first: str,
-        packages: Mapping[str, str | Path] | None = None,
-        permitted: Permitted = NOTHING_ELSE,
-    ) -> None:
-        self._packages = packages
-        self._permitted = permitted
-        self._first = MeshPlaces(first, packages, permitted)
-        self._places = {first: self._first}
-
-    def of(self, file: str) -> MeshPlaces:
-        if file not in self._places:
-            self._places[file] = MeshPlaces(
-                file,
-                self._packages,
-                self._permitted,
-                included_by=self._first,
-            )
-        return self._places[file]
 
 
 def _name_in_manifest(folder: Path) -> str | None:
