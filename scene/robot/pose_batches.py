@@ -13,9 +13,9 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.core.transform import Transform, compose
+from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Scene
-from satcheck.scene.robot.kinematics import link_poses
+from satcheck.scene.robot.assembly import body_poses, link_frames
 from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.poses import Pose, Posture, check_names, complete, settle
 
@@ -124,18 +124,9 @@ class PoseBatch(Struct, frozen=True):
         return placements(scene, link_frames(scene, self.joints), self.count)
 
 
-def link_frames(scene: Scene, joints: Mapping[str, Any]) -> list[dict[str, Transform]]:
-    """Of each robot: link -> its pose, whose entries are arrays where those of the joints are."""
-    return [link_poses(robot.robot, joints) for robot in scene.robots]
-
-
 def placements(scene: Scene, frames: Sequence[Mapping[str, Transform]], count: int) -> Numbers:
     """See `PoseBatch.matrices`. frames: of the links in `count` poses."""
-    of_links = {
-        body.id: compose(links[body.link], body.offset)
-        for robot, links in zip(scene.robots, frames, strict=True)
-        for body in robot.bodies
-    }
+    of_links = body_poses(scene, frames)
     placed = np.empty((count, len(scene.bodies), 12))
     for k, body in enumerate(scene.bodies):
         matrix = of_links.get(body.id, body.transform or IDENTITY)
