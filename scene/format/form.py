@@ -154,11 +154,13 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
     for key in keys:
         value = value[key]
     if strange := re.search("unknown field `(.*)`", what):
-        hint = meant(strange[1], _keys_of(kind, value) - value.keys())
+        known = _keys_of(kind, value, inner=bool(keys))
+        hint = "" if strange[1] in known else meant(strange[1], known - value.keys())
         return Wrong(f"unknown key{hint}", *keys, strange[1])
     if missing := re.search("missing required field `(.*)`", what):
         return Wrong(f'"{missing[1]}" is missing', *keys)
-    if isinstance(value, float | int) and not -LARGEST <= value <= LARGEST:
+    is_number = what.startswith(("Expected `float", "Number out of range"))
+    if is_number and isinstance(value, float | int) and not -LARGEST <= value <= LARGEST:
         message = f"a finite number expected, not {shown(value)}"
         return Wrong(message, *keys, code="non-finite")
     choices = _CHOICES.get(next((key for key in reversed(keys) if isinstance(key, str)), ""), ())
@@ -166,12 +168,13 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
     return Wrong(f"{_wanted(what, choices)} expected, not {shown(value)}{hint}", *keys)
 
 
-def _keys_of(kind: type, table: Mapping[str, Any]) -> set[str]:
-    """The keys of the shape that the table is, or else of all tables of this form of scene files.
-    kind: one of them."""
+def _keys_of(kind: type[Struct], table: Mapping[str, Any], *, inner: bool) -> set[str]:
+    """The keys that a table may have. inner: it lies somewhere in a table of this kind: those of
+    its shape, or else of all tables of this form of scene files."""
     shapes = [each for each in _SHAPES if each.__struct_config__.tag == table.get("type")]
     tables = [each for each in Table.__subclasses__() if each.__module__ == kind.__module__]
-    return {key for each in shapes or tables for key in each.__struct_encode_fields__}
+    near = (shapes or tables) if inner else [kind]
+    return {key for each in near for key in each.__struct_encode_fields__}
 
 
 def _wanted(what: str, choices: Iterable[str]) -> str:
