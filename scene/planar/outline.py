@@ -13,7 +13,7 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
 
 if TYPE_CHECKING:
-    from satcheck.scene.planar.turns import Floats, Indices
+    from satcheck.scene.planar.region import Floats, Indices
 
 Coordinate = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
 Point = tuple[Coordinate, Coordinate]
@@ -65,8 +65,7 @@ def _refuse_crossing(points: tuple[Point, ...]) -> None:
     common corner. Exact."""
     import numpy as np
 
-    from satcheck.scene.planar.region import fan_of
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import fan_of, turns
 
     corners, count = _floats(points), len(points)
     if not turns(corners, fan_of(count)).any():
@@ -92,8 +91,7 @@ def _refuse_crossing(points: tuple[Point, ...]) -> None:
 
 def _in_order(points: tuple[Point, ...]) -> tuple[Point, ...]:
     """The corners as `Outline` has them."""
-    from satcheck.scene.planar.region import fan_of
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import fan_of, turns
 
     least = points.index(min(points))
     start, *others = points[least:] + points[:least]
@@ -107,7 +105,7 @@ def _cut(points: tuple[Point, ...]) -> tuple[Floats, Indices]:
     """The corners, (n, 2), and triangles between them whose boundary is the polygon."""
     import numpy as np
 
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import turns
 
     corners = _floats(points)
     cut = cut_polygons(
