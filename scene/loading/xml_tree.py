@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import IO, NoReturn
@@ -21,6 +22,9 @@ UNDECLARED = "undeclared:"
 _DECLARATION = "<?xml version="  # if a parser fails within these characters, the file is not XML
 # Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_PREFIX = re.compile(r"[<\s]([^\W\d][\w.-]*):[^\W\d]")  # of an element or an attribute
+# The name of the outermost element with all before it, and its attributes.
+_OUTERMOST = re.compile(r"((?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<]++)*+<[^\s/>]+)([^>]*)", re.DOTALL)
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
 
@@ -90,51 +94,19 @@ def split_name(name: str) -> tuple[str, str]:
     return namespace, local
 
 
-class UndeclaredPrefixes:
-    """Resolves namespaces for XML that uses undeclared prefixes. The namespace of such a prefix is
-    `UNDECLARED` and the prefix.
-
-    start, end: called for each element, with names as a parser with namespaces reports them.
-    """
-
-    def __init__(
-        self,
-        parser: expat.XMLParserType,
-        start: Callable[[str, dict[str, str]], None],
-        end: Callable[[str], None],
-    ) -> None:
-        self._start = start
-        self._end = end
-        self._scopes: list[dict[str, str]] = [{"xml": "xml"}]
-        parser.StartElementHandler = self._on_start
-        parser.EndElementHandler = self._on_end
-
-    def _on_start(self, name: str, attributes: dict[str, str]) -> None:
-        declared = {
-            key.partition(":")[2]: attributes.pop(key)
-            for key in list(attributes)
-            if key == "xmlns" or key.startswith("xmlns:")
-        }
-        self._scopes.append({**self._scopes[-1], **declared} if declared else self._scopes[-1])
-        self._start(
-            self._resolved(name, self.namespace("") or ""),
-            {self._resolved(key, ""): value for key, value in attributes.items()},
-        )
-
-    def _on_end(self, name: str) -> None:
-        self._end(self._resolved(name, self.namespace("") or ""))
-        self._scopes.pop()
-
-    def namespace(self, prefix: str) -> str | None:
-        """The namespace of a prefix at this point; prefix "" for names without one."""
-        return self._scopes[-1].get(prefix)
-
-    def _resolved(self, name: str, default: str) -> str:
-        prefix, colon, local = name.partition(":")
-        if not colon:
-            return f"{default}{_NAMESPACE_SEPARATOR}{name}" if default else name
-        namespace = self._scopes[-1].get(prefix, f"{UNDECLARED}{prefix}")
-        return f"{namespace}{_NAMESPACE_SEPARATOR}{local}"
+def with_declared_prefixes(data: bytes) -> bytes:
+    """The document, whose outermost element declares all prefixes: the namespace of one without a
+    declaration is `UNDECLARED` and the prefix."""
+    is_wide = data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
+    coding = ("utf-16", "replace") if is_wide else ("utf-8", "surrogateescape")
+    text = data.decode(*coding)
+    outermost = _OUTERMOST.match(text)
+    if outermost is None:
+        return data
+    known = {"xml", "xmlns", *re.findall(r"\bxmlns:([\w.-]+)", outermost[2])}
+    used = dict.fromkeys(prefix for prefix in _PREFIX.findall(text) if prefix not in known)
+    more = "".join(f' xmlns:{prefix}="{UNDECLARED}{prefix}"' for prefix in used)
+    return f"{outermost[1]}{more}{text[outermost.end(1) :]}".encode(*coding)
 
 
 class RefusedElement(SceneFileError):
