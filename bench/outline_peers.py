@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from bench.outline_pairs import PolygonPair, loops_of
 from satcheck import core
-from satcheck.scene.planar.prism import prism
+from satcheck.scene.planar.region import prism
 
 Query = Literal["overlap", "depth", "distance"]
 Floats = NDArray[np.float64]

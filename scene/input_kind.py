@@ -60,6 +60,6 @@ def _first_elements(location: Path) -> list[str]:
         return [""]
     if not head.lstrip().startswith((b"<", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
         return [""]
-    from satcheck.scene.robot.xml_tree import first_tags
+    from satcheck.scene.robot.reading import first_tags
 
     return first_tags(head, 2) or [""]

@@ -69,7 +69,7 @@ def load_scene(
     objects (`o`) of OBJ; other formats have none.
     "components": each edge-connected component of these is a body. None: "nodes" for a single file,
     else "none".
-    packages: folders of the packages and models that a robot names, see `robot.MeshPlaces`.
+    packages: folders of the packages and models that a robot names, see `robot.FilePlaces`.
     folders: files in them may name other files in them, and not only in their own folder.
     allow_outside: a scene, a robot, a USD or glTF file may name files outside of these folders.
     hashed: compute the SHA-256 of each file, which some reports contain.

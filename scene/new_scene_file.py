@@ -23,7 +23,7 @@ from satcheck.scene.loading.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
 from satcheck.scene.path_kind import followed, is_file
-from satcheck.scene.rules import KEYS, Rule, Selector
+from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
 from satcheck.scene.scene_builder import SceneBuilder
 from satcheck.scene.units import unit_in
 
@@ -196,9 +196,7 @@ def _placement(transform: Transform, by: Vector) -> dict[str, Any]:
 
 
 def _rule(rule: Rule) -> dict[str, Any]:
-    stated = {key: getattr(rule, key) for key in KEYS}
-    entry = {"a": rule.a.text, "b": rule.b.text}
-    entry |= {key: value for key, value in stated.items() if value is not None}
+    entry = {"a": rule.a.text, "b": rule.b.text} | stated_keys(rule, KEYS)
     reason = rule.reason or (f"allowed by {rule.name}" if rule.allowed else "")
     return entry | {"reason": reason} if reason else entry
 

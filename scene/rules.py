@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterator, Sequence
-from typing import Literal, Protocol, TypeVar, get_args
+from typing import Any, Literal, Protocol, TypeVar, get_args
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -176,12 +176,9 @@ class Rule(Struct, frozen=True, kw_only=True):
         """The same rule in another unit: lengths times `scale`, the volume times its cube."""
         if scale == 1.0:
             return self
-        values = {key: getattr(self, key) for key in (*LENGTHS, "max_volume")}
-        factors = {"max_volume": scale**3}
-        known = {key: value for key, value in values.items() if value is not None}
-        return replace(
-            self, **{key: value * factors.get(key, scale) for key, value in known.items()}
-        )
+        known = stated_keys(self, (*LENGTHS, "max_volume"))
+        factors = dict.fromkeys(LENGTHS, scale) | {"max_volume": scale**3}
+        return replace(self, **{key: value * factors[key] for key, value in known.items()})
 
     @property
     def name(self) -> str:
@@ -219,6 +216,12 @@ def require_effect(rule: HasSeverity, keys: Sequence[str]) -> None:
         raise _refused(f"severity must be one of {names}, not {rule.severity!r}")
     if all(getattr(rule, key) is None for key in keys):
         raise _refused(f"the rule has no effect: give it one of {', '.join(keys)}")
+
+
+def stated_keys(rule: object, keys: Sequence[str]) -> dict[str, Any]:
+    """The keys that are set, with their values."""
+    values = {key: getattr(rule, key) for key in keys}
+    return {key: value for key, value in values.items() if value is not None}
 
 
 def _refused(message: str) -> SatcheckError:

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.loading.readers import reader_named
-from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect
+from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect, stated_keys
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Scene
@@ -139,9 +139,9 @@ def terms_of(bodies: Sequence[Selectable], rules: Sequence[BodyRule]) -> list[Bo
     """What the rules say about each body."""
     rules_of: dict[str, dict[str, BodyRule]] = {body.id: {} for body in bodies}
     for rule in rules:
-        set_keys = [key for key in KEYS if getattr(rule, key) is not None]
+        own = dict.fromkeys(stated_keys(rule, KEYS), rule)
         for body in rule.bodies.select(bodies):
-            rules_of[body.id] |= dict.fromkeys(set_keys, rule)
+            rules_of[body.id] |= own
     return [BodyTerms(rules_of[body.id]) for body in bodies]
 
 
@@ -149,10 +149,7 @@ def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:
     """The terms of several files together. Raises SatcheckError `bad-rule` where they differ."""
     values: dict[str, Any] = {}
     for terms in stated:
-        for key in StaticsTerms.__struct_fields__:
-            value = getattr(terms, key)
-            if value is None:
-                continue
+        for key, value in stated_keys(terms, StaticsTerms.__struct_fields__).items():
             if values.setdefault(key, value) != value:
                 raise _refused(f"two inputs state another {key} in [statics]: state it once")
     return StaticsTerms(**values)
@@ -184,16 +181,12 @@ def terms_values(scene: Scene) -> dict[str, Any]:
     format of a mesh does not say where down is."""
     stated = scene.statics or StaticsTerms()
     gravity = stated.gravity or down_of(scene)
-    values = {key: getattr(stated, key) for key in ("friction", "tolerance")}
-    known = {key: value for key, value in values.items() if value is not None}
-    return {"gravity": list(gravity), **known}
+    return {"gravity": list(gravity), **stated_keys(stated, ("friction", "tolerance"))}
 
 
 def body_rule_values(rule: BodyRule) -> dict[str, Any]:
     """The rule as a scene file states it."""
-    values = {key: getattr(rule, key) for key in KEYS}
-    entry: dict[str, Any] = {"bodies": rule.bodies.text}
-    entry |= {key: value for key, value in values.items() if value is not None}
+    entry = {"bodies": rule.bodies.text} | stated_keys(rule, KEYS)
     return entry | {"reason": rule.reason} if rule.reason else entry
 
 

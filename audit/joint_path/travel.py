@@ -23,8 +23,9 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
 from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.robot import Joint, JointPath
+from satcheck.scene.robot.assembly import link_frames
 from satcheck.scene.robot.kinematics import motion
-from satcheck.scene.robot.pose_batches import link_frames, placements
+from satcheck.scene.robot.pose_batches import placements
 
 Numbers = NDArray[np.float64]
 Ball = tuple[tuple[float, float, float], float]

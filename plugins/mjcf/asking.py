@@ -16,8 +16,8 @@ from satcheck.scene.issue import CODES, Issue
 from satcheck.scene.loading.child_formats import refused_by_worker
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import RobotFile
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import Robot
-from satcheck.scene.robot.xml_tree import Element
 
 _CHILD = "satcheck.plugins.mjcf.child"
 

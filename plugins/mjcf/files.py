@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.packages import FilePlaces
-from satcheck.scene.robot.xml_tree import Element, read_tree
+from satcheck.scene.robot.reading import read_tree
 
 ROOTS = ("mujoco", "mujocoinclude")
 _MOST_FILES = 10_000

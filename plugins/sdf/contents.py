@@ -15,10 +15,10 @@ from satcheck.plugins.sdf.parts import frame_named
 from satcheck.plugins.sdf.values import boolean, flag, pose_of, text_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision, RefusedShape
 from satcheck.scene.robot.slips import Slips
-from satcheck.scene.robot.xml_tree import Element
 
 MOST_NESTED = 64  # models in each other
 _EARLIEST = (1, 2)  # earlier versions write values as attributes

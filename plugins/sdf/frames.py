@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.xml_tree import Element, RefusedElement
 from satcheck.scene.words import meant
 
 WORLD = ""  # the path of the world

@@ -8,9 +8,9 @@ from typing import NoReturn
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.core.transform import Transform
 from satcheck.plugins.sdf.values import number, vector
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot import kinematics
 from satcheck.scene.robot.model import Geometry, MeshReference
-from satcheck.scene.robot.xml_tree import Element
 
 PLANE = "plane"
 HULL = "convex_hull"  # the optimization of a mesh

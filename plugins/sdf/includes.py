@@ -10,9 +10,10 @@ from pathlib import Path
 
 from satcheck.plugins.sdf.readers import ROOTS
 from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.path_kind import is_file, is_folder
 from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces
-from satcheck.scene.robot.xml_tree import Element, read_tree
+from satcheck.scene.robot.reading import read_tree
 
 _Version = tuple[int, ...]
 _MOST_DIGITS = 9

@@ -20,12 +20,12 @@ from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.readers import RobotFile
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_forest import Edge, trees_of
 from satcheck.scene.robot.joint_tree import check_mimics
 from satcheck.scene.robot.model import Exemption, Link, Robot
 from satcheck.scene.robot.slips import Slips
-from satcheck.scene.robot.xml_tree import Element
 
 
 def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:

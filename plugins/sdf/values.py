@@ -7,8 +7,8 @@ import math
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
-from satcheck.scene.robot.xml_tree import Element
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _EULER, _QUATERNION = "euler_rpy", "quat_xyzw"

@@ -29,47 +29,32 @@ RULES_FILE_KEYS = (
 )
 
 
-def _kind(wanted: str, **more: Any) -> Meta:
-    """wanted: what is allowed, in a message."""
-    return Meta(extra={"wanted": wanted}, **more)
-
-
 Flag = bool | UnsetType
-Text = Annotated[str, _kind("a non-empty text", min_length=1)]
-Number = Annotated[float, _kind("a number", ge=-LARGEST, le=LARGEST)]
-NotNegative = Annotated[float, _kind("a number >= 0", ge=0, le=LARGEST)]
-Positive = Annotated[float, _kind("a number above 0", gt=0, le=LARGEST)]
-Texts = Annotated[tuple[Text, ...], _kind("a list of texts")]
-Time = Annotated[float, _kind("a time from 0 to 1", ge=0, le=1)]
-Vector = Annotated[tuple[Number, Number, Number], _kind("three numbers")]
-Row = Annotated[tuple[Number, Number, Number, Number], _kind("four numbers")]
+Text = Annotated[str, Meta(min_length=1)]
+Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
+NotNegative = Annotated[float, Meta(ge=0, le=LARGEST)]
+Positive = Annotated[float, Meta(gt=0, le=LARGEST)]
+Texts = tuple[Text, ...]
+Vector = tuple[Number, Number, Number]
+Row = tuple[Number, Number, Number, Number]
 _NOT_ZERO = Meta(extra_json_schema={"not": {"items": {"const": 0}}})
 Direction = Annotated[Vector, _NOT_ZERO]
 Quaternion = Annotated[Row, _NOT_ZERO]
 Factor = Annotated[Number, Meta(extra_json_schema={"not": {"const": 0}})]
 # Three by their length: msgspec 0.22 crashes for a number with limits beside a tuple of three.
 Factors = Annotated[tuple[Factor, ...], Meta(min_length=3, max_length=3)]
-Scale = Annotated[Factor | Factors, _kind("a number, or three numbers,")]
-Matrix = Annotated[
-    tuple[Row, Row, Row, Annotated[Row, Meta(extra_json_schema={"const": [0, 0, 0, 1]})]],
-    _kind("4 rows of 4 numbers"),
-]
+LastRow = Annotated[Row, Meta(extra_json_schema={"const": [0, 0, 0, 1]})]
+Matrix = tuple[Row, Row, Row, LastRow]
 LengthText = Annotated[str, Meta(extra_json_schema={"pattern": LENGTH_PATTERN})]
-Length = Annotated[NotNegative | LengthText, _kind('a number >= 0, or a text such as "2mm",')]
-Selector = Annotated[
-    str,
-    _kind("a selector", extra_json_schema={"minLength": 1, "not": {"const": "group:"}}),
-]
+Length = NotNegative | LengthText
+Selector = Annotated[str, Meta(extra_json_schema={"minLength": 1, "not": {"const": "group:"}})]
 
 
 class HalfSpace(Table, frozen=True, tag_field="type", tag="half-space"):
     """All points with z <= 0."""
 
 
-Shape = Annotated[
-    Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | HalfSpace | Outline,
-    _kind("a type and its sizes"),
-]
+Shape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | HalfSpace | Outline
 
 
 class Body(Table, frozen=True):
@@ -104,7 +89,7 @@ class Body(Table, frozen=True):
     position: Vector | UnsetType = UNSET
     quaternion: Quaternion | UnsetType = UNSET
     euler: Vector | UnsetType = UNSET
-    scale: Scale | UnsetType = UNSET
+    scale: Factor | Factors | UnsetType = UNSET
     matrix: Matrix | UnsetType = UNSET
     groups: Texts = ()
     static: bool = False
@@ -198,7 +183,7 @@ class Waypoint(Table, frozen=True):
 
     excludes: ClassVar = {"quaternion": ("euler",)}
 
-    time: Time
+    time: Annotated[float, Meta(ge=0, le=1)]
     position: Vector
     quaternion: Quaternion | UnsetType = UNSET
     euler: Vector | UnsetType = UNSET
@@ -224,17 +209,11 @@ class Motion(Table, frozen=True):
 
     one_of = ("translation", "rotation", "path")
 
-    bodies: Annotated[
-        Selector | Annotated[tuple[Selector, ...], Meta(min_length=1)],
-        _kind("a selector, or a list of selectors,"),
-    ]
+    bodies: Selector | Annotated[tuple[Selector, ...], Meta(min_length=1)]
     clear: bool = False
     translation: Vector | UnsetType = UNSET
     rotation: Rotation | UnsetType = UNSET
-    path: (
-        Annotated[tuple[Waypoint, ...], _kind("a list of two waypoints or more", min_length=2)]
-        | UnsetType
-    ) = UNSET
+    path: Annotated[tuple[Waypoint, ...], Meta(min_length=2)] | UnsetType = UNSET
 
 
 class Reading(Table, frozen=True):
@@ -250,9 +229,7 @@ class Reading(Table, frozen=True):
 
     time: Number | UnsetType = UNSET
     geometry: GeometryKind | UnsetType = UNSET
-    purpose: (
-        Annotated[tuple[Purpose, ...], _kind("a list of purposes", min_length=1)] | UnsetType
-    ) = UNSET
+    purpose: Annotated[tuple[Purpose, ...], Meta(min_length=1)] | UnsetType = UNSET
     chord_tolerance: Positive | UnsetType = UNSET
     angular_tolerance: Positive | UnsetType = UNSET
 

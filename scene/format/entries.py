@@ -88,19 +88,13 @@ class MeshPlaces:
         self._folder = location.parent
         self._own = followed(self._folder)
         self._permitted = permitted
-        self._known: dict[str, MeshPath | Wrong] = {}
+        self._known: dict[str, MeshPath] = {}
 
     def find(self, mesh: str) -> MeshPath:
         """The mesh file that a body names. Raises Wrong if it is missing or may not be opened."""
         if mesh not in self._known:
-            try:
-                self._known[mesh] = self._judged(mesh)
-            except Wrong as wrong:
-                self._known[mesh] = wrong
-        place = self._known[mesh]
-        if isinstance(place, Wrong):
-            raise place
-        return place
+            self._known[mesh] = self._judged(mesh)
+        return self._known[mesh]
 
     def _judged(self, mesh: str) -> MeshPath:
         if "\0" in mesh:

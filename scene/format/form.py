@@ -5,34 +5,40 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar, get_args
 
-from msgspec import UNSET, Struct, ValidationError, convert, inspect
+from msgspec import UNSET, Struct, ValidationError, convert
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.lines import Key, Keys, repeated_keys
+from satcheck.scene.format.text import Parsed
+from satcheck.scene.planar.outline import Shape
+from satcheck.scene.read_options import GeometryKind, Purpose
+from satcheck.scene.rules import SEVERITIES
 from satcheck.scene.words import meant
-
-if TYPE_CHECKING:
-    from satcheck.scene.format.lines import Key, Keys
-    from satcheck.scene.format.text import Parsed
 
 T = TypeVar("T")
 
 LARGEST = sys.float_info.max  # as a limit of a number, it refuses infinity and NaN
 MOST = 20  # problems reported for one file
 _MOST_SHOWN = 40  # characters of a text in a message
-_PLACE = re.compile(r" - at `\$((?:\.[\w$]+|\[\d+\])*)`$")  # at the end of an error of msgspec
-_type_info = lru_cache(inspect.type_info)  # takes milliseconds, and many bodies may be wrong
-_LISTS = (inspect.TupleType, inspect.VarTupleType)
-_WORDS: dict[type[inspect.Type], str] = {
-    inspect.StructType: "a table",
-    inspect.VarTupleType: "a list of tables",
-    inspect.BoolType: "true or false",
-    inspect.NoneType: "null",
+_WORDS = {
+    "object": "a table",
+    "array": "a list",
+    "str": "a text",
+    "float": "a number",
+    "bool": "true or false",
+}
+_SHAPES = get_args(Shape)
+# Keys whose value is one of some words.
+_CHOICES: dict[str, tuple[str, ...]] = {
+    "severity": SEVERITIES,
+    "geometry": get_args(GeometryKind),
+    "purpose": get_args(Purpose),
+    "type": tuple(shape.__struct_config__.tag for shape in _SHAPES),
 }
 
 
@@ -76,7 +82,8 @@ class Problems:
 
     def __init__(self, parsed: Parsed) -> None:
         self._parsed = parsed
-        self._found = [Wrong("a second value for this key", *k) for k in parsed.repeated_keys()]
+        repeated = repeated_keys(parsed.text) if parsed.has_repeated_keys else ()
+        self._found = [Wrong("a second value for this key", *keys) for keys in repeated]
 
     def __bool__(self) -> bool:
         return bool(self._found)
@@ -137,77 +144,47 @@ def converted(value: Any, kind: type[T]) -> T:
 
 
 def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
-    """The error in our words: msgspec names the place, and the type there says what is allowed."""
-    place = _PLACE.search(str(error))
-    parts = re.findall(r"\.([\w$]+)|\[(\d+)\]", place[1] if place else "")
+    """The error in our words, with the path to its place."""
+    what, _, place = str(error).partition(" - at `$")
+    parts = re.findall(r"\.([\w$]+)|\[(\d+)\]", place)
     keys: Keys = tuple(name or int(index) for name, index in parts)
     if isinstance(cause := error.__cause__, ValueError):
         return Wrong(str(cause), *keys, *(cause.keys if isinstance(cause, Wrong) else ()))
-    kind = _type_info(kind)
     for key in keys:
-        kind, value = _inner(_form(kind, value), key), value[key]
-    form = _form(kind, value)
-    if isinstance(value, dict) and isinstance(form, inspect.UnionType):
-        return Wrong('"type" is missing', *keys)
-    if isinstance(value, dict) and isinstance(form, inspect.StructType):
-        fields = {field.encode_name: field for field in form.fields}
-        if strange := [key for key in value if key not in {*fields, form.tag_field}]:
-            hint = meant(strange[0], fields.keys() - value.keys())
-            return Wrong(f"unknown key{hint}", *keys, strange[0])
-        if missing := [key for key in fields if fields[key].required and key not in value]:
-            return Wrong(f'"{missing[0]}" is missing', *keys)
-    is_number = str(error).startswith(("Expected `float", "Number out of range"))
+        value = value[key]
+    if strange := re.search("unknown field `(.*)`", what):
+        known = _keys_of(kind, value, inner=bool(keys))
+        hint = "" if strange[1] in known else meant(strange[1], known - value.keys())
+        return Wrong(f"unknown key{hint}", *keys, strange[1])
+    if missing := re.search("missing required field `(.*)`", what):
+        return Wrong(f'"{missing[1]}" is missing', *keys)
+    is_number = what.startswith(("Expected `float", "Number out of range"))
     if is_number and isinstance(value, float | int) and not -LARGEST <= value <= LARGEST:
         message = f"a finite number expected, not {shown(value)}"
         return Wrong(message, *keys, code="non-finite")
-    choices = map(str, form.values) if isinstance(form, inspect.LiteralType) else ()
+    choices = _CHOICES.get(next((key for key in reversed(keys) if isinstance(key, str)), ""), ())
     hint = meant(value, choices) if isinstance(value, str) else ""
-    return Wrong(f"{_wanted(kind)} expected, not {shown(value)}{hint}", *keys)
+    return Wrong(f"{_wanted(what, choices)} expected, not {shown(value)}{hint}", *keys)
 
 
-def _form(kind: inspect.Type, value: Any) -> inspect.Type:
-    """The type without its remarks; of a choice, the list or the table that the value should be."""
-    while isinstance(kind, inspect.Metadata):
-        kind = kind.type
-    if isinstance(kind, inspect.UnionType):
-        for form in (_form(each, value) for each in kind.types):
-            if isinstance(form, inspect.StructType) and isinstance(value, dict):
-                if value.get(form.tag_field) == form.tag:
-                    return form
-            elif isinstance(value, list) and isinstance(form, _LISTS):
-                return form
-    return kind
+def _keys_of(kind: type[Struct], table: Mapping[str, Any], *, inner: bool) -> set[str]:
+    """The keys that a table may have. inner: it lies somewhere in a table of this kind: those of
+    its shape, or else of all tables of this form of scene files."""
+    shapes = [each for each in _SHAPES if each.__struct_config__.tag == table.get("type")]
+    tables = [each for each in Table.__subclasses__() if each.__module__ == kind.__module__]
+    near = (shapes or tables) if inner else [kind]
+    return {key for each in near for key in each.__struct_encode_fields__}
 
 
-def _inner(form: inspect.Type, key: Key) -> inspect.Type:
-    """The type of a value in a table or in a list."""
-    if isinstance(form, inspect.StructType):
-        return next(field.type for field in form.fields if field.encode_name == key)
-    if isinstance(form, inspect.UnionType):
-        tags = (struct.tag for struct in form.types if isinstance(struct, inspect.StructType))
-        return inspect.LiteralType(tuple(map(str, tags)))
-    if isinstance(form, inspect.TupleType):
-        return form.item_types[int(key)]
-    assert isinstance(form, inspect.VarTupleType)
-    return form.item_type
-
-
-def _wanted(kind: inspect.Type) -> str:
-    """What is allowed, in words."""
-    match kind:
-        case inspect.Metadata(extra={"wanted": words}):
-            return str(words)
-        case inspect.Metadata(type=inner):
-            return _wanted(inner)
-        case inspect.UnionType(types=kinds):
-            return " or ".join(map(_wanted, kinds))
-        case inspect.LiteralType(values=values):
-            return f"one of {', '.join(map(str, values))}"
-        case inspect.FloatType(gt=limit):
-            return "a number" if limit is None else f"a number above {limit:g}"
-        case inspect.TupleType(item_types=items):
-            return f"a list of {len(items)}"
-    return _WORDS[type(kind)]
+def _wanted(what: str, choices: Iterable[str]) -> str:
+    """What is allowed, in words. what: as msgspec says it."""
+    expected = re.match("Expected `(.*?)`([^,]*)", what)
+    if expected is None:
+        return f"one of {', '.join(choices)}"
+    kinds = " or ".join(_WORDS.get(kind, kind) for kind in expected[1].split(" | "))
+    limit = expected[2].replace(".0", "").replace(" > ", " above ").replace("length ", "")
+    words = (kinds + limit).replace("of >=", "of at least").replace("of <=", "of at most")
+    return words.replace("text of at least 1", "non-empty text")
 
 
 def shown(value: Any) -> str:

@@ -7,8 +7,10 @@ bodies.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import chain, product
+from typing import NamedTuple, TypeVar
 
 from msgspec.structs import replace
 
@@ -17,12 +19,26 @@ from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.rules import Rule, Selectable, Selector
+from satcheck.scene.statics import BodyRule, StaticsTerms, joined_terms
 
-if TYPE_CHECKING:
-    from satcheck.scene.statics import BodyRule, StaticsTerms
+Bodies = Sequence[Body | Unreadable]
+R = TypeVar("R", Rule, BodyRule)
 
 MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
+
+
+class _Own(NamedTuple):
+    """The bodies that the rules of a scene are about: its own, and those without rules. final:
+    Python's id of each of them -> its id in the check."""
+
+    bodies: Sequence[Selectable]
+    final: Mapping[int, str]
+    everybody: Bodies
+    scene: SceneFile
+
+    def chosen(self, selector: Selector) -> list[str]:
+        return [self.final[id(body)] for body in selector.select(self.bodies)]
 
 
 class JoinedScenes:
@@ -67,45 +83,37 @@ class JoinedScenes:
 
     def motions(self, scales: Mapping[str, float]) -> tuple[Motion, ...]:
         """scales: path of a scene -> the factor of its lengths; 1 if missing."""
-        if not self._motions:
-            return ()
         return tuple(scaled_motion(motion, scales.get(path, 1.0)) for path, motion in self._motions)
 
-    def rules(
-        self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
-    ) -> tuple[Rule, ...]:
+    def rules(self, everybody: Bodies, scales: Mapping[str, float]) -> tuple[Rule, ...]:
         """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError if a
         rule has to be expanded into too many pairs."""
-        placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
-        bare = [body for body in everybody if body.id not in placed]
-        rules: list[Rule] = []
-        for scene, ids in self._scenes:
-            scale = scales.get(scene.path, 1.0)
-            scene = replace(scene, rules=tuple(rule.scaled(scale) for rule in scene.rules))
-            if len(everybody) == len(scene.bodies) or not scene.bodies:
-                rules += scene.rules
-            else:
-                rules += _own_rules(scene, ids, bare, everybody)
+        return tuple(self._in_check(lambda scene: scene.rules, _own_rules, everybody, scales))
+
+    def body_rules(self, everybody: Bodies, scales: Mapping[str, float]) -> tuple[BodyRule, ...]:
+        """everybody, scales: as for rules. Beside other inputs a rule is written out body by
+        body."""
+        rules = self._in_check(lambda scene: scene.body_rules, _own_body_rules, everybody, scales)
         return tuple(rules)
 
-    def body_rules(
-        self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
-    ) -> tuple[BodyRule, ...]:
-        """everybody, scales: as for rules. A rule that selects other bodies in the whole check than
-        in its file is written out body by body."""
-        if not any(scene.body_rules for scene, _ in self._scenes):
-            return ()
+    def _in_check(
+        self,
+        rules_of: Callable[[SceneFile], Sequence[R]],
+        expanded: Callable[[Sequence[R], _Own], Iterator[R]],
+        everybody: Bodies,
+        scales: Mapping[str, float],
+    ) -> Iterator[R]:
         placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
         bare = [body for body in everybody if body.id not in placed]
-        rules: list[BodyRule] = []
         for scene, ids in self._scenes:
-            scale = scales.get(scene.path, 1.0)
-            own = [rule.scaled(scale) for rule in scene.body_rules]
+            rules = [rule.scaled(scales.get(scene.path, 1.0)) for rule in rules_of(scene)]
             if len(everybody) == len(scene.bodies) or not scene.bodies:
-                rules += own
-            else:
-                rules += _own_body_rules(own, scene, ids, bare)
-        return tuple(rules)
+                yield from rules
+            elif rules:
+                final = {id(body): ids[body.id] for body in scene.bodies}
+                final |= {id(body): body.id for body in bare}
+                bodies = list[Selectable](chain(scene.bodies, bare))
+                yield from expanded(rules, _Own(bodies, final, everybody, scene))
 
     def statics(self, scales: Mapping[str, float]) -> StaticsTerms | None:
         """What all files together state; None: none does. Raises SatcheckError if they differ."""
@@ -114,53 +122,33 @@ class JoinedScenes:
             for scene, _ in self._scenes
             if scene.statics is not None
         ]
-        if not stated:
-            return None
-        from satcheck.scene.statics import joined_terms
-
-        return joined_terms(stated)
+        return joined_terms(stated) if stated else None
 
 
 def _named_by(scene: SceneFile, ids: Mapping[str, str]) -> frozenset[str]:
     return frozenset((scene.path, *ids.values(), *(body.mesh.path for body in scene.bodies)))
 
 
-def _own_body_rules(
-    rules: Sequence[BodyRule],
-    scene: SceneFile,
-    ids: Mapping[str, str],
-    bare: Sequence[Body | Unreadable],
-) -> Iterator[BodyRule]:
-    final = {id(b): ids[b.id] for b in scene.bodies} | {id(b): b.id for b in bare}
+def _own_body_rules(rules: Sequence[BodyRule], own: _Own) -> Iterator[BodyRule]:
     for rule in rules:
-        chosen = rule.bodies.select((*scene.bodies, *bare))
-        for body in chosen:
-            yield replace(rule, bodies=Selector.exactly(final[id(body)]))
+        chosen = own.chosen(rule.bodies)
+        for id_ in chosen:
+            yield replace(rule, bodies=Selector.exactly(id_))
         if not chosen:
             yield replace(rule, bodies=Selector.nobody())
 
 
-def _own_rules(
-    scene: SceneFile,
-    ids: Mapping[str, str],
-    bare: Sequence[Body | Unreadable],
-    everybody: Sequence[Body | Unreadable],
-) -> Iterator[Rule]:
+def _own_rules(rules: Sequence[Rule], own: _Own) -> Iterator[Rule]:
     """Keeps a rule if its selectors match the same bodies in the whole check as in its file and
     among the bodies without rules. Otherwise it is expanded pair by pair."""
-    known: dict[Selector, tuple[bool, list[str]]] = {}
-    known_here = (*scene.bodies, *bare)
-    final = {id(b): ids[b.id] for b in scene.bodies} | {id(b): b.id for b in bare}
 
+    @cache
     def chosen(selector: Selector) -> tuple[bool, list[str]]:
         """(whether it matches the same bodies in the whole check as in its file, these bodies)."""
-        if selector not in known:
-            own = [final[id(b)] for b in selector.select(known_here)]
-            among_all = {b.id for b in selector.select(everybody)}
-            known[selector] = among_all == set(own), own
-        return known[selector]
+        ids = own.chosen(selector)
+        return {body.id for body in selector.select(own.everybody)} == set(ids), ids
 
-    for rule in scene.rules:
+    for rule in rules:
         (a_stays, a), (b_stays, b) = chosen(rule.a), chosen(rule.b)
         if a_stays and b_stays:
             yield rule
@@ -171,16 +159,11 @@ def _own_rules(
                 f"{rule.name}: beside the other inputs this rule has to be written out for "
                 f"{len(a) * len(b)} pairs; check this scene alone, or select fewer bodies"
             )
-            raise SceneFileError("too-large", message, file=scene.path)
+            raise SceneFileError("too-large", message, file=own.scene.path)
         else:
-            yield from _written_out(rule, a, b)
-
-
-def _written_out(rule: Rule, a: Sequence[str], b: Sequence[str]) -> Iterator[Rule]:
-    seen = set()
-    for first in a:
-        for second in b:
-            pair = frozenset((first, second))
-            if len(pair) == 2 and pair not in seen:
-                seen.add(pair)
-                yield replace(rule, a=Selector.exactly(first), b=Selector.exactly(second))
+            pairs: dict[frozenset[str], tuple[str, str]] = {}
+            for pair in product(a, b):
+                pairs.setdefault(frozenset(pair), pair)
+            for first, second in pairs.values():
+                if first != second:
+                    yield replace(rule, a=Selector.exactly(first), b=Selector.exactly(second))

@@ -13,9 +13,7 @@ Scenes of this form share meshes across folders: the suffix of a mesh is checked
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Annotated, Any
-
-from msgspec import Meta
+from typing import Any
 
 from satcheck.scene.format.document import Matrix, Text, Texts
 from satcheck.scene.format.entries import (
@@ -55,12 +53,7 @@ class Scene(Table, frozen=True, forbid_unknown_fields=False):
     name: Text | None = None
     units: Text | None = None
     ignore_within_groups: Texts = ()
-    allowed_pairs: Annotated[tuple[Any, ...], Meta(extra={"wanted": "a list of pairs"})] = ()
-
-
-_PAIR = Meta(extra={"wanted": "[id, id, reason]"})
-Pair = Annotated[tuple[Text, Text], _PAIR]
-ExplainedPair = Annotated[tuple[Text, Text, Any], _PAIR]
+    allowed_pairs: tuple[Any, ...] = ()
 
 
 def read_scene(parsed: Parsed) -> SceneFile:
@@ -85,7 +78,7 @@ def read_scene(parsed: Parsed) -> SceneFile:
     for k, pair in enumerate(inner.get("allowed_pairs", ())):
         with problems.at("allowed_pairs", k):
             explained = isinstance(pair, list) and len(pair) == 3
-            kind: Any = ExplainedPair if explained else Pair
+            kind: Any = tuple[Text, Text, Any] if explained else tuple[Text, Text]
             pairs.append(converted(pair, kind))
     problems.raise_any()
     rules, unknown_bodies = _rules(pairs, ids, path)

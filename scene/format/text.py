@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import math
 import re
+import tomllib
 from codecs import BOM_UTF8
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from msgspec import Struct
 
 from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.lines import Keys, innermost, lines_of
 from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.words import why_unreadable
-
-if TYPE_CHECKING:
-    from satcheck.scene.format.lines import Keys
 
 TOML_SUFFIX = ".toml"
 
@@ -41,17 +40,8 @@ class Parsed(Struct, frozen=True):
 
     def lines(self, wanted: Sequence[Keys]) -> list[int]:
         """The line of each of these keys, or of the innermost table or list around it."""
-        from satcheck.scene.format.lines import innermost, lines_of
-
         lines = lines_of(self.text, wanted, toml=is_toml(self.location))
         return [innermost(lines, keys) for keys in wanted]
-
-    def repeated_keys(self) -> Iterator[Keys]:
-        """The keys that occur twice in an object, of which the document has the last value."""
-        if self.has_repeated_keys:
-            from satcheck.scene.format.lines import repeated_keys
-
-            yield from repeated_keys(self.text)
 
 
 def is_toml(location: Path) -> bool:
@@ -78,16 +68,12 @@ def parse(path: str, location: Path) -> Parsed:
 def parse_toml(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
-    import tomllib
-
     if text.count(".") > MAX_DEPTH and _LONG_KEY.search(text):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
     return tomllib.loads(text)
 
 
 def _toml(path: str, text: str) -> Any:
-    import tomllib
-
     try:
         return parse_toml(text)
     except tomllib.TOMLDecodeError as error:

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from satcheck.scene.issue import Issue
     from satcheck.scene.loading import ReadLimits
     from satcheck.scene.loading.reading_children import ReadingChildren
+    from satcheck.scene.loading.xml_tree import Element
     from satcheck.scene.robot.model import Robot
     from satcheck.scene.robot.packages import FilePlaces
-    from satcheck.scene.robot.xml_tree import Element
 
 T = TypeVar("T")
 _ZIP = b"PK\x03\x04"

@@ -9,6 +9,7 @@ build. Supports count like any other object.
 from __future__ import annotations
 
 import fnmatch
+import io
 import math
 import posixpath
 import zipfile
@@ -43,11 +44,11 @@ from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
-    UndeclaredPrefixes,
     guarded_parser,
     parse_stream,
     read_elements,
     split_name,
+    with_declared_prefixes,
 )
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 from satcheck.scene.words import listed
@@ -192,8 +193,9 @@ class _Package:
                 with self._open(part) as stream:
                     model = read_model(part, stream)
             except UnboundPrefix:
+                # Some programs write prefixes without a declaration for their own data.
                 with self._open(part) as stream:
-                    model = read_model(part, stream, undeclared_prefixes=True)
+                    model = read_model(part, io.BytesIO(with_declared_prefixes(stream.read())))
             self._models[part] = model
             self._refuse_other_unit(part, model)
         return model
@@ -286,14 +288,12 @@ class Model:
     unread: tuple[tuple[str, str], ...] = ()
 
 
-def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = False) -> Model:
-    """Reads the objects of a model part.
+def read_model(part: str, stream: IO[bytes]) -> Model:
+    """Reads the objects of a model part. part: its name in the package.
 
-    part: its name in the package. undeclared_prefixes: accept XML prefixes without a declaration,
-    which some programs write for their own data; within an object they are refused. Raises
-    MeshFileError. An error in the mesh of one object is stored in this object.
+    Raises MeshFileError. An error in the mesh of one object is stored in this object.
     """
-    return _ModelReader(part, undeclared_prefixes).read(stream)
+    return _ModelReader(part).read(stream)
 
 
 def part_name(target: str) -> str:
@@ -304,7 +304,7 @@ def part_name(target: str) -> str:
 class _ModelReader:
     """Keeps only coordinates, indices and references."""
 
-    def __init__(self, part: str, undeclared_prefixes: bool) -> None:
+    def __init__(self, part: str) -> None:
         self._part = part
         self._model = Model()
         self._object: Object | None = None
@@ -313,15 +313,11 @@ class _ModelReader:
         self._around: list[str] = []  # the elements that are open
         self._given: set[str] = set()  # elements of the object
         self._usual: set[tuple[str, ...]] = set()  # parent, element and attributes, all known
-        self._parser = guarded_parser(_ENCODINGS, namespaces=not undeclared_prefixes)
+        self._parser = guarded_parser(_ENCODINGS)
         self._prefixes: dict[str | None, str] = {}
-        self._undeclared: UndeclaredPrefixes | None = None
-        if undeclared_prefixes:
-            self._undeclared = UndeclaredPrefixes(self._parser, self._on_element, self._on_end)
-        else:
-            self._parser.StartElementHandler = self._on_element
-            self._parser.EndElementHandler = self._on_end
-            self._parser.StartNamespaceDeclHandler = self._on_namespace
+        self._parser.StartElementHandler = self._on_element
+        self._parser.EndElementHandler = self._on_end
+        self._parser.StartNamespaceDeclHandler = self._on_namespace
         self._handlers = {
             "model": self._on_model,
             "object": self._on_object,
@@ -437,8 +433,7 @@ class _ModelReader:
             message = f"the unit is {self._model.unit!r}, none of {', '.join(sorted(UNITS))}"
             raise self._fail("bad-record", message)
         for prefix in attributes.get("requiredextensions", "").split():
-            known = self._undeclared.namespace(prefix) if self._undeclared else None
-            uri = known or self._prefixes.get(prefix, prefix)
+            uri = self._prefixes.get(prefix, prefix)
             if PREFIXES.get(uri) not in _REQUIRED:
                 raise self._fail("unsupported-feature", f"the model requires extension {uri!r}")
 

@@ -1,23 +1,32 @@
-"""Parses XML of untrusted files. Entities are refused, and elements keep their line numbers."""
+"""Parses XML of untrusted files into elements with line numbers. Entities are refused."""
 
 from __future__ import annotations
 
 import io
 import math
+import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import IO, NoReturn, Self, TypeVar
+from typing import IO, NoReturn
 from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading.limits import MAX_DEPTH
 
 _NAMESPACE_SEPARATOR = " "
 UNDECLARED = "undeclared:"
 _DECLARATION = "<?xml version="  # if a parser fails within these characters, the file is not XML
+# Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_PREFIX = re.compile(r"[<\s]([^\W\d][\w.-]*):[^\W\d]")  # of an element or an attribute
+# The name of the outermost element with all before it, and its attributes.
+_OUTERMOST = re.compile(r"((?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<]++)*+<[^\s/>]+)([^>]*)", re.DOTALL)
+_XACRO = re.compile(r"\$[({]")
+EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
 
 
 def guarded_parser(
@@ -85,88 +94,115 @@ def split_name(name: str) -> tuple[str, str]:
     return namespace, local
 
 
-class UndeclaredPrefixes:
-    """Resolves namespaces for XML that uses undeclared prefixes. The namespace of such a prefix is
-    `UNDECLARED` and the prefix.
+def with_declared_prefixes(data: bytes) -> bytes:
+    """The document, whose outermost element declares all prefixes: the namespace of one without a
+    declaration is `UNDECLARED` and the prefix."""
+    is_wide = data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
+    coding = ("utf-16", "replace") if is_wide else ("utf-8", "surrogateescape")
+    text = data.decode(*coding)
+    outermost = _OUTERMOST.match(text)
+    if outermost is None:
+        return data
+    known = {"xml", "xmlns", *re.findall(r"\bxmlns:([\w.-]+)", outermost[2])}
+    used = dict.fromkeys(prefix for prefix in _PREFIX.findall(text) if prefix not in known)
+    more = "".join(f' xmlns:{prefix}="{UNDECLARED}{prefix}"' for prefix in used)
+    return f"{outermost[1]}{more}{text[outermost.end(1) :]}".encode(*coding)
 
-    start, end: called for each element, with names as a parser with namespaces reports them.
-    """
 
-    def __init__(
-        self,
-        parser: expat.XMLParserType,
-        start: Callable[[str, dict[str, str]], None],
-        end: Callable[[str], None],
-    ) -> None:
-        self._start = start
-        self._end = end
-        self._scopes: list[dict[str, str]] = [{"xml": "xml"}]
-        parser.StartElementHandler = self._on_start
-        parser.EndElementHandler = self._on_end
+class RefusedElement(SceneFileError):
+    """An element of a robot. at: its line; reason: what is wrong with it."""
 
-    def _on_start(self, name: str, attributes: dict[str, str]) -> None:
-        declared = {
-            key.partition(":")[2]: attributes.pop(key)
-            for key in list(attributes)
-            if key == "xmlns" or key.startswith("xmlns:")
-        }
-        self._scopes.append({**self._scopes[-1], **declared} if declared else self._scopes[-1])
-        self._start(
-            self._resolved(name, self.namespace("") or ""),
-            {self._resolved(key, ""): value for key, value in attributes.items()},
-        )
-
-    def _on_end(self, name: str) -> None:
-        self._end(self._resolved(name, self.namespace("") or ""))
-        self._scopes.pop()
-
-    def namespace(self, prefix: str) -> str | None:
-        """The namespace of a prefix at this point; prefix "" for names without one."""
-        return self._scopes[-1].get(prefix)
-
-    def _resolved(self, name: str, default: str) -> str:
-        prefix, colon, local = name.partition(":")
-        if not colon:
-            return f"{default}{_NAMESPACE_SEPARATOR}{name}" if default else name
-        namespace = self._scopes[-1].get(prefix, f"{UNDECLARED}{prefix}")
-        return f"{namespace}{_NAMESPACE_SEPARATOR}{local}"
+    def __init__(self, code: str, at: int, reason: str, file: str) -> None:
+        super().__init__(code, f"line {at}: {reason}", file=file)
+        self.at = at
+        self.reason = reason
 
 
 @dataclass(slots=True, eq=False)
 class Element:
-    """tag and names of attributes: without namespaces. text: the whole text of the element."""
+    """tag and names of attributes: without namespaces, or as written in a robot. file: the path of
+    a robot as given, which errors then name; "": of a mesh file. text: of the whole element."""
 
     tag: str
     attributes: dict[str, str]
     line: int
-    children: list[Self] = field(default_factory=list)
+    file: str = ""
+    children: list[Element] = field(default_factory=list)
     pieces: list[str] = field(default_factory=list)
 
     @property
     def text(self) -> str:
         return "".join(self.pieces).strip()
 
-    def all(self, tag: str) -> list[Self]:
+    def all(self, tag: str) -> list[Element]:
         return [child for child in self.children if child.tag == tag]
 
-    def find(self, tag: str) -> Self | None:
+    def find(self, tag: str) -> Element | None:
         return next(iter(self.all(tag)), None)
 
-    def need(self, tag: str) -> Self:
-        return self.find(tag) or self.refuse(f"<{tag}> is missing")
+    def only(self, tag: str) -> Element | None:
+        """The child with that name, or None. Several are refused unless they are equal."""
+        matches = self.all(tag)
+        for other in matches[1:]:
+            if not other.says_the_same_as(matches[0]):
+                other.refuse(f"a second <{tag}> in one <{self.tag}>")
+        return matches[0] if matches else None
+
+    def need(self, tag: str) -> Element:
+        return self.only(tag) or self.refuse(f"<{tag}> is missing")
+
+    def says_the_same_as(self, other: Element) -> bool:
+        return (
+            (self.tag, self.text, self.attributes) == (other.tag, other.text, other.attributes)
+            and len(self.children) == len(other.children)
+            and all(map(Element.says_the_same_as, self.children, other.children))
+        )
 
     def attribute(self, name: str) -> str:
-        if name not in self.attributes:
-            self.refuse(f"attribute {name!r} is missing")
-        return self.attributes[name]
+        """A required attribute that is not empty."""
+        return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
-    def below(self) -> Iterator[Self]:
+    def below(self) -> Iterator[Element]:
         """All elements inside, in the order of the file."""
         waiting = list(reversed(self.children))
         while waiting:
             element = waiting.pop()
             yield element
             waiting.extend(reversed(element.children))
+
+    def numbers(
+        self, attribute: str, count: int, default: tuple[float, ...] | None = None
+    ) -> tuple[float, ...]:
+        """`count` finite numbers. Without a default the attribute is required."""
+        if default is not None and attribute not in self.attributes:
+            return default
+        return self._numbers(f"{attribute}=", self.attribute(attribute), count)
+
+    def number(self, attribute: str, default: float | None = None) -> float:
+        return self.numbers(attribute, 1, None if default is None else (default,))[0]
+
+    def text_numbers(self, count: int) -> tuple[float, ...]:
+        """`count` finite numbers, which are the text of the element."""
+        return self._numbers("", self.text, count)
+
+    def _numbers(self, before: str, value: str, count: int) -> tuple[float, ...]:
+        """before: what stands in front of the value in messages."""
+        words = value.split()
+        if len(words) != count:
+            wanted = "1 number" if count == 1 else f"{count} numbers"
+            self._refuse_value(before, value, f"should be {wanted}")
+        return tuple(self._number(before, word) for word in words)
+
+    def _number(self, before: str, word: str) -> float:
+        value = float(word) if _NUMBER.fullmatch(word) else math.nan
+        if not math.isfinite(value):
+            self._refuse_value(before, word, "is not a finite number")
+        return value
+
+    def _refuse_value(self, before: str, value: str, what: str) -> NoReturn:
+        if _XACRO.search(value):
+            self.refuse(f'{before}"{value}": {EXPAND}', "xacro")
+        self.refuse(f'{before}"{value}" {what}')
 
     def floats(self, words: list[str]) -> list[float]:
         try:
@@ -205,35 +241,30 @@ class Element:
         except ValueError as error:  # no whole number, or one of thousands of digits
             self.refuse(str(error))
 
-    def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
-        raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")
-
-
-E = TypeVar("E", bound=Element)
+    def refuse(self, message: str, code: str | None = None) -> NoReturn:
+        """Raises MeshFileError (`bad-record`), or RefusedElement (`bad-robot`) in a robot."""
+        reason = f"<{self.tag}>: {message}"
+        if self.file:
+            raise RefusedElement(code or "bad-robot", self.line, reason, self.file)
+        raise MeshFileError(code or "bad-record", f"line {self.line}: {reason}")
 
 
 def read_elements(
     data: bytes | memoryview | IO[bytes],
     *,
     encodings: frozenset[str] | None = None,
+    file: str | None = None,
 ) -> Element:
-    """The outermost element. encodings: as in `guarded_parser`. Raises MeshFileError."""
+    """The outermost element. encodings: as in `guarded_parser`. file: of a robot, whose names keep
+    their prefixes. Raises MeshFileError."""
     stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
-    return parse_elements(guarded_parser(encodings), stream, Element)
-
-
-def parse_elements(
-    parser: expat.XMLParserType,
-    stream: IO[bytes],
-    make: Callable[[str, dict[str, str], int], E],
-) -> E:
-    """The outermost element. make: creates an element from tag, attributes and line."""
-    outermost: list[E] = []
-    around: list[E] = []
+    parser = guarded_parser(encodings, namespaces=file is None)
+    outermost: list[Element] = []
+    around: list[Element] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
         plain = {split_name(key)[1]: value for key, value in attributes.items()}
-        element = make(split_name(name)[1], plain, parser.CurrentLineNumber)
+        element = Element(split_name(name)[1], plain, parser.CurrentLineNumber, file or "")
         if len(around) >= MAX_DEPTH:
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from satcheck.scene.planar.region import Region
-from satcheck.scene.planar.turns import Floats
+from satcheck.scene.planar.region import Floats, Region
 
 Point = tuple[Fraction, Fraction]
 Polygon = list[Point]  # convex, counter-clockwise

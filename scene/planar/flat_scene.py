@@ -21,12 +21,12 @@ from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.planar.fills import covers
-from satcheck.scene.planar.prism import prism
 from satcheck.scene.planar.region import (
     Region,
     convex_corners,
     convex_region,
     fan_of,
+    prism,
     region_of,
 )
 

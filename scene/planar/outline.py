@@ -13,18 +13,11 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
 
 if TYPE_CHECKING:
-    from satcheck.scene.planar.turns import Floats, Indices
+    from satcheck.scene.planar.region import Floats, Indices
 
 Coordinate = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
-Point = Annotated[tuple[Coordinate, Coordinate], Meta(extra={"wanted": "[x, y]"})]
-Points = Annotated[
-    tuple[Point, ...],
-    Meta(
-        min_length=3,
-        extra={"wanted": "a list of at least three points"},
-        extra_json_schema={"uniqueItems": True},
-    ),
-]
+Point = tuple[Coordinate, Coordinate]
+Points = Annotated[tuple[Point, ...], Meta(min_length=3, extra_json_schema={"uniqueItems": True})]
 
 
 class Outline(Struct, frozen=True, forbid_unknown_fields=True, tag_field="type", tag="outline"):
@@ -72,8 +65,7 @@ def _refuse_crossing(points: tuple[Point, ...]) -> None:
     common corner. Exact."""
     import numpy as np
 
-    from satcheck.scene.planar.region import fan_of
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import fan_of, turns
 
     corners, count = _floats(points), len(points)
     if not turns(corners, fan_of(count)).any():
@@ -99,8 +91,7 @@ def _refuse_crossing(points: tuple[Point, ...]) -> None:
 
 def _in_order(points: tuple[Point, ...]) -> tuple[Point, ...]:
     """The corners as `Outline` has them."""
-    from satcheck.scene.planar.region import fan_of
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import fan_of, turns
 
     least = points.index(min(points))
     start, *others = points[least:] + points[:least]
@@ -114,7 +105,7 @@ def _cut(points: tuple[Point, ...]) -> tuple[Floats, Indices]:
     """The corners, (n, 2), and triangles between them whose boundary is the polygon."""
     import numpy as np
 
-    from satcheck.scene.planar.turns import turns
+    from satcheck.scene.planar.region import turns
 
     corners = _floats(points)
     cut = cut_polygons(

@@ -1,13 +1,32 @@
-"""The region that a mesh covers, seen along an axis: triangles in the plane."""
+"""The region that a mesh covers, seen along an axis: triangles in the plane, and the prism over it.
+
+All prisms of a check reach farther above and below the plane than any of them is wide. Two prisms
+therefore overlap or touch exactly if their regions do. They also have the same depth as the
+regions: a translation that separates them separates the regions or is as long as the prisms are
+high, and a translation that separates the regions needs no third component. All heights differ, so
+only walls can touch, never the ends.
+"""
 
 from __future__ import annotations
 
+from collections import Counter
+from fractions import Fraction
+
 import numpy as np
+import numpy.typing as npt
 from msgspec import Struct
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of
-from satcheck.scene.planar.turns import Floats, Indices, turns
+
+Floats = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
+
+# Rounding of the 2 x 2 determinant of coordinate differences: Shewchuk, "Adaptive Precision
+# Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), the bound ccwerrboundA.
+_FILTER = (3 + 16 * 2.0**-53) * 2.0**-53
+# Products below this may have lost digits to underflow.
+_TINY = 2.0**-960
 
 
 class Region(Struct, frozen=True):
@@ -47,8 +66,6 @@ def _merged(points: Floats, triangles: object) -> tuple[Floats, Indices]:
 def convex_corners(region: Region) -> Floats | None:
     """The corners, counter-clockwise, of a region that is a convex polygon covered exactly once;
     None for any other region."""
-    from satcheck.scene.planar.prism import prism
-
     if not len(region.triangles):
         return None
     mesh = prism(region.points, region.triangles, 1.0).welded()
@@ -82,3 +99,53 @@ def _outermost(points: Floats) -> Floats | None:
 def fan_of(corners: int) -> Indices:
     """The triangles of a convex polygon, as a fan around its first corner."""
     return np.array([(0, k, k + 1) for k in range(1, corners - 1)], dtype=np.int64).reshape(-1, 3)
+
+
+def prism(points: Floats, triangles: Indices, height: float) -> Mesh:
+    """The closed mesh, |z| <= height, over signed triangles in the plane, (n, 2) and (m, 3).
+
+    Its winding number at a point between its ends is the sum of the signs of the triangles below
+    that point. Walls stand on the boundary edges. They are not welded.
+    """
+    count = len(points)
+    ground = np.column_stack((points, np.full(count, -height)))
+    roof = np.column_stack((points, np.full(count, height)))
+    walls = _walls(triangles, count)
+    faces = np.concatenate((triangles[:, ::-1], triangles + count, walls))
+    return Mesh(np.concatenate((ground, roof)), faces.astype(np.uint32))
+
+
+def _walls(triangles: Indices, roof: int) -> Indices:
+    edges: Counter[tuple[int, int]] = Counter()
+    for a, b, c in triangles.tolist():
+        edges.update(((a, b), (b, c), (c, a)))
+    walls = [
+        face
+        for (a, b), times in edges.items()
+        for _ in range(times - edges.get((b, a), 0))
+        for face in ((a, b, b + roof), (a, b + roof, a + roof))
+    ]
+    return np.array(walls, dtype=np.int64).reshape(-1, 3)
+
+
+def turns(points: Floats, triangles: Indices) -> npt.NDArray[np.int8]:
+    """The exact orientation of each triangle: +1 counter-clockwise, -1 clockwise, 0 on a line.
+
+    points: (n, 2); triangles: (m, 3).
+    """
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    with np.errstate(over="ignore", invalid="ignore", under="ignore"):
+        left = (a[:, 0] - c[:, 0]) * (b[:, 1] - c[:, 1])
+        right = (a[:, 1] - c[:, 1]) * (b[:, 0] - c[:, 0])
+        value, size = left - right, np.abs(left) + np.abs(right)
+        certain = (np.abs(value) > _FILTER * size) & (size > _TINY) & np.isfinite(size)
+    signs = np.sign(np.where(certain, value, 0.0)).astype(np.int8)
+    for k in np.flatnonzero(~certain):
+        signs[k] = _exact_turn(points[triangles[k]].tolist())
+    return signs
+
+
+def _exact_turn(corners: list[list[float]]) -> int:
+    (ax, ay), (bx, by), (cx, cy) = ([Fraction(x) for x in corner] for corner in corners)
+    value = (ax - cx) * (by - cy) - (ay - cy) * (bx - cx)
+    return (value > 0) - (value < 0)

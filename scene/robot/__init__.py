@@ -1,7 +1,7 @@
 """Robots: URDF, SRDF and SDFormat -> bodies in a pose.
 
 `load_scene` reads them. `posed` puts the robots of a scene into another pose without reading files
-again. `joint_samples` draws random poses.
+again. `RandomPoses` draws random poses.
 """
 
 from satcheck.scene.robot.assembly import (
@@ -16,11 +16,11 @@ from satcheck.scene.robot.assembly import (
 )
 from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
 from satcheck.scene.robot.model import Joint, Link, Robot, State
-from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.permissions import permissions
+from satcheck.scene.robot.pose_batches import RandomPoses
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 from satcheck.scene.robot.reading import read_robot
-from satcheck.scene.robot.sampling import RandomPoses, joint_samples
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 
 __all__ = [
@@ -28,7 +28,6 @@ __all__ = [
     "Joint",
     "JointPath",
     "Link",
-    "MeshPlaces",
     "Part",
     "Pose",
     "Posture",
@@ -39,7 +38,6 @@ __all__ = [
     "Srdf",
     "State",
     "bare_links",
-    "joint_samples",
     "parts_of",
     "permissions",
     "pose_of_states",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -25,7 +26,7 @@ from satcheck.scene.robot.model import (
     Robot,
     State,
 )
-from satcheck.scene.robot.packages import FilePlaces, MeshPlaces
+from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf
 from satcheck.scene.words import listed
@@ -181,6 +182,21 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     return matched
 
 
+def link_frames(scene: Scene, joints: Mapping[str, Any]) -> list[dict[str, Transform]]:
+    """Of each robot: link -> its pose. Its entries are arrays over many poses where those of the
+    joints are."""
+    return [link_poses(robot.robot, joints) for robot in scene.robots]
+
+
+def body_poses(scene: Scene, frames: Sequence[Mapping[str, Transform]]) -> dict[str, Transform]:
+    """The placement of each body of a link. frames: from `link_frames`."""
+    return {
+        body.id: compose(links[body.link], body.offset)
+        for robot, links in zip(scene.robots, frames, strict=True)
+        for body in robot.bodies
+    }
+
+
 def posed(scene: Scene, pose: Pose) -> Scene:
     """The scene with its robots in this pose: new transforms, the same meshes. Bodies that do not
     move are the same objects.
@@ -189,11 +205,7 @@ def posed(scene: Scene, pose: Pose) -> Scene:
     refused. The result has the complete posture and the issues about it.
     """
     posture = settle([robot.robot for robot in scene.robots], pose)
-    transforms: dict[str, Transform] = {}
-    for robot in scene.robots:
-        links = link_poses(robot.robot, posture.joints)
-        for body in robot.bodies:
-            transforms[body.id] = compose(links[body.link], body.offset)
+    transforms = body_poses(scene, link_frames(scene, posture.joints))
     earlier = scene.posture.issues if scene.posture else ()
     return replace(
         scene,
@@ -245,7 +257,7 @@ def _piece(collision: Collision) -> str | None:
     return None
 
 
-def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | MeshFileError:
+def _source(collision: Collision, places: FilePlaces) -> Path | Primitive | MeshFileError:
     match collision.geometry:
         case MeshReference(uri):
             try:

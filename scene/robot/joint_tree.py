@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import Joint, Link
-from satcheck.scene.robot.xml_tree import Element
 from satcheck.scene.words import listed, meant
 
 

@@ -36,14 +36,13 @@ _MODELS = "models"  # the usual name of a folder with Gazebo models, each a fold
 MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old Gazebo models
 
 
-class MeshPlaces:
-    """Resolves the URIs of one URDF or SDFormat file.
+class FilePlaces:
+    """Resolves the URIs of one URDF or SDFormat file, and of the files that it includes (`of`).
 
     packages: the name of a package or a server, or of a folder in it ("name/meshes") -> its
     location; the longest matching name counts. Other packages are searched in the folders above the
     file, their siblings and the folders `models` among these, then in the folders of environment
     variables. They match by the name of the folder, or else by the <name> in package.xml.
-    included_by: the file that leads to this one; what it may open, this one may open too.
     """
 
     def __init__(
@@ -51,15 +50,22 @@ class MeshPlaces:
         file: str,
         packages: Mapping[str, str | Path] | None = None,
         permitted: Permitted = NOTHING_ELSE,
-        *,
-        included_by: MeshPlaces | None = None,
     ) -> None:
-        self._included_by = included_by
         self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._permitted = permitted
-        self._root = self._upwards(self._steps_to_root())
+        self._root = self._package()
         self._own = followed(self._root)
+        self._includer: FilePlaces | None = None
+        self._places = {file: self}
+
+    def of(self, file: str) -> FilePlaces:
+        """The places of an included file, which may open what this one may open."""
+        if file not in self._places:
+            included = FilePlaces(file, self._packages, self._permitted)
+            included._includer = self
+            self._places[file] = included
+        return self._places[file]
 
     def locate(self, uri: str, *, models: bool = False) -> Path:
         """The path of an existing file, relative if the path of the URDF is relative. models: or of
@@ -78,13 +84,12 @@ class MeshPlaces:
         if scheme in _PACKAGE_SCHEMES:
             # Some write package:///
             return self._in_package(rest.replace("\\", "/").lstrip("/"), models)
-        if scheme not in ("", "file"):
-            if named := self._named(rest, models):
-                return named
+        is_elsewhere = scheme not in ("", "file")
+        if (is_elsewhere or (models and not scheme)) and (named := self._named(rest, models)):
+            return named
+        if is_elsewhere:
             hint = f"--package {rest.partition('/')[0]}=DIR says where the files of this server lie"
             raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
-        if models and not scheme and (named := self._named(rest, models)):
-            return named
         try:
             place = self._plain(rest, models, quoted=scheme == "file")
         except MeshFileError:
@@ -107,9 +112,7 @@ class MeshPlaces:
         try:
             return _existing(self._folder, rest, models, quoted=quoted)
         except MeshFileError:
-            from_root = quoted and not rest.startswith("/")
-            count = len(self._folder.absolute().parents) if from_root else 0
-            above = (self._upwards(steps) for steps in range(1, count + 1))
+            above = self._above()[1:] if quoted and not rest.startswith("/") else []
             for root in (*folders_of_environment(), *above):
                 with suppress(MeshFileError):
                     return _existing(root, rest, models, quoted=quoted)
@@ -157,73 +160,41 @@ class MeshPlaces:
         return None
 
     def _folders_of(self, name: str) -> Iterator[Path]:
-        """Folders that may be a package of that name, the most likely first."""
-        yield from self._by_folder_name(name)
-        yield from self._by_manifest(name)
-
-    def _by_folder_name(self, name: str) -> Iterator[Path]:
+        """Folders that may be a package of that name, the most likely first: by the name of the
+        folder, then by the name in its manifest."""
         absolute = self._folder.absolute()
-        for steps, above in enumerate((absolute, *absolute.parents)):
-            folder = self._upwards(steps)
+        for folder, above in zip(self._above(), (absolute, *absolute.parents), strict=True):
             if above.name == name:
                 yield folder
             yield folder / name
             yield folder / _MODELS / name
-        for root in folders_of_environment():
+        environment = folders_of_environment()
+        for root in environment:
             yield root if root.name == name else root / name
-
-    def _by_manifest(self, name: str) -> Iterator[Path]:
-        for root in (self._root, *folders_of_environment()):
+        for root in (self._root, *environment):
             for folder in (root, *_folders_in(root)):
                 if _name_in_manifest(folder) == name:
                     yield folder
 
-    def _steps_to_root(self) -> int:
-        """Number of folders from the URDF's folder up to the package. Without a manifest it is one,
+    def _package(self) -> Path:
+        """The nearest folder with a manifest. Without one it is the folder around that of the file,
         but never the root of the file system."""
-        count = len(self._folder.absolute().parents)
-        for steps in range(count + 1):
-            above = self._upwards(steps)
-            if any(_is_file(above / manifest) for manifest in _MANIFESTS):
-                return steps
-        return int(count > 1)
+        above = self._above()
+        marked = (folder for folder in above if any(_is_file(folder / each) for each in _MANIFESTS))
+        return next(marked, above[1 if len(above) > 2 else 0])
 
-    def _upwards(self, steps: int) -> Path:
-        return _tidy(self._folder.joinpath(*[".."] * steps))
+    def _above(self) -> list[Path]:
+        """The folder of the file and those above it, relative if its path is."""
+        count = len(self._folder.absolute().parents)
+        return [_tidy(self._folder.joinpath(*[".."] * steps)) for steps in range(count + 1)]
 
     def _may_open(self, place: Path) -> bool:
         if self._permitted.has(place, self._own):
             return True
-        return self._included_by is not None and self._included_by._may_open(place)
+        return self._includer is not None and self._includer._may_open(place)
 
     def _outside(self) -> str:
         return self._permitted.beyond(f"of {self._own}, where the package of the file is")
-
-
-class FilePlaces:
-    """The MeshPlaces of a file and of the files that it includes. All of these may open what the
-    first file may open. packages, permitted: as for MeshPlaces."""
-
-    def __init__(
-        self,
-        first: str,
-        packages: Mapping[str, str | Path] | None = None,
-        permitted: Permitted = NOTHING_ELSE,
-    ) -> None:
-        self._packages = packages
-        self._permitted = permitted
-        self._first = MeshPlaces(first, packages, permitted)
-        self._places = {first: self._first}
-
-    def of(self, file: str) -> MeshPlaces:
-        if file not in self._places:
-            self._places[file] = MeshPlaces(
-                file,
-                self._packages,
-                self._permitted,
-                included_by=self._first,
-            )
-        return self._places[file]
 
 
 def _name_in_manifest(folder: Path) -> str | None:
@@ -283,11 +254,8 @@ def _is_folder(place: Path) -> bool:
 
 
 def _is_from_environment(place: Path) -> bool:
-    return any(_within(place, followed(root)) for root in folders_of_environment())
-
-
-def _within(place: Path, folder: Path) -> bool:
-    return followed(place).is_relative_to(folder)
+    real = followed(place)
+    return any(real.is_relative_to(followed(root)) for root in folders_of_environment())
 
 
 def _tidy(path: Path) -> Path:

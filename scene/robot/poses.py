@@ -104,20 +104,17 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
     """
     check_names(robots, pose)
     movable = _movable(robots)
-    issues: list[Issue] = []
-    joints: dict[str, Values] = {}
-    for joint in movable.values():
-        if joint.free:
-            joints[joint.name] = pose[joint.name] if joint.name in pose else _rest(joint, issues)
-    for joint in movable.values():
-        if joint.mimic is not None:
-            joints[joint.name] = _followed(joint, movable, joints, pose, issues)
-    for joint in movable.values():
-        issues.extend(_beyond(joint, joints[joint.name]))
+    joints = complete(robots, pose)
+    free = [joint for joint in movable.values() if joint.free]
+    issues = [
+        *(_not_at_zero(joint, joints[joint.name]) for joint in free if joint.name not in pose),
+        *(_mimic_differs(joint, joints, pose) for joint in movable.values() if joint.mimic),
+        *(_beyond(joint, joints[joint.name]) for joint in movable.values()),
+    ]
     return Posture(
-        joints={name: joints[name] for name in movable},
+        joints=joints,
         mimics=frozenset(name for name, joint in movable.items() if joint.mimic),
-        issues=tuple(issues),
+        issues=tuple(each for each in issues if each is not None),
     )
 
 
@@ -126,7 +123,7 @@ def complete(robots: Sequence[Robot], named: Mapping[str, Any]) -> dict[str, Any
     many poses; those of joints that no pose names are single ones."""
     movable = _movable(robots)
     joints = {
-        joint.name: named[joint.name] if joint.name in named else _rest(joint, [])
+        joint.name: named[joint.name] if joint.name in named else _rest(joint)
         for joint in movable.values()
         if joint.free
     }
@@ -208,34 +205,29 @@ def _check_named(
         raise SatcheckError("bad-pose", f"joint {name!r}: a quaternion of length 0")
 
 
-def _rest(joint: Joint, issues: list[Issue]) -> Values:
+def _rest(joint: Joint) -> Values:
     if joint.limits is None or joint.stands_at_zero:
         return joint.neutral
-    value = min(max(0.0, joint.limits.lower), joint.limits.upper)
-    if value:
-        message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {value:g}"
-        issues.append(issue("not-at-zero", message))
-    return (value,)
+    return (min(max(0.0, joint.limits.lower), joint.limits.upper),)
 
 
-def _followed(
-    joint: Joint,
-    movable: Mapping[str, Joint],
-    joints: Mapping[str, Values],
-    pose: Pose,
-    issues: list[Issue],
-) -> Values:
-    """The value of a mimic joint. It follows from its leader, through a chain of any length."""
-    value = _mimicked(joint, movable, joints)
-    given = pose.get(joint.name)
-    if given is not None and abs(given[0] - value) > _SAME:
-        leader = joint.mimic.joint if joint.mimic else ""
-        message = (
-            f"joint {joint.name!r} follows {leader!r} and stands at {value:g}, "
-            f"not at {given[0]:g} as the pose says"
-        )
-        issues.append(issue("mimic-differs", message))
-    return (value,)
+def _not_at_zero(joint: Joint, values: Values) -> Issue | None:
+    if joint.limits is None or joint.stands_at_zero or not values[0]:
+        return None
+    message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {values[0]:g}"
+    return issue("not-at-zero", message)
+
+
+def _mimic_differs(joint: Joint, joints: Mapping[str, Values], pose: Pose) -> Issue | None:
+    value, given = joints[joint.name][0], pose.get(joint.name)
+    if given is None or abs(given[0] - value) <= _SAME:
+        return None
+    leader = joint.mimic.joint if joint.mimic else ""
+    message = (
+        f"joint {joint.name!r} follows {leader!r} and stands at {value:g}, "
+        f"not at {given[0]:g} as the pose says"
+    )
+    return issue("mimic-differs", message)
 
 
 def _mimicked(joint: Joint, movable: Mapping[str, Joint], joints: Mapping[str, Values]) -> float:
@@ -247,15 +239,15 @@ def _mimicked(joint: Joint, movable: Mapping[str, Joint], joints: Mapping[str, V
     return mimic.multiplier * led + mimic.offset
 
 
-def _beyond(joint: Joint, values: Values) -> list[Issue]:
+def _beyond(joint: Joint, values: Values) -> Issue | None:
     if joint.limits is None:
-        return []
+        return None
     low, high = joint.limits.lower, joint.limits.upper
     excess = max(low - values[0], values[0] - high)
     if excess <= 0:
-        return []
+        return None
     message = (
         f"joint {joint.name!r}: {values[0]:g} is beyond its limits {low:g} .. {high:g} "
         f"by {excess:.3g}: checked there all the same"
     )
-    return [issue("beyond-limits", message)]
+    return issue("beyond-limits", message)

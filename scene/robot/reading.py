@@ -1,14 +1,42 @@
-"""Reads a robot: the outermost element says with which reader."""
+"""Reads a robot: the outermost element of its XML says with which reader.
+
+Macros are refused, because they may expand to geometry. Slips that programs for robots accept are
+mended: white space before <?xml ...?>, odd comments, and an & that begins no reference.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import NoReturn
 
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import RobotFile, robot_reader, robots
+from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.loading.xml_tree import (
+    EXPAND,
+    Element,
+    guarded_parser,
+    parse_xml,
+    read_elements,
+)
 from satcheck.scene.robot.model import Robot
-from satcheck.scene.robot.xml_tree import read_tree, refuse_root
+
+_MAX_BYTES = 64 << 20
+_ERB = b"<%"
+_EXPAND_ERB = "this is ERB, a macro language: expand it first (erb FILE.erb > FILE)"
+_XACRO_NAMESPACE = "xacro"  # at the end of its URI; its prefix may differ
+# Harmless xacro: definitions, and macros inside elements that place no geometry.
+_DEFINES = frozenset(("property", "arg", "macro"))
+_PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "material"))
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_NO_LINE_END = re.compile(rb"[^\r\n]")
+# An ampersand that begins no reference.
+_AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
+_DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
 def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
@@ -19,7 +47,7 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
     root = read_tree(path, location)
     reader = robot_reader(root.tag)
     if reader is None:
-        refuse_root(root, robots())
+        _refuse_root(root, robots())
     try:
         robot, issues = reader.function()(root, file)
     except MeshFileError as error:
@@ -28,3 +56,80 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
         message = "visual geometry is checked, not collision geometry"
         issues = (*issues, issue("visual-geometry", message, file=path))
     return robot, issues
+
+
+def read_tree(path: str, location: Path, *roots: str) -> Element:
+    """Return the outermost element, whose tag has to be one of `roots`, if there are any.
+
+    Text between elements is ignored. Raises SceneFileError, with the line.
+    """
+    document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
+    if roots and document.tag not in roots:
+        _refuse_root(document, roots)
+    _refuse_macros(document)
+    return document
+
+
+def _refuse_root(document: Element, wanted: Iterable[str]) -> NoReturn:
+    """Raise an error that names the tags of outermost elements that are read."""
+    said = " or ".join(f"<{root}>" for root in wanted)
+    document.refuse(f"the outermost element should be {said}", "not-this-format")
+
+
+def _refuse_macros(document: Element) -> None:
+    """Refuses macros that may expand to geometry. The file must be expanded first."""
+    prefixes = tuple(
+        f"{name.removeprefix('xmlns:')}:"
+        for name, uri in document.attributes.items()
+        if name.startswith("xmlns:") and uri.endswith(_XACRO_NAMESPACE)
+    )
+    matches = list(_macros(document, (*prefixes, "xacro:")))
+    if matches:
+        more = f"; {len(matches) - 1} more elements are macros" if len(matches) > 1 else ""
+        matches[0].refuse(f"{EXPAND}{more}", "xacro")
+
+
+def _macros(element: Element, prefixes: tuple[str, ...]) -> Iterator[Element]:
+    for child in element.children:
+        prefix, _, name = child.tag.rpartition(":")
+        if f"{prefix}:" in prefixes:
+            if name not in _DEFINES:
+                yield child
+        elif child.tag not in _PLACES_NOTHING:
+            yield from _macros(child, prefixes)
+
+
+def first_tags(head: bytes, count: int) -> list[str]:
+    """The names of the first elements of a document, which may be truncated; fewer if it ends early
+    or is not XML."""
+    parser = guarded_parser(namespaces=False)
+    tags: list[str] = []
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    with suppress(MeshFileError):  # the reader reports the error
+        parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
+    return tags[:count]
+
+
+def _with_declaration_first(data: bytes) -> bytes:
+    """Moves white space in front of <?xml ...?>, a common mistake, behind it. All lines except the
+    first keep their numbers."""
+    return _DECLARATION.sub(rb"\2\1", data)
+
+
+def _parse(path: str, data: bytes) -> Element:
+    try:
+        with suppress(MeshFileError):
+            return read_elements(_with_declaration_first(data), file=path)
+        plain = _AMPERSAND.sub(b"&amp;", _without_comments(data))
+        return read_elements(_with_declaration_first(plain), file=path)
+    except MeshFileError as error:
+        if _ERB in data:
+            raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
+        raise SceneFileError(error.code, error.message, file=path) from None
+
+
+def _without_comments(data: bytes) -> bytes:
+    """The document with blanks for comments. Programs for robots accept comments that XML does not
+    allow: with -- in them, or before <?xml ...?>; and an & that is no &amp;. All lines keep their
+    numbers."""
+    return _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)

@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.robot.xml_tree import Element, RefusedElement
+from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.vocabulary import Names
 
 

@@ -10,9 +10,10 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.scene.issue import Issue
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import State, Values
+from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Place, Slips, attributes, because, elements
-from satcheck.scene.robot.xml_tree import Element, read_tree
 
 _PLANNING = "it says what is planned, and exempts and moves no body"
 _PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))

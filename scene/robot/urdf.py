@@ -10,14 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
-from typing import NoReturn, get_args
+from typing import get_args
 
 from satcheck.core.conventions import Vector
-from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.readers import RobotFile
+from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy
@@ -37,18 +38,19 @@ from satcheck.scene.robot.model import (
 )
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
-from satcheck.scene.robot.xml_tree import Element, RefusedElement
 
 _KINDS: tuple[UrdfJointKind, ...] = get_args(UrdfJointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"
 _LOOPS = ("loop_joint", "drake:ball_constraint")  # joints stand where the pose says
-_SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
-    "box": {"size": 3},
-    "sphere": {"radius": 1},
-    "cylinder": {"radius": 1, "length": 1},
-    "capsule": {"radius": 1, "length": 1},
+_SHAPES: dict[str, tuple[Callable[..., Primitive], dict[str, int]]] = {  # size -> numbers
+    "box": (Box, {"size": 3}),
+    "sphere": (Sphere, {"radius": 1}),
+    "cylinder": (Cylinder, {"radius": 1, "length": 1}),
+    # Not in URDF 1.0; MuJoCo, Drake and URDF 1.2 agree that the caps lie beyond `length`.
+    "capsule": (Capsule, {"radius": 1, "length": 1}),
+    "plane": (HalfSpace, {}),  # not in URDF 1.0; as in PyBullet
 }
 
 
@@ -219,7 +221,7 @@ def _mesh_uris(root: Element, geometry: GeometryKind) -> Iterator[str]:
 
 def _is_point(shape: Element) -> bool:
     """Whether all sizes are 0, so that the shape cannot collide."""
-    sizes = _SIZES.get(shape.tag, {})
+    _, sizes = _SHAPES.get(shape.tag, (None, {}))
     return (
         bool(sizes)
         and sizes.keys() == shape.attributes.keys()
@@ -228,43 +230,20 @@ def _is_point(shape: Element) -> bool:
 
 
 def _geometry(shape: Element) -> Geometry:
+    if shape.tag == "mesh":
+        scale = _vector(shape, "scale", (1.0, 1.0, 1.0))
+        if 0.0 in scale:
+            shape.refuse("scale 0 flattens the mesh", "singular-transform")
+        return MeshReference(shape.attribute("filename"), scale)
+    if shape.tag not in _SHAPES:
+        known = ", ".join(("mesh", *_SHAPES))
+        shape.refuse(f"no geometry that is read ({known})", "unsupported-feature")
+    kind, sizes = _SHAPES[shape.tag]
+    values = [shape.numbers(name, count) for name, count in sizes.items()]
     try:
-        return _SHAPES[shape.tag](shape) if shape.tag in _SHAPES else _unknown(shape)
+        return kind(*(value if len(value) > 1 else value[0] for value in values))
     except ValueError as error:  # a size that is not positive
         shape.refuse(str(error))
-
-
-def _unknown(shape: Element) -> NoReturn:
-    shape.refuse(f"no geometry that is read ({', '.join(_SHAPES)})", "unsupported-feature")
-
-
-def _mesh(shape: Element) -> MeshReference:
-    scale = _vector(shape, "scale", (1.0, 1.0, 1.0))
-    if 0.0 in scale:
-        shape.refuse("scale 0 flattens the mesh", "singular-transform")
-    return MeshReference(shape.attribute("filename"), scale)
-
-
-def _box(shape: Element) -> Box:
-    return Box(_vector(shape, "size"))
-
-
-def _sphere(shape: Element) -> Sphere:
-    return Sphere(shape.number("radius"))
-
-
-def _cylinder(shape: Element) -> Cylinder:
-    return Cylinder(shape.number("radius"), shape.number("length"))
-
-
-def _capsule(shape: Element) -> Capsule:
-    """Not in URDF 1.0; MuJoCo, Drake and URDF 1.2 agree that the caps lie beyond `length`."""
-    return Capsule(shape.number("radius"), shape.number("length"))
-
-
-def _plane(_: Element) -> HalfSpace:
-    """Not in URDF 1.0; as in PyBullet."""
-    return HalfSpace()
 
 
 def _facing(plane: Element) -> Transform:
@@ -272,16 +251,6 @@ def _facing(plane: Element) -> Transform:
         return facing(_vector(plane, "normal"))
     except ValueError as error:
         plane.refuse(str(error))
-
-
-_SHAPES: dict[str, Callable[[Element], Geometry]] = {
-    "mesh": _mesh,
-    "box": _box,
-    "sphere": _sphere,
-    "cylinder": _cylinder,
-    "capsule": _capsule,
-    "plane": _plane,
-}
 
 
 def _origin(owner: Element) -> Transform:

@@ -20,7 +20,7 @@ from satcheck.cli.formats.samples import render
 from satcheck.cli.output import PLAIN_PAGE
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import MeshFile, Scene, load_scene
-from satcheck.scene.robot import Pose, joint_samples, posed, read_poses
+from satcheck.scene.robot import Pose, RandomPoses, posed, read_poses
 from tests.scene.robot.robots import joint, link, robot_of
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
@@ -41,7 +41,7 @@ def overlapping(found: Samples, number: int) -> set[tuple[str, str]]:
 
 
 def test_each_pose_has_the_verdict_of_a_check_of_its_own() -> None:
-    drawn = joint_samples(ROBOTS, 12, 3)
+    drawn = list(RandomPoses(ROBOTS, 12, 3))
     found = check_poses(ARM, drawn, QUICK)
     assert {sample.verdict for sample in found.samples} == {"pass", "fail"}
     for sample, pose in zip(found.samples, drawn, strict=True):
@@ -57,7 +57,7 @@ def test_each_pose_has_the_verdict_of_a_check_of_its_own() -> None:
 
 def test_in_a_plane_each_pose_has_outlines_of_its_own() -> None:
     flat = Settings(depth=False, planar="xz")
-    drawn = joint_samples(ROBOTS, 12, 3, {"turn": (0.0,)})
+    drawn = list(RandomPoses(ROBOTS, 12, 3, {"turn": (0.0,)}))
     found = check_poses(ARM, drawn, flat)
     for sample, pose in zip(found.samples, drawn, strict=True):
         findings = check(posed(ARM, pose), flat).findings
@@ -148,7 +148,7 @@ def with_cart(path: str) -> Scene:
 def test_what_hits_on_the_way_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     scene = with_cart("translation = [-10, 0, 0]")
-    drawn = joint_samples([robot.robot for robot in scene.robots], 3, 1)
+    drawn = list(RandomPoses([robot.robot for robot in scene.robots], 3, 1))
     found = check_poses(scene, drawn, QUICK)
     tallies = {(one.a, one.b): one for one in found.pairs}
     for number, pose in enumerate(drawn, 1):
@@ -194,6 +194,6 @@ def test_what_a_mesh_has_is_made_once_for_all_poses(monkeypatch: pytest.MonkeyPa
         make(self, file, *rest)
 
     monkeypatch.setattr(SharedMesh, "__init__", counted)
-    check_poses(ARM, joint_samples(ROBOTS, 10, 3), QUICK)
+    check_poses(ARM, list(RandomPoses(ROBOTS, 10, 3)), QUICK)
     assert made
     assert len(made) == len(set(made))

@@ -13,13 +13,13 @@ from satcheck.audit.finding import examine
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.report.report import INTERNAL_ERROR
 from satcheck.scene import Rule, Selector, load_scene
-from satcheck.scene.robot import joint_samples
+from satcheck.scene.robot import RandomPoses
 from tests.audit.shapes import open_box, scene_of, unit_box
 from tests.scene.robot.robots import joint, link, robot_of
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
 ARM = load_scene([SAMPLES / "arm.urdf"])
-POSES = joint_samples([robot.robot for robot in ARM.robots], 40, 0)
+POSES = list(RandomPoses([robot.robot for robot in ARM.robots], 40, 0))
 
 
 def pairs(found: Suggestions) -> dict[tuple[str, str], str]:
@@ -96,7 +96,7 @@ def test_random_poses_tell_always(tmp_path):
         )
     )
     scene = load_scene([tmp_path / "r.urdf"])
-    poses = joint_samples([robot.robot for robot in scene.robots], 5, 1)
+    poses = list(RandomPoses([robot.robot for robot in scene.robots], 5, 1))
     found = {(one.a, one.b): one for one in suggest(scene, poses=poses, seed=1).pairs}
     assert found["base", "tip"].why == "always"
     assert found["base", "tip"].contacts == 5
@@ -117,7 +117,7 @@ def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
     (tmp_path / "post.toml").write_text(text)
     scene = load_scene(["post.toml", "r.urdf"])
     scene = replace(scene, rules=(*scene.rules, allow("post", "arm", max_depth=0.125)))
-    drawn = joint_samples([robot.robot for robot in scene.robots], 20, 3)
+    drawn = list(RandomPoses([robot.robot for robot in scene.robots], 20, 3))
     found = suggest(scene, poses=drawn, seed=3)
     assert pairs(found)["post", "base"] == "never"
     assert ("post", "arm") not in pairs(found)

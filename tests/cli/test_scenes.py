@@ -49,7 +49,7 @@ def test_all_errors_are_told_a_line_each(tmp_path: Path) -> None:
     ran = satcheck("cell.toml", cwd=tmp_path)
     assert (ran.code, ran.out) == (2, "")
     assert [line.removeprefix("satcheck: error: ") for line in ran.err.splitlines()] == [
-        "cell.toml:6: bodies[0].position: three numbers expected, not a list of 2 [bad-scene]",
+        "cell.toml:6: bodies[0].position: a list of 3 expected, not a list of 2 [bad-scene]",
         'cell.toml:8: bodies[1]: "id" is missing [bad-scene]',
         "cell.toml:13: bodies[2].mesh: mesh file 'gone.stl' is missing [missing-resource]",
     ]

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.scene.planar.prism import prism
+from satcheck.scene.planar.region import prism
 
 Loop = list[tuple[float, float]]
 HEIGHTS = (64.0, 96.0)

@@ -278,7 +278,7 @@ REFUSED = {
     "no_offset.dae": (
         files.collada().replace(b'offset="0"', b""),
         "bad-record",
-        "'offset' is missing",
+        'attribute "offset" is missing',
     ),
     "lookat.dae": (
         files.collada(nodes=_CUBE_NODE.format("<lookat>5 0 0 5 0 -1 0 1 0</lookat>")),

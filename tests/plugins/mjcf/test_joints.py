@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
-from satcheck.scene.robot import joint_samples, pose_of_states, posed
+from satcheck.scene.robot import RandomPoses, pose_of_states, posed
 from tests.plugins.mjcf.files import body, centres, codes, geom, load, model
 
 # Two joints on one body, away from its origin, then one with a reference, then a ball.
@@ -93,7 +93,7 @@ def test_a_keyframe_with_a_wrong_number_of_values_is_no_state(tmp_path: Path) ->
 
 def test_random_poses_stay_within_limits(tmp_path: Path) -> None:
     scene = load(tmp_path, ARM)
-    for pose in joint_samples([robot.robot for robot in scene.robots], 50, seed=1):
+    for pose in list(RandomPoses([robot.robot for robot in scene.robots], 50, seed=1)):
         assert pose.keys() == {"turn", "lift", "bend"}
         assert -math.pi <= pose["turn"][0] <= math.pi / 2
         assert 0 <= pose["lift"][0] <= 2

@@ -1,13 +1,16 @@
-"""What meshes cover, seen along an axis."""
+"""Regions in a plane, exact signs there, and prisms: closed, and as wound as their triangles."""
 
 from __future__ import annotations
 
-import numpy as np
+from fractions import Fraction
 
-from satcheck.core import Mesh
+import numpy as np
+import pytest
+
+from satcheck.core import Mesh, Surface
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box
-from satcheck.scene.planar.region import convex_corners, region_of
+from satcheck.scene.planar.region import convex_corners, prism, region_of, turns
 from tests.scene.planar.flat import sheet
 
 L_SHAPE = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]
@@ -59,3 +62,55 @@ def test_points_that_coincide_in_the_plane_are_one() -> None:
     box = mesh_of(Box((1.0, 1.0, 1.0)))
     assert len(region_of(box, True, "xy").points) == 4
     assert not np.signbit(region_of(box, True, "xy").points[0][0] * 0.0 + 0.0)
+
+
+SQUARE = np.array([(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)])
+HALVES = np.array([(0, 1, 2), (0, 2, 3)])
+
+
+def winding(points: np.ndarray, triangles: np.ndarray, x: float, y: float) -> int | None:
+    return Surface(prism(points, triangles, 8.0).welded(), True).winding_number((x, y, 3.0))
+
+
+def test_a_square() -> None:
+    mesh = prism(SQUARE, HALVES, 8.0).welded()
+    assert mesh.topology().solid
+    assert mesh.topology().volume == 4 * 4 * 16
+    assert mesh.bounds == ((0.0, 0.0, -8.0), (4.0, 4.0, 8.0))
+
+
+def test_winding_numbers_add_up() -> None:
+    points = np.concatenate((SQUARE, SQUARE / 2))
+    inner = HALVES + 4
+    over = np.concatenate((HALVES, inner))
+    hole = np.concatenate((HALVES, inner[:, ::-1]))
+    assert [winding(points, over, x, 1.5) for x in (1.0, 3.0, 5.0)] == [2, 1, 0]
+    assert [winding(points, hole, x, 1.5) for x in (1.0, 3.0, 5.0)] == [0, 1, 0]
+
+
+def test_no_wall_between_neighbours() -> None:
+    assert prism(SQUARE, HALVES, 8.0).triangle_count == 2 * 2 + 4 * 2
+
+
+TRIANGLE = np.array([[0, 1, 2]])
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**-500, 2.0**500, 5e-324 * 2**60])
+def test_signs(scale: float) -> None:
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0)]) * scale
+    assert turns(points, TRIANGLE).tolist() == [1]
+    assert turns(points, TRIANGLE[:, ::-1]).tolist() == [-1]
+    assert turns(np.array([(0.0, 0.0), (1.0, 1.0), (3.0, 3.0)]) * scale, TRIANGLE).tolist() == [0]
+
+
+def test_one_unit_in_the_last_place_decides() -> None:
+    """Corners on a line through three floats, one of them a single step off it."""
+    rng = np.random.default_rng(7)
+    for _ in range(200):
+        start, step = rng.uniform(-1, 1, 2), rng.uniform(-1, 1, 2)
+        points = np.array([start, start + step, start + 2 * step])
+        points[2, 1] = np.nextafter(points[2, 1], rng.choice([-np.inf, np.inf]))
+        exact = [[Fraction(x) for x in p] for p in points.tolist()]
+        (ax, ay), (bx, by), (cx, cy) = exact
+        value = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        assert turns(points, TRIANGLE).tolist() == [(value > 0) - (value < 0)]

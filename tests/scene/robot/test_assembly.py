@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, SceneFileError, load_scene
-from satcheck.scene.robot import joint_samples, pose_of_states, posed
+from satcheck.scene.robot import RandomPoses, pose_of_states, posed
 from tests.scene.files import obj
 from tests.scene.robot.robots import BOX, SAMPLES, joint, link, robot_of
 
@@ -210,7 +210,7 @@ def test_without_limits_a_joint_that_slides_stays_and_one_that_turns_is_sampled(
 ) -> None:
     joints = [joint("j", "a", "b", "prismatic"), joint("k", "b", "c", "revolute")]
     scene = load(tmp_path, *map(link, "abc"), *joints)
-    poses = joint_samples([robot.robot for robot in scene.robots], 20, seed=1)
+    poses = list(RandomPoses([robot.robot for robot in scene.robots], 20, seed=1))
     assert {pose["j"] for pose in poses} == {(0.0,)}
     turns = [pose["k"][0] for pose in poses]
     assert min(turns) < -1.0

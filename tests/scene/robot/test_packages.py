@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.scene import MeshFileError
 from satcheck.scene.permitted import ANYWHERE
-from satcheck.scene.robot import MeshPlaces
+from satcheck.scene.robot import FilePlaces
 
 
 @pytest.fixture(autouse=True)
@@ -23,14 +23,14 @@ def file(path: Path) -> Path:
     return path
 
 
-def refusal(places: MeshPlaces, uri: str) -> tuple[str, str]:
+def refusal(places: FilePlaces, uri: str) -> tuple[str, str]:
     with pytest.raises(MeshFileError) as caught:
         places.locate(uri)
     return caught.value.code, caught.value.message
 
 
-def places(folder: Path, **options: object) -> MeshPlaces:
-    return MeshPlaces(str(folder / "arm.urdf"), **options)  # type: ignore[arg-type]
+def places(folder: Path, **options: object) -> FilePlaces:
+    return FilePlaces(str(folder / "arm.urdf"), **options)  # type: ignore[arg-type]
 
 
 def test_beside_the_urdf(tmp_path: Path) -> None:
@@ -48,8 +48,8 @@ def test_relative_paths_stay_relative(tmp_path: Path, monkeypatch: pytest.Monkey
     file(tmp_path / "arm" / "urdf" / "a.stl")
     file(tmp_path / "arm" / "package.xml")
     monkeypatch.chdir(tmp_path / "arm")
-    assert MeshPlaces("urdf/r.urdf").locate("a.stl") == Path("urdf/a.stl")
-    assert MeshPlaces("urdf/r.urdf").locate("package://arm/urdf/a.stl") == Path("urdf/a.stl")
+    assert FilePlaces("urdf/r.urdf").locate("a.stl") == Path("urdf/a.stl")
+    assert FilePlaces("urdf/r.urdf").locate("package://arm/urdf/a.stl") == Path("urdf/a.stl")
 
 
 def test_without_a_package_xml_the_package_is_the_folder_around_that_of_the_urdf(
@@ -98,7 +98,7 @@ def test_a_package_xml_is_the_border_however_near(tmp_path: Path) -> None:
 
 
 def test_the_root_of_the_file_system_is_no_package() -> None:
-    assert MeshPlaces("/x/r.urdf")._root == Path("/x")
+    assert FilePlaces("/x/r.urdf")._root == Path("/x")
 
 
 MANIFEST = '<?xml version="1.0"?><package format="2"><name> arm_description </name></package>'

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene.robot import joint_samples
+from satcheck.scene.robot import RandomPoses
 from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
 ARM, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
@@ -15,16 +15,16 @@ ARM, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")
 
 def test_the_first_poses_of_seed_0() -> None:
     """As written down once: no machine, and no version of Python, draws others."""
-    assert joint_samples([ARM], 2, 0) == [
+    assert list(RandomPoses([ARM], 2, 0)) == [
         {"turn": (2.16407,), "shoulder": (1.16079,), "elbow": (-0.476571,), "grip": (0.0485469,)},
         {"turn": (0.0708412,), "shoulder": (-0.427796,), "elbow": (1.70279,), "grip": (0.0568711,)},
     ]
 
 
 def test_a_longer_list_starts_with_the_shorter_one_and_another_seed_is_another_list() -> None:
-    assert joint_samples([ARM], 7, 5)[:3] == joint_samples([ARM], 3, 5)
-    assert joint_samples([ARM], 3, 6) != joint_samples([ARM], 3, 5)
-    assert joint_samples([ARM], 0, 0) == []
+    assert list(RandomPoses([ARM], 7, 5))[:3] == list(RandomPoses([ARM], 3, 5))
+    assert list(RandomPoses([ARM], 3, 6)) != list(RandomPoses([ARM], 3, 5))
+    assert list(RandomPoses([ARM], 0, 0)) == []
 
 
 @pytest.mark.parametrize(
@@ -34,7 +34,7 @@ def test_a_longer_list_starts_with_the_shorter_one_and_another_seed_is_another_l
 def test_uniform_within_the_limits(name: str, low: float, high: float) -> None:
     """Of 1600 draws a tenth of the range gets 160, with a standard deviation of 12: six of them is
     what no seed in a billion exceeds."""
-    values = [pose[name][0] for pose in joint_samples([ARM], 1600, 1)]
+    values = [pose[name][0] for pose in list(RandomPoses([ARM], 1600, 1))]
     assert low <= min(values) <= max(values) <= high
     counts = [0] * 10
     for value in values:
@@ -45,13 +45,13 @@ def test_uniform_within_the_limits(name: str, low: float, high: float) -> None:
 def test_rounding_does_not_leave_the_limits(tmp_path: Path) -> None:
     limit = '<limit lower="1.00000049" upper="1.00000051"/>'
     text = robot_of(link("a"), link("b"), joint("j", "a", "b", "revolute", limit))
-    for pose in joint_samples([read(tmp_path, text)], 20, 0):
+    for pose in list(RandomPoses([read(tmp_path, text)], 20, 0)):
         assert 1.00000049 <= pose["j"][0] <= 1.00000051
 
 
 def test_what_is_fixed_stays_and_the_others_do_not_notice() -> None:
-    held = joint_samples([ARM], 3, 0, {"elbow": (0.5,), "grip_right": (0.0,)})
-    for pose, free in zip(held, joint_samples([ARM], 3, 0), strict=True):
+    held = list(RandomPoses([ARM], 3, 0, {"elbow": (0.5,), "grip_right": (0.0,)}))
+    for pose, free in zip(held, list(RandomPoses([ARM], 3, 0)), strict=True):
         assert pose["elbow"] == (0.5,)
         assert pose["turn"] == free["turn"]
         assert pose["grip"] == free["grip"]
@@ -60,4 +60,4 @@ def test_what_is_fixed_stays_and_the_others_do_not_notice() -> None:
 def test_joints_without_a_range_stay_where_they_are(tmp_path: Path) -> None:
     elements = [link(name) for name in "abc"]
     elements += [joint("j", "a", "b", "planar"), joint("k", "b", "c", "floating")]
-    assert joint_samples([read(tmp_path, robot_of(*elements))], 2, 0) == [{}, {}]
+    assert list(RandomPoses([read(tmp_path, robot_of(*elements))], 2, 0)) == [{}, {}]

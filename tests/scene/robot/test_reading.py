@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import SceneFileError
-from satcheck.scene.robot.xml_tree import read_tree
+from satcheck.scene.robot.reading import read_tree
 from tests.scene.robot.robots import SAMPLES, refusal
 
 
