@@ -27,7 +27,7 @@ class DocumentGroups:
     def of(self, nodes: Nodes) -> dict[str, str]:
         """Each group of a document -> its name in the check."""
         ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
-        groups = dict.fromkeys(group for node in nodes.nodes for group in node.groups)
+        groups = dict.fromkeys(group for node in nodes.nodes.values() for group in node.groups)
         return {
             group: self._names.unique(group) if group in ruled else self._shared_name(group)
             for group in groups
@@ -51,7 +51,7 @@ def jointed(nodes: Nodes, ids: Mapping[str | None, str], path: str) -> list[Join
     """Of the document at `path`, if it has joints that move. ids: as in `document_rules`."""
     if all(joint.kind == "fixed" for joint in nodes.joints):
         return []
-    links = {ids[node.path]: node.link for node in nodes.nodes if node.link is not None}
+    links = {ids[path]: node.link for path, node in nodes.nodes.items() if node.link is not None}
     return [Jointed(path, nodes.joints, links)]
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from threading import Lock
-from typing import TypeVar
 
 from msgspec import Struct
 
@@ -13,13 +12,11 @@ from satcheck.scene.bodies import MeshFile
 from satcheck.scene.files_read import FilesRead, files_read
 from satcheck.scene.loading.nodes import Nodes
 
-Read = TypeVar("Read", bound=MeshFile | Nodes)
-
 
 class _Known(Struct, frozen=True):
     """read: what was made of these files."""
 
-    read: MeshFile | Nodes
+    read: Nodes
     files: FilesRead
     triangles: int
 
@@ -34,13 +31,13 @@ class KnownMeshes:
         self._known: OrderedDict[Hashable, _Known] = OrderedDict()
         self._lock = Lock()
 
-    def recall(self, key: Hashable, load: Callable[[], Read]) -> Read:
+    def recall(self, key: Hashable, load: Callable[[], Nodes]) -> Nodes:
         """The result of `load`, or of an earlier one with this key. Raises what it raises."""
         known = self._take(key)
         if known is not None and known.files.are_certain():
             known.files.note_again()
             self._put(key, known)
-            return known.read  # type: ignore[return-value]  # the key stands for its type
+            return known.read
         with files_read() as files:
             read = load()
         if files.are_settled():
@@ -63,7 +60,7 @@ class KnownMeshes:
                 self._held -= oldest.triangles
 
 
-def _triangles(read: MeshFile | Nodes) -> int:
+def _triangles(read: Nodes) -> int:
     """Each mesh counts for a little more than its triangles."""
-    files = [read] if isinstance(read, MeshFile) else [node.file for node in read.nodes]
+    files = (node.file for node in read.nodes.values())
     return sum(100 + file.mesh.triangle_count for file in files if isinstance(file, MeshFile))

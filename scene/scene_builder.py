@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
-from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import (
     InOneUnit,
@@ -25,13 +24,13 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
+from satcheck.scene.input_kind import kind_of
 from satcheck.scene.issue import BLOCKING, Issue, issue
-from satcheck.scene.loading.nodes import Node
+from satcheck.scene.loading.nodes import Node, Nodes, Split
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.planar.outline import Shape
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
@@ -40,8 +39,6 @@ if TYPE_CHECKING:
     from satcheck.scene.document_rules import Jointed
     from satcheck.scene.robot import Part, SceneRobot, Srdf
     from satcheck.scene.statics import BodyRule
-
-Split = Literal["nodes", "components", "none"]
 
 ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
 
@@ -62,12 +59,11 @@ class SceneBuilder:
         self._names: list[str] = []
         self._inputs: list[Input] = []
         self._rule_units: dict[str, str | None] = {}  # of files of rules, as declared
-        self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
         self._scenes: JoinedScenes | None = None
         self._rule_files: set[str] = set()
-        self._taken_apart = False
+        self._composed = False
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
         self._robots: list[SceneRobot] = []
@@ -77,62 +73,33 @@ class SceneBuilder:
         self._jointed: list[Jointed] = []
         self._document_groups = DocumentGroups(self._group_names)
 
-    def add_mesh(self, id_: str, path: str, location: Path) -> None:
+    def add_file(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
+        """Adds a mesh file or a document. alone: the paths of nodes are ids, without the id of the
+        file before them."""
         name = location.stem or path
-        self._names.append(name)
-        file = self._files.whole(path, location)
-        self._begin("mesh", path, file.units if isinstance(file, MeshFile) else None)
-        self._add(id_, name, path, file, None)
-
-    def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
-        """alone: the paths of nodes are ids, without the id of the file before them."""
-        name = location.stem or path
-        self._names.append(name)
-        parts = self._files.nodes(path, location, components=split == "components")
-        if isinstance(parts, MeshFileError):
-            self._begin("mesh", path, None)
-            self._add(id_, name, path, parts, None)
-            return
-        self._issues.extend(parts.issues)
-        self._taken_apart |= len(parts.nodes) > 1
-        units = (node.file.units for node in parts.nodes if isinstance(node.file, MeshFile))
-        self._begin("mesh", path, next(units, None))
-        groups = self._document_groups.of(parts)
-        ids = {}
-        for node in parts.nodes:
-            wanted = _node_id(node.path, id_, alone)
-            title = wanted if node.path else name
-            own = tuple(groups[group] for group in node.groups)
-            place = node.path if node.shape is None else None  # as in a document
-            ids[node.path] = self._add(
-                wanted, title, path, node.file, node.transform, own, shape=node.shape, node=place
-            )
-        self._document_rules += document_rules(parts, ids, groups, path)
-
-    def add_document(self, id_: str, path: str, location: Path, alone: bool) -> None:
-        """alone: as in `add_nodes`."""
-        name = location.stem or path
-        self._names.append(name)
-        self._only_meshes = False
-        nodes = self._files.nodes(path, location, components=False)
+        is_document = kind_of(path) == "document"
+        nodes = self._files.nodes(path, location, split)
         if isinstance(nodes, MeshFileError):
-            self._begin("scene", path, None)
-            self._add(id_, name, path, nodes, None)
-            return
+            nodes = Nodes({None: Node(None, nodes)})
+        self._names.append(name)
         self._issues.extend(nodes.issues)
-        units = (node.file.units for node in nodes.nodes if isinstance(node.file, MeshFile))
-        self._begin("scene", path, next(units, None))
+        self._composed |= is_document or len(nodes.nodes) > 1
+        files = [node.file for node in nodes.nodes.values()]
+        units = next((file.units for file in files if isinstance(file, MeshFile)), None)
+        self._begin("scene" if is_document else "mesh", path, units)
         groups = self._document_groups.of(nodes)
         ids = {}
-        for node in nodes.nodes:
-            wanted = _node_id(node.path, id_, alone)
-            own = tuple(groups[group] for group in node.groups)
+        for place, node in nodes.nodes.items():
+            wanted = _node_id(place, id_, alone)
+            title = node.title or (wanted if place else name)
             # A report states an exact shape by its sizes, and no node of a file.
-            place = node.path if node.shape is None else None
-            ids[node.path] = self._add(
-                wanted, node.title or wanted, path, node.file, node.transform, own, node.static,
-                node.shape, place,
-            )  # fmt: skip
+            own = replace(
+                node,
+                path=place if node.shape is None else None,
+                title=title,
+                groups=tuple(groups[group] for group in node.groups),
+            )
+            ids[place] = self._add(wanted, path, own)
         self._document_rules += document_rules(nodes, ids, groups, path)
         self._jointed += jointed(nodes, ids, path)
 
@@ -147,7 +114,7 @@ class SceneBuilder:
             self._rule_units[path] = scene.units
         else:
             self._names.append(scene.name)
-            self._only_meshes = False
+            self._composed = True
             self._begin("scene", path, scene.units)
         self._scenes = self._scenes or JoinedScenes(self._group_names)
         groups = self._scenes.groups_of(scene)
@@ -159,38 +126,29 @@ class SceneBuilder:
 
     def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
         """names: group in the file -> group in the check. path: of the scene file."""
-        file: MeshFile | MeshFileError
-        transform, shape, part = entry.transform, entry.shape, entry.part
+        transform = entry.transform
         if entry.shape is not None:
-            file = self._files.shape(entry.shape, path)
+            node = Node(None, self._files.shape(entry.shape, path), None, entry.shape)
         else:
             path = entry.mesh.path
+            node = self._part(path, entry.mesh.location, entry.part)
+            scale = self._scale(node.file, entry.units)
             if entry.part is None:
-                file = self._files.whole(path, entry.mesh.location)
-                transform = scaled_mesh(transform, self._scale(file, entry.units))
+                transform = scaled_mesh(transform, scale)
             else:
-                node = self._part(path, entry.mesh.location, entry.part)
-                if isinstance(node, MeshFileError):
-                    file, transform = node, None
-                else:
-                    file, shape = node.file, node.shape
-                    scale = self._scale(file, entry.units)
-                    transform = multiply(transform, scaled_world(node.transform, scale))
-                    part = entry.part if shape is None else None
-        return self._add(
-            entry.id,
-            entry.id,
-            path,
-            file,
+                transform = multiply(transform, scaled_world(node.transform, scale))
+        own = Node(
+            entry.part if node.shape is None else None,
+            node.file,
             transform,
-            tuple(names[group] for group in entry.groups),
-            entry.static,
-            shape,
-            part,
-            entry.pinned,
-            entry.units,
-            entry.surface_tolerance,
+            node.shape,
+            groups=tuple(names[group] for group in entry.groups),
+            static=entry.static,
+            pinned=entry.pinned,
+            units=entry.units,
+            surface_tolerance=entry.surface_tolerance,
         )
+        return self._add(entry.id, path, own)
 
     def add_robot(
         self,
@@ -212,7 +170,7 @@ class SceneBuilder:
         hulls = bool(self._reading.mesh_hulls)
         robot, issues = self._files.robot(path, location, places, packages, geometry, hulls=hulls)
         self._names.append(robot.name)
-        self._only_meshes = False
+        self._composed = True
         self._begin("robot", path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         parts = parts_of(robot, places)
@@ -221,34 +179,27 @@ class SceneBuilder:
         for part in parts:
             own = tuple(groups[group] for group in part.groups)
             place, shape, offset = part.file, None, part.offset
+            file: MeshFile | MeshFileError
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
-                file = self._mesh(place, part.source, part.piece)
-                offset = self._in_metres(file, offset)
+                file = self._part(place, part.source, part.piece).file
+                offset = scaled_mesh(offset, self._scale(file, None)) or offset
             elif isinstance(part.source, MeshFileError):
                 file = part.source
             else:
                 shape = part.source
                 file = self._files.shape(shape, place)
-            id_ = self._add(
-                part.id, part.id, place, file, offset, own, part.static, shape, part.piece
-            )
+            node = Node(part.piece, file, offset, shape, groups=own, static=part.static)
+            id_ = self._add(part.id, place, node)
             self._entries[id_] = Entry(part.file, line=part.line)
             bodies.append(RobotBody(id_, part.link, offset, part.groups))
         self._robots.append(SceneRobot(robot, tuple(bodies), groups=groups))
 
-    def _mesh(self, path: str, location: Path, piece: str | None) -> MeshFile | MeshFileError:
-        """piece: a part of the file; None: the whole."""
-        if piece is None:
-            return self._files.whole(path, location)
-        node = self._part(path, location, piece)
-        return node if isinstance(node, MeshFileError) else node.file
-
-    def _part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
-        """A part of a file. What blocks a pass about the file is said once, whoever names a part
-        of it."""
-        node = self._files.part(path, location, part)
-        if location not in self._parted:
+    def _part(self, path: str, location: Path, part: str | None) -> Node:
+        """A part of a file, or all of it. What blocks a pass about the file is said once, whoever
+        names a part of it."""
+        node = self._files.node(path, location, part)
+        if part is not None and location not in self._parted:
             self._parted.add(location)
             issues = self._files.issues_of_parts(location)
             self._issues += [each for each in issues if each.code in BLOCKING]
@@ -258,9 +209,6 @@ class SceneBuilder:
         """Groups of a robot -> their names in the check."""
         groups = dict.fromkeys(group for part in parts for group in part.groups)
         return {group: self._group_names.unique(f"{robot}: {group}") for group in groups}
-
-    def _in_metres(self, file: MeshFile | MeshFileError, offset: Transform) -> Transform:
-        return scaled_mesh(offset, self._scale(file, None)) or offset
 
     def add_srdf(self, path: str, location: Path) -> None:
         from satcheck.scene.robot import read_srdf
@@ -279,37 +227,34 @@ class SceneBuilder:
             return 1.0
         return ratio(stated_unit(units or file.units) or own, own)
 
-    def _add(
-        self,
-        wanted: str,
-        name: str,
-        path: str,
-        file: MeshFile | MeshFileError,
-        transform: Transform | None,
-        groups: tuple[str, ...] = (),
-        static: bool = False,
-        shape: Shape | None = None,
-        node: str | None = None,
-        pinned: bool = False,
-        units: str | None = None,
-        surface_tolerance: float | None = None,
-    ) -> str:
-        """transform: of coordinates of the file. units: of these; they override what the file
-        states."""
+    def _add(self, wanted: str, path: str, node: Node) -> str:
+        """Adds a body and returns its id. path: of the file that it is about. The placement is that
+        of coordinates of the file; the units override what the file states."""
         id_ = self._ids.unique(wanted)
         self._order.append(id_)
         self._inputs[-1].ids.append(id_)
-        if isinstance(file, MeshFile):
-            own = stated_unit(units or file.units) or self._inputs[-1].unit
-            if isinstance(shape, HalfSpace):
-                static = pinned = True
-            body = Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
-            self._bodies.append(replace(body, surface_tolerance=surface_tolerance))
-        else:
+        file, is_floor = node.file, isinstance(node.shape, HalfSpace)
+        if isinstance(file, MeshFileError):
             # A file of shapes has many bodies: the message is about the body, not the file.
-            message = str(file) if shape is None else file.message
+            message = str(file) if node.shape is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
-            self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
+            lost = Unreadable(id_, path, reason, node.groups, node.path, node.static)
+            self._unreadable.append(lost)
+            return id_
+        body = Body(
+            id_,
+            node.title or wanted,
+            file,
+            node.transform,
+            node.groups,
+            node.static or is_floor,
+            node.shape,
+            node.path,
+            node.pinned or is_floor,
+            stated_unit(node.units or file.units) or self._inputs[-1].unit,
+            surface_tolerance=node.surface_tolerance,
+        )
+        self._bodies.append(body)
         return id_
 
     def scene(self) -> Scene:
@@ -354,7 +299,7 @@ class SceneBuilder:
             motions=scenes.motions(common.scales) if scenes else (),
             entries=self._entries,
             reading=self._reading,
-            composed=self._taken_apart or not self._only_meshes,
+            composed=self._composed,
             issues=(
                 *self._issues,
                 *_of_lost(self._unreadable),

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from satcheck.audit import Settings
-from satcheck.audit.batch.load_options import LoadOptions
 from satcheck.audit.request.in_units import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import StatedConfig
 from satcheck.scene import Scene
+from satcheck.scene.loader import LoadOptions
 from satcheck.scene.units import Length
 
 # The files of a world, in the order in which they are read; the first one names it.

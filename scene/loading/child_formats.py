@@ -19,9 +19,9 @@ from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.loading import ReadLimits, read_with
 from satcheck.scene.loading.raw_mesh import RawScene, Refusal
-from satcheck.scene.loading.readers import File, reader_of
+from satcheck.scene.loading.readers import File, ReadLimits, reader_of
+from satcheck.scene.loading.reading import read_with
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.permitted import ANYWHERE, NOTHING_ELSE, Permitted
 
@@ -49,7 +49,7 @@ class Request(msgspec.Struct, frozen=True):
         may = file.permitted
         folders = None if may.anywhere else tuple(map(os.fsencode, may.folders))
         names = os.fsencode(directory), os.fsencode(file.name)
-        blank = replace(file, directory="", name="", permitted=NOTHING_ELSE, isolated=True)
+        blank = replace(file, directory="", name="", path="", permitted=NOTHING_ELSE, isolated=True)
         return cls(*names, folders, blank)
 
     def named(self) -> File:
@@ -67,11 +67,9 @@ class Reply(msgspec.Struct, frozen=True):
     files: tuple[bytes, ...]
 
 
-def read_in_child(
-    path: str, file: File, children: ReadingChildren, allowed: ReadLimits
-) -> RawScene:
-    """Return the meshes of a file. path: its name in messages. Raises MeshFileError."""
-    folder = Path(file.directory)
+def read_in_child(file: File, children: ReadingChildren, allowed: ReadLimits) -> RawScene:
+    """Return the meshes of a file. Raises MeshFileError."""
+    path, folder = file.path, Path(file.directory)
     directory = str(folder.absolute())
     request = msgspec.msgpack.encode(Request.about(file, directory))
     try:

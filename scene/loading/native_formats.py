@@ -23,8 +23,7 @@ _READERS = {
 def read_native(file: File) -> RawScene:
     """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
     MeshFileError with line or byte."""
-    in_pieces = len(file.data) < file.size
-    outcome = _read_in_pieces(file) if in_pieces else _READERS[file.format](bytes(file.data))
+    outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
         raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}")
     whole = RawMesh(
@@ -36,7 +35,7 @@ def read_native(file: File) -> RawScene:
         rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
-    objects = [] if file.flat else outcome.objects()
+    objects = [] if file.whole else outcome.objects()
     return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
 
 

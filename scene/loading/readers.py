@@ -23,23 +23,25 @@ from satcheck.scene.read_options import GeometryKind, ReadOptions
 
 if TYPE_CHECKING:
     from satcheck.scene.issue import Issue
-    from satcheck.scene.loading import ReadLimits
     from satcheck.scene.loading.reading_children import ReadingChildren
     from satcheck.scene.robot.model import Robot
     from satcheck.scene.robot.packages import FilePlaces
     from satcheck.scene.robot.xml_tree import Element
 
 T = TypeVar("T")
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
 _ZIP = b"PK\x03\x04"
 
 
 class File(Struct, frozen=True):
-    """A file to read. It can be sent to a child process.
+    """A file that is open for a reader. It can be sent to a child process.
 
-    directory: that its references are relative to. name: in the directory. data: its bytes; of a
-    large binary STL file and of a format that is `by_name`, less or none. size: in bytes.
-    flat: one mesh for the whole file is wanted. permitted: where what it
-    names may lie, beside the directory. isolated: this process may crash.
+    directory: that its references are relative to. name: in the directory. data: its bytes, text as
+    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
+    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
+    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
+    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
     """
 
     format: str
@@ -48,13 +50,37 @@ class File(Struct, frozen=True):
     data: Block
     size: int
     options: ReadOptions = ReadOptions()
-    flat: bool = False
+    whole: bool = False
     permitted: Permitted = NOTHING_ELSE
     isolated: bool = False
+    path: str = ""
+    sha256: str | None = None
 
     @property
     def location(self) -> Path:
         return Path(self.directory, self.name)
+
+    @property
+    def in_pieces(self) -> bool:
+        """Return whether the data are the first bytes alone."""
+        return len(self.data) < self.size
+
+
+class ReadLimits(Struct, frozen=True):
+    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+
+    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
+    """
+
+    seconds: float = DEFAULT_SECONDS_PER_FILE
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+    permitted: Permitted = NOTHING_ELSE
+    hashed: bool = True
+    options: ReadOptions = ReadOptions()
+
+    @property
+    def file_bytes(self) -> int:
+        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
 
 
 class NeedsChild(Exception):

@@ -1,4 +1,4 @@
-"""Reads the bytes of a mesh file once, hashes them, and checks its suffix and content."""
+"""Opens a mesh file: reads its bytes once, hashes them, and checks its suffix and content."""
 
 from __future__ import annotations
 
@@ -6,12 +6,18 @@ import codecs
 import hashlib
 from pathlib import Path
 
-from msgspec import Struct
-
 from satcheck._native.readers import read_file
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.readers import KINDS, Reader, mesh_reader, reader_of, readers
+from satcheck.scene.loading.readers import (
+    KINDS,
+    File,
+    Reader,
+    ReadLimits,
+    mesh_reader,
+    reader_of,
+    readers,
+)
 from satcheck.scene.loading.regular_file import size_of, without_padding
 from satcheck.scene.plugins import failures
 
@@ -63,40 +69,15 @@ _TEXT_HEAD_BYTES = 4096
 _BINARY_PLY = b"\nformat binary"
 
 
-class Source(Struct, frozen=True):
-    """A mesh file as it lies on disk.
+def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
+    """Return a mesh file as its reader takes it, or raise MeshFileError.
 
-    path: as given, for messages. location: on disk. sha256: of the file, hex; None: not requested.
-    data: its bytes; a byte order mark is removed, its text is converted to UTF-8, and NUL bytes
-    after the end of a text, which some programs write, are removed. Of a large binary STL file, if
-    its SHA-256 is not needed, data holds only the first bytes, because its reader reads it in
-    pieces. size: bytes of the data, or of the whole file if data holds only its start.
-    """
-
-    path: str
-    location: Path
-    format: str
-    sha256: str | None
-    size: int
-    data: bytes
-
-    @property
-    def in_pieces(self) -> bool:
-        return len(self.data) < self.size
-
-
-def read_source(
-    path: str,
-    location: Path,
-    *,
-    max_bytes: int,
-    hashed: bool = True,
-) -> Source:
-    """Reads a mesh file, or raises MeshFileError.
-
-    Only a regular file whose suffix is that of a reader is opened.
+    path: its name in messages and reports. location: on disk. Only a regular file whose suffix is
+    that of a reader is opened. Of a large binary STL file whose SHA-256 is not wanted only the
+    first bytes are read here: its reader reads it in pieces.
     """
     size = _size(path, location)
+    most = allowed.file_bytes
     reader = reader_of(location.suffix)
     if reader is None:
         known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
@@ -104,15 +85,15 @@ def read_source(
         failed = failures("readers", KINDS)
         message = f"unsupported format {location.suffix!r}: {hint}{failed}"
         raise MeshFileError("unsupported-format", message, file=path)
-    _refuse_large(path, size, max_bytes)
+    _refuse_large(path, size, most)
     try:
-        in_pieces = reader.name == "stl" and not hashed
-        size, data = _read(location, size, max_bytes, in_pieces=in_pieces)
+        in_pieces = reader.name == "stl" and not allowed.hashed
+        size, data = _read(location, size, most, in_pieces=in_pieces)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
-    _refuse_large(path, size, max_bytes)
-    digest = hashlib.sha256(data).hexdigest() if hashed else None
+    _refuse_large(path, size, most)
+    digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     if reader.text == "plain" and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
         size, data = size + len(unmarked) - len(data), unmarked
@@ -120,7 +101,17 @@ def read_source(
         text = without_padding(data)
         size, data = size + len(text) - len(data), text
     _refuse_other_content(path, reader, size, data)
-    return Source(path, location, reader.name, digest, size, data)
+    return File(
+        reader.name,
+        str(location.parent),
+        location.name,
+        data,
+        size,
+        allowed.options,
+        permitted=allowed.permitted,
+        path=path,
+        sha256=digest,
+    )
 
 
 def _refuse_large(path: str, size: int, max_bytes: int) -> None:

@@ -15,7 +15,7 @@ from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.core.shapes import Box
 from satcheck.report.report import Exempt, RuleReport
 from satcheck.scene import Body, Rule, Scene, Selector
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.inspect import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.rules import Rules

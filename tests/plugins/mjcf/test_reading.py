@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.plugins.mjcf.child import serve
 from satcheck.plugins.mjcf.messages import Answer, Request
-from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
+from satcheck.scene import MeshFile, SceneFileError, load_scene
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.mesh_files import MeshFiles
@@ -129,8 +129,7 @@ def test_a_part_is_read_again_by_its_name(tmp_path: Path, part: str) -> None:
     options = ReadOptions(mesh_hulls=part.endswith("hull"))
     (only,) = load_scene([write(tmp_path, text)], reading=options).bodies
     assert only.path == part
-    again = MeshFiles().part(only.file.path, Path(only.file.path), part)
-    assert not isinstance(again, MeshFileError)
+    again = MeshFiles().node(only.file.path, Path(only.file.path), part)
     assert isinstance(again.file, MeshFile)
     assert again.file.mesh.to_bytes() == only.file.mesh.to_bytes()
 
