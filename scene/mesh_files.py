@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from functools import partial
+from contextlib import contextmanager, suppress
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,9 +20,9 @@ from satcheck.scene.files_read import note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
-from satcheck.scene.loading.readers import ReadLimits, RobotFile, reader_of
-from satcheck.scene.loading.reading import read
-from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.readers import File, NeedsChild, ReadLimits, RobotFile, read, reader_of
+from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import LARGE_FILE_BYTES, open_file
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
@@ -50,8 +50,11 @@ class MeshFiles:
     ) -> None:
         self._allowed = allowed
         self._known = known
-        self._children = ReadingChildren(allowed.megabytes)
         self._made: dict[Hashable, Any] = {}
+
+    @cached_property
+    def _children(self) -> ReadingChildren:
+        return ReadingChildren(self._allowed.megabytes)
 
     def nodes(self, path: str, location: Path, split: Split) -> Nodes | MeshFileError:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
@@ -74,7 +77,18 @@ class MeshFiles:
     def _load(self, path: str, location: Path, split: Split) -> Nodes:
         with _reading(path, location), errors_of(path):
             file = replace(open_file(path, location, self._allowed), whole=split == "none")
-            return nodes_of(file, read(file, self._allowed, self._children), split)
+            return nodes_of(file, self._read(file), split)
+
+    def _read(self, file: File) -> RawScene:
+        """In this process, or in the child process, as its reader says."""
+        reader = reader_of(file.location.suffix)
+        if reader is not None and file.size <= reader.here:
+            with suppress(NeedsChild):
+                return read(file)
+        if reader is not None and reader.by_name:
+            file = replace(file, data=b"")
+        place = f"{read.__module__}:{read.__name__}"
+        return read_in_child(file, place, RawScene, self._children, self._allowed)
 
     def node(self, path: str, location: Path, part: str | None) -> Node:
         """Return one node of the file by its path, which may end in "#" and the number of a

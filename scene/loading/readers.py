@@ -42,6 +42,7 @@ class File(Struct, frozen=True):
     `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
     tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
     process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
+    packages: of a robot, see `robot.MeshPlaces`.
     """
 
     format: str
@@ -55,6 +56,7 @@ class File(Struct, frozen=True):
     isolated: bool = False
     path: str = ""
     sha256: str | None = None
+    packages: Mapping[str, str] = {}
 
     @property
     def location(self) -> Path:
@@ -117,8 +119,17 @@ class Reader(Struct, frozen=True):
     up: Literal["y", "z"] | None = None
     complete: bool = True
 
-    def function(self) -> Callable[[File], RawScene]:
-        return cast("Callable[[File], RawScene]", function_at(self.read))
+    def scene(self, file: File) -> RawScene:
+        """Return the meshes of a file and their placements. Raises MeshFileError and NeedsChild."""
+        scene = cast("RawScene", function_at(self.read)(file))
+        scene.check()
+        if self.complete:
+            return scene
+        message = (
+            "the library that reads it may leave out what it does not know: overlaps count as it "
+            "places the bodies, and no pair is proven apart"
+        )
+        return replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
 
 
 class RobotFile(Struct, frozen=True):
@@ -258,6 +269,13 @@ def reader_named(name: str) -> Reader | None:
     """Return the reader of a format by its name in reports; None: this process has not looked for
     it, or there is none, as of shapes."""
     return _registry().by_name.get(name)
+
+
+def read(file: File) -> RawScene:
+    """Return the meshes of a file, in this process. Raises MeshFileError and NeedsChild."""
+    reader = reader_of(file.location.suffix)
+    assert reader is not None  # it has been opened for its reader
+    return reader.scene(file)
 
 
 def robot_reader(root: str) -> RobotReader | None:

@@ -18,10 +18,10 @@ from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
-from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.raw_mesh import RawScene, Refusal
 from satcheck.scene.loading.readers import File
+from satcheck.scene.loading.reading_children import Reply, Request, serve
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.robot import FilePlaces
 from satcheck.scene.robot.poses import read_poses
@@ -52,8 +52,9 @@ def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     data = path.read_bytes()
     file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
-    reply = serve(msgspec.msgpack.encode(Request.about(file, file.directory)))
-    content = msgspec.msgpack.decode(reply, type=Reply).content
+    request = Request.about(file, "satcheck.scene.loading.readers:read")
+    reply = serve(msgspec.msgpack.encode(request))
+    content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
     if isinstance(content, Refusal):
         raise MeshFileError(content.code, content.message)
     flattened(content)

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import msgspec
 import mujoco
 import pytest
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
-from satcheck.plugins.mjcf.child import serve
-from satcheck.plugins.mjcf.messages import Answer, Request
-from satcheck.scene import MeshFile, SceneFileError, load_scene
+from satcheck.plugins.mjcf.child import model as read_model
+from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
 from satcheck.scene.loading import extras
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from tests.plugins.mjcf.files import (
     TETRAHEDRON,
@@ -290,8 +287,6 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "import_module", missing)
-    request = Request("m.xml", {}, NOTHING_ELSE)
-    answer = msgspec.msgpack.decode(serve(msgspec.msgpack.encode(request)), type=Answer)
-    assert isinstance(answer.content, Refusal)
-    assert answer.content.code == "missing-extra"
-    assert "pip install 'satcheck[mjcf]'" in answer.content.message
+    with pytest.raises(MeshFileError, match=r"pip install 'satcheck\[mjcf\]'") as caught:
+        read_model(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
+    assert caught.value.code == "missing-extra"
