@@ -22,19 +22,16 @@ from satcheck.scene.words import listed
 Kind = Literal["mesh", "scene", "robot"]
 
 
-class Input:
+class Input(Struct):
     """One input with bodies. declares: its units as it writes them. unit: the unit meant by that,
     or the unit given for inputs that declare none; None: unknown. ids: of its bodies."""
 
-    __slots__ = ("declares", "ids", "kind", "path", "unit")
-
-    def __init__(self, kind: Kind, path: str, declares: str | None, otherwise: str | None) -> None:
-        """otherwise: the unit to assume if the input declares none."""
-        self.kind = kind
-        self.path = path
-        self.declares = declares
-        self.unit = stated_unit(declares) or otherwise
-        self.ids: list[str] = []
+    kind: Kind
+    name: str
+    path: str
+    declares: str | None
+    unit: str | None
+    ids: list[str] = []
 
 
 class InOneUnit(Struct, frozen=True):

@@ -13,30 +13,19 @@ from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
 
 
-class DocumentGroups:
-    """Names the groups of the documents of one scene.
+def groups_of(nodes: Nodes, names: UniqueNames, shared: dict[str, str]) -> dict[str, str]:
+    """Return the groups of a document -> their names in the check.
 
     Groups of several documents that have one name are one group, unless rules of a document name
-    the group. names: of all groups in the check.
+    the group. names: of all groups in the check. shared: of these documents; this call adds to it.
     """
-
-    def __init__(self, names: UniqueNames) -> None:
-        self._names = names
-        self._shared: dict[str, str] = {}
-
-    def of(self, nodes: Nodes) -> dict[str, str]:
-        """Each group of a document -> its name in the check."""
-        ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
-        groups = dict.fromkeys(group for node in nodes.nodes.values() for group in node.groups)
-        return {
-            group: self._names.unique(group) if group in ruled else self._shared_name(group)
-            for group in groups
-        }
-
-    def _shared_name(self, group: str) -> str:
-        if group not in self._shared:
-            self._shared[group] = self._names.unique(group)
-        return self._shared[group]
+    ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
+    groups: dict[str, str] = {}
+    for group in dict.fromkeys(group for node in nodes.nodes.values() for group in node.groups):
+        if group not in ruled and group not in shared:
+            shared[group] = names.unique(group)
+        groups[group] = names.unique(group) if group in ruled else shared[group]
+    return groups
 
 
 class Jointed(Struct, frozen=True):

@@ -107,7 +107,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
         allowed = ReadLimits(seconds, megabytes, permitted, hashed, reading)
         files = MeshFiles(allowed, known)
-        builder = SceneBuilder(files, None if self.units is None else _unit(self.units), reading)
+        builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
         ids = {
             kind: iter(plain_ids([path for path in given if kind_of(path) == kind]))
             for kind in ("mesh", "document")

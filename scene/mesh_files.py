@@ -48,20 +48,20 @@ class MeshFiles:
         allowed: ReadLimits = ReadLimits(),  # noqa: B008  it is frozen
         known: KnownMeshes | None = None,
     ) -> None:
-        self._allowed = allowed
+        self.allowed = allowed
         self._known = known
         self._made: dict[Hashable, Any] = {}
 
     @cached_property
     def _children(self) -> ReadingChildren:
-        return ReadingChildren(self._allowed.megabytes)
+        return ReadingChildren(self.allowed.megabytes)
 
     def nodes(self, path: str, location: Path, split: Split) -> Nodes | MeshFileError:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
-            load = partial(self._known.recall, (path, key, self._allowed), load)
+            load = partial(self._known.recall, (path, key, self.allowed), load)
         made: Nodes | MeshFileError = self._once(key, load)
         return made
 
@@ -76,7 +76,7 @@ class MeshFiles:
 
     def _load(self, path: str, location: Path, split: Split) -> Nodes:
         with _reading(path, location), errors_of(path):
-            file = replace(open_file(path, location, self._allowed), whole=split == "none")
+            file = replace(open_file(path, location, self.allowed), whole=split == "none")
             return nodes_of(file, self._read(file), split)
 
     def _read(self, file: File) -> RawScene:
@@ -88,7 +88,7 @@ class MeshFiles:
         if reader is not None and reader.by_name:
             file = replace(file, data=b"")
         place = f"{read.__module__}:{read.__name__}"
-        return read_in_child(file, place, RawScene, self._children, self._allowed)
+        return read_in_child(file, place, RawScene, self._children, self.allowed)
 
     def node(self, path: str, location: Path, part: str | None) -> Node:
         """Return one node of the file by its path, which may end in "#" and the number of a
@@ -181,7 +181,7 @@ class MeshFiles:
         MeshFileError if reading it has ended the process before."""
         from satcheck.scene.robot import read_robot
 
-        file = RobotFile(places, packages or {}, geometry, hulls, self._allowed, self._children)
+        file = RobotFile(places, packages or {}, geometry, hulls, self.allowed, self._children)
         with _reading(path, location):
             return read_robot(path, location, file)
 

@@ -124,7 +124,7 @@ def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
         if body.path is not None
     )
     if parts:
-        builder = SceneBuilder(files, None, scene.reading)
+        builder = SceneBuilder(files, None)
         nothing: Any = ()
         builder.add_scene(SceneFile("", "", scene.units, parts, frozenset(), False, *[nothing] * 3))
         for body in builder.scene().bodies:

@@ -19,7 +19,7 @@ from satcheck.scene.common_units import (
     scaled_mesh,
     scaled_world,
 )
-from satcheck.scene.document_rules import DocumentGroups, document_rules, jointed
+from satcheck.scene.document_rules import document_rules, groups_of, jointed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
@@ -31,14 +31,13 @@ from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.document_rules import Jointed
     from satcheck.scene.robot import Part, SceneRobot, Srdf
-    from satcheck.scene.statics import BodyRule
 
 ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
 
@@ -46,24 +45,20 @@ ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
 class SceneBuilder:
     """Takes inputs one by one; `scene` returns their scene.
 
-    files: reads their meshes, with the options `reading`. units: of the inputs that declare none.
+    files: reads their meshes. units: of the inputs that declare none.
     """
 
-    def __init__(self, files: MeshFiles, units: str | None, reading: ReadOptions) -> None:
+    def __init__(self, files: MeshFiles, units: str | None) -> None:
         self._files = files
-        self._reading = reading
         self._given_units = units
         self._ids = UniqueNames()
-        self._group_names = UniqueNames()
-        self._order: list[str] = []
-        self._names: list[str] = []
+        self._groups = UniqueNames()
+        self._shared_groups: dict[str, str] = {}  # of documents
         self._inputs: list[Input] = []
-        self._rule_units: dict[str, str | None] = {}  # of files of rules, as declared
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
-        self._scenes: JoinedScenes | None = None
-        self._rule_files: set[str] = set()
-        self._composed = False
+        self._scenes = JoinedScenes(self._groups)
+        self._rule_files: dict[str, SceneFile] = {}  # by their places
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
         self._robots: list[SceneRobot] = []
@@ -71,7 +66,6 @@ class SceneBuilder:
         self._issues: list[Issue] = []
         self._document_rules: list[Rule] = []
         self._jointed: list[Jointed] = []
-        self._document_groups = DocumentGroups(self._group_names)
 
     def add_file(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
         """Adds a mesh file or a document. alone: the paths of nodes are ids, without the id of the
@@ -81,13 +75,11 @@ class SceneBuilder:
         nodes = self._files.nodes(path, location, split)
         if isinstance(nodes, MeshFileError):
             nodes = Nodes({None: Node(None, nodes)})
-        self._names.append(name)
         self._issues.extend(nodes.issues)
-        self._composed |= is_document or len(nodes.nodes) > 1
         files = [node.file for node in nodes.nodes.values()]
         units = next((file.units for file in files if isinstance(file, MeshFile)), None)
-        self._begin("scene" if is_document else "mesh", path, units)
-        groups = self._document_groups.of(nodes)
+        self._begin("scene" if is_document else "mesh", name, path, units)
+        groups = groups_of(nodes, self._groups, self._shared_groups)
         ids = {}
         for place, node in nodes.nodes.items():
             wanted = _node_id(place, id_, alone)
@@ -110,13 +102,9 @@ class SceneBuilder:
             place = os.path.realpath(path)
             if place in self._rule_files:
                 return
-            self._rule_files.add(place)
-            self._rule_units[path] = scene.units
+            self._rule_files[place] = scene
         else:
-            self._names.append(scene.name)
-            self._composed = True
-            self._begin("scene", path, scene.units)
-        self._scenes = self._scenes or JoinedScenes(self._group_names)
+            self._begin("scene", scene.name, path, scene.units)
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
         self._scenes.add(scene, ids, groups)
@@ -167,11 +155,9 @@ class SceneBuilder:
         )
 
         places = FilePlaces(path, packages, permitted)
-        hulls = bool(self._reading.mesh_hulls)
+        hulls = bool(self._files.allowed.options.mesh_hulls)
         robot, issues = self._files.robot(path, location, places, packages, geometry, hulls=hulls)
-        self._names.append(robot.name)
-        self._composed = True
-        self._begin("robot", path, ROBOT_UNITS)
+        self._begin("robot", robot.name, path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         parts = parts_of(robot, places)
         groups = self._groups_of(robot.name, parts)
@@ -208,16 +194,17 @@ class SceneBuilder:
     def _groups_of(self, robot: str, parts: Sequence[Part]) -> dict[str, str]:
         """Groups of a robot -> their names in the check."""
         groups = dict.fromkeys(group for part in parts for group in part.groups)
-        return {group: self._group_names.unique(f"{robot}: {group}") for group in groups}
+        return {group: self._groups.unique(f"{robot}: {group}") for group in groups}
 
     def add_srdf(self, path: str, location: Path) -> None:
         from satcheck.scene.robot import read_srdf
 
         self._srdfs.append(read_srdf(path, location))
 
-    def _begin(self, kind: Kind, path: str, declares: str | None) -> None:
+    def _begin(self, kind: Kind, name: str, path: str, declares: str | None) -> None:
         """Starts an input. The bodies that follow belong to it."""
-        self._inputs.append(Input(kind, path, declares, self._given_units))
+        unit = stated_unit(declares) or self._given_units
+        self._inputs.append(Input(kind, name, path, declares, unit))
 
     def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
         """The factor from the unit of the mesh file to the unit of the input. units: override the
@@ -231,7 +218,6 @@ class SceneBuilder:
         """Adds a body and returns its id. path: of the file that it is about. The placement is that
         of coordinates of the file; the units override what the file states."""
         id_ = self._ids.unique(wanted)
-        self._order.append(id_)
         self._inputs[-1].ids.append(id_)
         file, is_floor = node.file, isinstance(node.shape, HalfSpace)
         if isinstance(file, MeshFileError):
@@ -259,7 +245,8 @@ class SceneBuilder:
 
     def scene(self) -> Scene:
         """Raises SceneFileError if a rule has to be expanded into too many pairs."""
-        common = in_one_unit(self._bodies, self._inputs, self._rule_units)
+        units_of_rules = {scene.path: scene.units for scene in self._rule_files.values()}
+        common = in_one_unit(self._bodies, self._inputs, units_of_rules)
         scene = self._bodies_and_files(common)
         if not self._robots and not self._srdfs and not self._jointed:
             return with_reach(scene)
@@ -283,23 +270,27 @@ class SceneBuilder:
         return with_reach(posed(scene, {}))
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
-        scenes = self._scenes
+        stated, scales = self._scenes, common.scales
+        everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
+        body_rules = stated.body_rules(everybody, scales)
+        spaces = (rule.permission for rule in body_rules if rule.region)
         return Scene(
-            name=" ".join(self._names),
+            name=" ".join(each.name for each in self._inputs),
             units=common.label,
             bodies=common.bodies,
             unreadable=tuple(self._unreadable),
-            order=tuple(self._order),
-            ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
-            rules=self._rules(common.scales),
-            body_rules=self._body_rules(common.scales),
-            statics=scenes.statics(common.scales) if scenes else None,
-            check_static=scenes is None or scenes.check_static,
-            accept=tuple(scenes.accepted if scenes else ()),
-            motions=scenes.motions(common.scales) if scenes else (),
+            order=tuple(id_ for each in self._inputs for id_ in each.ids),
+            ignore_within_groups=frozenset(stated.ignored),
+            # Those of documents and of regions first, so that a rule of a scene can override them.
+            rules=(*self._document_rules, *spaces, *stated.rules(everybody, scales)),
+            body_rules=body_rules,
+            statics=stated.statics(scales),
+            check_static=stated.check_static,
+            accept=tuple(stated.accepted),
+            motions=stated.motions(scales),
             entries=self._entries,
-            reading=self._reading,
-            composed=self._composed,
+            reading=self._files.allowed.options,
+            composed=any(each.kind != "mesh" or len(each.ids) > 1 for each in self._inputs),
             issues=(
                 *self._issues,
                 *_of_lost(self._unreadable),
@@ -307,18 +298,6 @@ class SceneBuilder:
                 *common.issues,
             ),
         )
-
-    def _rules(self, scales: Mapping[str, float]) -> tuple[Rule, ...]:
-        """Those of documents and of regions first, so that a rule of a scene can override them."""
-        everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
-        stated = self._scenes.rules(everybody, scales) if self._scenes else ()
-        spaces = (rule.permission for rule in self._body_rules(scales) if rule.region)
-        return (*self._document_rules, *spaces, *stated)
-
-    def _body_rules(self, scales: Mapping[str, float]) -> tuple[BodyRule, ...]:
-        if self._scenes is None:
-            return ()
-        return self._scenes.body_rules([*self._bodies, *self._unreadable], scales)
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:
