@@ -28,7 +28,8 @@ MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
-    group_names: makes names of groups unique in the check. ignored: groups whose pairs are not checked. accepted: issues that may stay.
+    group_names: makes names of groups unique in the check. ignored: groups whose pairs are not
+    checked. accepted: issues that may stay.
     """
 
     def __init__(self, group_names: UniqueNames) -> None:
