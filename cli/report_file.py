@@ -9,7 +9,7 @@ import msgspec
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 
 MOST_BYTES = 1 << 30
 

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import LARGEST_LENGTH, SMALLEST_SIZE
+from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
@@ -40,7 +41,7 @@ def errors_of(path: str) -> Iterator[None]:
     reader checks."""
     try:
         yield
-    except MeshFileError as error:
+    except SatcheckError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except MemoryError as error:
         not_for_lack_of_memory(error)

@@ -23,8 +23,7 @@ from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
 from satcheck.scene.loading.raw_mesh import RawScene
 from satcheck.scene.loading.readers import File, NeedsChild, ReadLimits, RobotFile, read, reader_of
 from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import LARGE_FILE_BYTES, open_file
+from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import meant

@@ -25,7 +25,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.json import document as json_document
 from satcheck.report.values import Tool
 from satcheck.report.verification import CheckedSupport, Outcome, VerificationReport
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.verify import Checked, Rejected, Verification, parse, verify
 
 # At most this many files that are not there are named.

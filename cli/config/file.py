@@ -60,7 +60,7 @@ def has_table(path: Path, data: bytes) -> bool:
 
 def text_of(path: Path) -> bytes:
     """Raises as `read_config`."""
-    from satcheck.scene.loading.regular_file import read_whole
+    from satcheck.scene.opening import read_whole
 
     try:
         return read_whole(str(path), path, MOST_BYTES, SatcheckError)

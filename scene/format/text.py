@@ -14,7 +14,7 @@ from msgspec import Struct
 
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.limits import MAX_DEPTH
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.scene.words import why_unreadable
 
 if TYPE_CHECKING:

@@ -97,7 +97,7 @@ class Reader(Struct, frozen=True):
     MeshFileError without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
     reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
-    may begin, of those in `loading/source.py`. text: "plain": the reader is shown UTF-8 without a
+    may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
     byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
     read in this process, all others, and all of other packages, in a child process. by_name: it
     opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.

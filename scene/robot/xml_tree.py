@@ -14,8 +14,8 @@ from typing import NoReturn, Self
 
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading import xml_tree
-from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
+from satcheck.scene.opening import read_whole
 
 _MAX_BYTES = 64 << 20
 # Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).

@@ -7,12 +7,11 @@ from threading import Thread
 
 import pytest
 
-from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files
+from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files, opening
 from satcheck.scene.loading import limits
-from satcheck.scene.loading import source as loading_source
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.readers import ReadLimits
-from satcheck.scene.loading.source import open_file
+from satcheck.scene.opening import open_file
 from satcheck.scene.permitted import ANYWHERE
 from tests.scene import files, graphs
 
@@ -104,7 +103,7 @@ def stl_of(triangles: int) -> bytes:
 
 @pytest.mark.parametrize("damage", ["none", "infinite", "short", "long", "png", "text"])
 def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monkeypatch, damage):
-    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
     content = bytearray(stl_of(300))
     if damage == "infinite":
         content[84 + 50 * 200 + 12 : 84 + 50 * 200 + 16] = struct.pack("<f", float("inf"))
@@ -134,7 +133,7 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
 
 
 def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
     path = tmp_path / "fan.stl"
     path.write_bytes(stl_of(300))
     file = open_file("fan.stl", path, ReadLimits(1, 100, hashed=False))
