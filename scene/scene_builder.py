@@ -19,14 +19,13 @@ from satcheck.scene.common_units import (
     scaled_mesh,
     scaled_world,
 )
-from satcheck.scene.document_rules import document_rules, groups_of, jointed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.issue import BLOCKING, Issue, issue
-from satcheck.scene.loading.nodes import Node, Nodes, Split
+from satcheck.scene.loading.nodes import Node, Nodes, Split, document_rules, groups_of
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
@@ -36,8 +35,8 @@ from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
-    from satcheck.scene.document_rules import Jointed
     from satcheck.scene.robot import Part, SceneRobot, Srdf
+    from satcheck.scene.robot.document import Jointed
 
 ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
 
@@ -93,7 +92,11 @@ class SceneBuilder:
             )
             ids[place] = self._add(wanted, path, own)
         self._document_rules += document_rules(nodes, ids, groups, path)
-        self._jointed += jointed(nodes, ids, path)
+        if any(joint.kind != "fixed" for joint in nodes.joints):
+            from satcheck.scene.robot.document import Jointed
+
+            links = {ids[place]: node.link for place, node in nodes.nodes.items() if node.link}
+            self._jointed.append(Jointed(path, nodes.joints, links))
 
     def add_scene(self, scene: SceneFile) -> None:
         """Adds a scene file. One without bodies is a file of rules, which is added only once."""

@@ -4,7 +4,7 @@ connected component of these."""
 from __future__ import annotations
 
 from array import array
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from msgspec import Struct
@@ -30,8 +30,9 @@ from satcheck.scene.loading.raw_mesh import (
     Refusal,
 )
 from satcheck.scene.loading.readers import File
-from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.planar.outline import Shape
+from satcheck.scene.rules import Rule, Selector
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]
@@ -173,3 +174,38 @@ def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
                 raise
             flat.append(("", error))
     return [*bodies, *flat] if bodies else []
+
+
+def groups_of(nodes: Nodes, names: UniqueNames, shared: dict[str, str]) -> dict[str, str]:
+    """Return the groups of a document -> their names in the check.
+
+    Groups of several documents that have one name are one group, unless rules of a document name
+    the group. names: of all groups in the check. shared: of these documents; this call adds to it.
+    """
+    ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
+    groups: dict[str, str] = {}
+    for group in dict.fromkeys(group for node in nodes.nodes.values() for group in node.groups):
+        if group not in ruled and group not in shared:
+            shared[group] = names.unique(group)
+        groups[group] = names.unique(group) if group in ruled else shared[group]
+    return groups
+
+
+def document_rules(
+    nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
+) -> Iterator[Rule]:
+    """The rules of the document at `path`. ids, groups: of its nodes -> their names in
+    the check."""
+    for rule in nodes.rules:
+        select = Selector.exactly_group if rule.of_groups else Selector.exactly
+        names = groups if rule.of_groups else ids
+        if rule.a in names and rule.b in names:
+            yield Rule(
+                a=select(names[rule.a]),
+                b=select(names[rule.b]),
+                allowed=True if rule.severity is None else None,
+                severity=rule.severity,
+                reason=rule.reason,
+                where=f"{path}: {rule.reason}",
+                file=path,
+            )
