@@ -124,7 +124,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                     builder.add_scene(scenes[path])
                 case "robot":
                     geometry = self.geometry or "collision"
-                    builder.add_robot(path, Path(path), self.packages, permitted, geometry)
+                    builder.add_robot(path, Path(path), self.packages, geometry)
                 case "srdf":
                     builder.add_srdf(path, Path(path))
                 case "document":

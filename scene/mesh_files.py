@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
@@ -167,21 +167,14 @@ class MeshFiles:
             thread.join()
 
     def robot(
-        self,
-        path: str,
-        location: Path,
-        places: FilePlaces,
-        packages: Mapping[str, str | Path] | None = None,
-        geometry: GeometryKind = "collision",
-        *,
-        hulls: bool = False,
+        self, path: str, location: Path, places: FilePlaces, geometry: GeometryKind = "collision"
     ) -> tuple[Robot, tuple[Issue, ...]]:
         """Return the robot that a file describes, and issues. Raises SceneFileError, and
         MeshFileError if reading it has ended the process before."""
         from satcheck.scene.robot import read_robot
 
-        file = RobotFile(places, packages or {}, geometry, hulls, self.allowed, self._children)
         with _reading(path, location):
+            file = RobotFile(places, geometry, self.allowed, self._children)
             return read_robot(path, location, file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:

@@ -28,7 +28,6 @@ from satcheck.scene.issue import BLOCKING, Issue, issue
 from satcheck.scene.loading.nodes import Node, Nodes, Split, document_rules, groups_of
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import Permitted
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.rules import Rule
@@ -146,7 +145,6 @@ class SceneBuilder:
         path: str,
         location: Path,
         packages: Mapping[str, str | Path] | None,
-        permitted: Permitted,
         geometry: GeometryKind,
     ) -> None:
         from satcheck.scene.robot import (
@@ -157,9 +155,8 @@ class SceneBuilder:
             parts_of,
         )
 
-        places = FilePlaces(path, packages, permitted)
-        hulls = bool(self._files.allowed.options.mesh_hulls)
-        robot, issues = self._files.robot(path, location, places, packages, geometry, hulls=hulls)
+        places = FilePlaces(path, packages, self._files.allowed.permitted)
+        robot, issues = self._files.robot(path, location, places, geometry)
         self._begin("robot", robot.name, path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         parts = parts_of(robot, places)
