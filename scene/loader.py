@@ -97,29 +97,31 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the
         rest is loaded. Raises SceneFileError for an invalid scene file or robot.
         """
-        given = _as_texts(paths)
-        permitted = Permitted.around(given, self.folders, anywhere=self.allow_outside)
-        scenes = _read_scenes(given, permitted)
+        given = [(path, kind_of(path)) for path in _as_texts(paths)]
+        names = [path for path, _ in given]
+        permitted = Permitted.around(names, self.folders, anywhere=self.allow_outside)
+        scenes = {path: _scene(path, permitted) for path, kind in given if kind == "scene"}
         reading = self.reading
         if self.geometry is not None:
             reading = replace(reading, geometry=self.geometry)
         reading = reading.beside(_stated_reading(scenes.values()))
         seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
-        allowed = ReadLimits(seconds, megabytes, permitted, hashed, reading)
-        files = MeshFiles(allowed, known)
+        files = MeshFiles(ReadLimits(seconds, megabytes, permitted, hashed, reading), known)
         builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
-        ids = {
-            kind: iter(plain_ids([path for path in given if kind_of(path) == kind]))
-            for kind in ("mesh", "document")
-        }
-        alone = sum(_has_bodies(path, scenes) for path in given) == 1
+        have_bodies = [
+            bool(scenes[path].bodies) if kind == "scene" else kind != "srdf" for path, kind in given
+        ]
+        alone = sum(have_bodies) == 1
         # Colliders are exact shapes, which no mesh of a whole file holds.
         apart = alone or reading.geometry == "collision"
         split: Split = self.split or ("nodes" if apart else "none")
+        meshes = [path for path, kind in given if kind == "mesh"]
+        documents = [path for path, kind in given if kind == "document"]
+        ids = {"mesh": iter(plain_ids(meshes)), "document": iter(plain_ids(documents))}
         if split == "none":
-            files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
-        for path in given:
-            match kind_of(path):
+            files.read_ahead((path, Path(path)) for path in meshes)
+        for path, kind in given:
+            match kind:
                 case "scene":
                     builder.add_scene(scenes[path])
                 case "robot":
@@ -128,9 +130,9 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                 case "srdf":
                     builder.add_srdf(path, Path(path))
                 case "document":
-                    builder.add_file(next(ids["document"]), path, Path(path), "nodes", alone)
+                    builder.add_file("scene", next(ids[kind]), path, "nodes", alone)
                 case "mesh":
-                    builder.add_file(next(ids["mesh"]), path, Path(path), split, alone)
+                    builder.add_file("mesh", next(ids[kind]), path, split, alone)
         for path in _as_texts(self.rules):
             builder.add_scene(read_rules(path))
         scene = builder.scene()
@@ -173,14 +175,11 @@ def _unit(name: str) -> str:
     return unit
 
 
-def _read_scenes(given: Sequence[str], permitted: Permitted) -> dict[str, SceneFile]:
-    """The scene files among the inputs, by their paths. Raises SceneFileError."""
-    paths = [path for path in given if kind_of(path) == "scene"]
-    if not paths:
-        return {}
+def _scene(path: str, permitted: Permitted) -> SceneFile:
+    """Raises SceneFileError."""
     from satcheck.scene.format.reading import read_scene_file
 
-    return {path: read_scene_file(path, Path(path), permitted) for path in paths}
+    return read_scene_file(path, Path(path), permitted)
 
 
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
@@ -204,27 +203,16 @@ def read_rules(path: str) -> SceneFile:
 def is_rules(path: str) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises SceneFileError."""
-    scene = _read_scenes([path], ANYWHERE).get(path)
-    return scene is not None and not scene.bodies
+    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).bodies
 
 
 def has_only_rules(path: str) -> bool:
     """Return whether the input is a scene file with rules and without bodies. Raises
     SceneFileError."""
-    if _begins_a_body(path):
+    if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
         return False
-    scene = _read_scenes([path], ANYWHERE).get(path)
-    return scene is not None and bool(scene.rules or scene.body_rules) and not scene.bodies
-
-
-def _begins_a_body(path: str) -> bool:
-    """Return whether the text of a scene file has a body, without parsing it. False: perhaps."""
-    content = content_of(Path(path)) if kind_of(path) == "scene" else None
-    return content is not None and _BODY.search(content) is not None
-
-
-def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
-    return bool(scenes[path].bodies) if path in scenes else kind_of(path) != "srdf"
+    scene = _scene(path, ANYWHERE)
+    return bool(scene.rules or scene.body_rules) and not scene.bodies
 
 
 def is_mesh(path: str) -> bool:

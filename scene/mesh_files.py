@@ -21,7 +21,15 @@ from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
 from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.loading.readers import File, NeedsChild, ReadLimits, RobotFile, read, reader_of
+from satcheck.scene.loading.readers import (
+    File,
+    NeedsChild,
+    ReadLimits,
+    RobotFile,
+    read,
+    reader_named,
+    reader_of,
+)
 from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
 from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
@@ -80,7 +88,7 @@ class MeshFiles:
 
     def _read(self, file: File) -> RawScene:
         """In this process, or in the child process, as its reader says."""
-        reader = reader_of(file.location.suffix)
+        reader = reader_named(file.format)
         if reader is not None and file.size <= reader.here:
             with suppress(NeedsChild):
                 return read(file)

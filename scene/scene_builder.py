@@ -23,7 +23,6 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
-from satcheck.scene.input_kind import kind_of
 from satcheck.scene.issue import BLOCKING, Issue, issue
 from satcheck.scene.loading.nodes import Node, Nodes, Split, document_rules, groups_of
 from satcheck.scene.loading.placing import multiply
@@ -65,18 +64,18 @@ class SceneBuilder:
         self._document_rules: list[Rule] = []
         self._jointed: list[Jointed] = []
 
-    def add_file(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
+    def add_file(self, kind: Kind, id_: str, path: str, split: Split, alone: bool) -> None:
         """Adds a mesh file or a document. alone: the paths of nodes are ids, without the id of the
         file before them."""
+        location = Path(path)
         name = location.stem or path
-        is_document = kind_of(path) == "document"
         nodes = self._files.nodes(path, location, split)
         if isinstance(nodes, MeshFileError):
             nodes = Nodes({None: Node(None, nodes)})
         self._issues.extend(nodes.issues)
         files = [node.file for node in nodes.nodes.values()]
         units = next((file.units for file in files if isinstance(file, MeshFile)), None)
-        self._begin("scene" if is_document else "mesh", name, path, units)
+        self._begin(kind, name, path, units)
         groups = groups_of(nodes, self._groups, self._shared_groups)
         ids = {}
         for place, node in nodes.nodes.items():

@@ -29,6 +29,10 @@ def flattened(scene: RawScene) -> RawMesh:
     A mesh of lines or points only adds a warning. Raises MeshFileError if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
+    if scene.nodes == (RawNode(None, 0),) and not scene.warnings:
+        only = scene.parts[0].mesh
+        if isinstance(only, RawMesh):
+            return only
     said = list(scene.warnings)
     placed: list[tuple[RawMesh, Transform | None]] = []
     for node in scene.nodes:
@@ -44,8 +48,6 @@ def flattened(scene: RawScene) -> RawMesh:
     if not placed:
         raise MeshFileError("empty-mesh", "empty mesh: no node has a surface")
     meshes = [mesh for mesh, _ in placed]
-    if len(scene.nodes) == 1 and scene.nodes[0] == RawNode(None, 0) and not said:
-        return meshes[0]
     for most, what, count in (
         (limits.MAX_TRIANGLES, "triangles", sum(len(mesh.triangles) // 12 for mesh in meshes)),
         (limits.MAX_VERTICES, "vertices", sum(len(mesh.vertices) // 24 for mesh in meshes)),

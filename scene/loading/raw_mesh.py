@@ -126,7 +126,7 @@ class RawScene(Struct, frozen=True, tag=True):
         MeshFileError. Coordinates and corners are checked where meshes are inspected."""
         if not self.nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the file has no body")
-        if len({node.path for node in self.nodes}) < len(self.nodes):
+        if len(self.nodes) > 1 and len({node.path for node in self.nodes}) < len(self.nodes):
             raise MeshFileError("reader-failed", "its reader gives two bodies one path")
         if not all(0 <= node.part < len(self.parts) for node in self.nodes):
             raise MeshFileError("reader-failed", "its reader places a mesh that is not there")

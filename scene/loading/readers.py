@@ -270,7 +270,8 @@ def reader_named(name: str) -> Reader | None:
 
 def read(file: File) -> RawScene:
     """Return the meshes of a file, in this process. Raises MeshFileError and NeedsChild."""
-    reader = reader_of(file.location.suffix)
+    # A child process has not looked for the readers of other packages.
+    reader = reader_named(file.format) or reader_of(file.location.suffix)
     assert reader is not None  # it has been opened for its reader
     return reader.scene(file)
 
