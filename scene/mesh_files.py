@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
@@ -175,14 +175,19 @@ class MeshFiles:
             thread.join()
 
     def robot(
-        self, path: str, location: Path, places: FilePlaces, geometry: GeometryKind = "collision"
+        self,
+        path: str,
+        location: Path,
+        places: FilePlaces,
+        packages: Mapping[str, str | Path],
+        geometry: GeometryKind,
     ) -> tuple[Robot, tuple[Issue, ...]]:
         """Return the robot that a file describes, and issues. Raises SceneFileError, and
         MeshFileError if reading it has ended the process before."""
         from satcheck.scene.robot import read_robot
 
         with _reading(path, location):
-            file = RobotFile(places, geometry, self.allowed, self._children)
+            file = RobotFile(places, packages, geometry, self.allowed, self._children)
             return read_robot(path, location, file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:

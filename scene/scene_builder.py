@@ -55,6 +55,7 @@ class SceneBuilder:
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
         self._scenes = JoinedScenes(self._groups)
+        self._has_scenes = False
         self._rule_files: dict[str, SceneFile] = {}  # by their places
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
@@ -106,6 +107,7 @@ class SceneBuilder:
             self._rule_files[place] = scene
         else:
             self._begin("scene", scene.name, path, scene.units)
+        self._has_scenes = True
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
         self._scenes.add(scene, ids, groups)
@@ -155,7 +157,7 @@ class SceneBuilder:
         )
 
         places = FilePlaces(path, packages, self._files.allowed.permitted)
-        robot, issues = self._files.robot(path, location, places, geometry)
+        robot, issues = self._files.robot(path, location, places, packages or {}, geometry)
         self._begin("robot", robot.name, path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         parts = parts_of(robot, places)
@@ -284,7 +286,7 @@ class SceneBuilder:
             rules=(*self._document_rules, *spaces, *stated.rules(everybody, scales)),
             body_rules=body_rules,
             statics=stated.statics(scales),
-            check_static=stated.check_static,
+            check_static=stated.check_static or not self._has_scenes,
             accept=tuple(stated.accepted),
             motions=stated.motions(scales),
             entries=self._entries,

@@ -32,7 +32,7 @@ def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]
         0,
         permitted=allowed.permitted,
         path=path,
-        packages={name: str(place) for name, place in robot.places.packages.items()},
+        packages={name: str(place) for name, place in robot.packages.items()},
     )
     model = read_in_child(file, _MODEL, Model, robot.children, allowed)
     return robot_of_model(path, model, robot.geometry, hulls=bool(allowed.options.mesh_hulls))

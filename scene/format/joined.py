@@ -28,8 +28,8 @@ MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
-    group_names: makes names of groups unique in the check. ignored: groups whose pairs are not
-    checked. accepted: issues that may stay.
+    group_names: makes names of groups unique in the check. check_static: whether any file requires
+    it. ignored: groups whose pairs are not checked. accepted: issues that may stay.
     """
 
     def __init__(self, group_names: UniqueNames) -> None:
@@ -37,12 +37,8 @@ class JoinedScenes:
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
         self.accepted: list[str] = []
+        self.check_static = False
         self._motions: list[tuple[str, Motion]] = []  # with the path of their file
-
-    @property
-    def check_static(self) -> bool:
-        """Return whether any file requires it, or there is none."""
-        return not self._scenes or any(scene.check_static for scene, _ in self._scenes)
 
     def groups_of(self, scene: SceneFile) -> dict[str, str]:
         """Its groups -> their names in the check. Groups of different scenes are different, even if
@@ -55,6 +51,7 @@ class JoinedScenes:
         """ids: in the file -> in the check; groups: likewise, from `groups_of`."""
         self._scenes.append((scene, ids))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
+        self.check_static |= scene.check_static
         self.accepted += scene.accept
         self._motions += [
             (scene.path, replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies)))

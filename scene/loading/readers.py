@@ -135,11 +135,12 @@ class Reader(Struct, frozen=True):
 class RobotFile(Struct, frozen=True):
     """An XML file of a robot, and what its reader may ask for.
 
-    places: where the files that it names are looked for. geometry: which elements of links become
-    bodies. allowed, children: for readers that need a child process.
+    places: where the files that it names are looked for. packages: as given. geometry: which
+    elements of links become bodies. allowed, children: for readers that need a child process.
     """
 
     places: FilePlaces
+    packages: Mapping[str, str | Path]
     geometry: GeometryKind
     allowed: ReadLimits
     children: ReadingChildren

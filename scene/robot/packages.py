@@ -210,7 +210,7 @@ class FilePlaces:
         packages: Mapping[str, str | Path] | None = None,
         permitted: Permitted = NOTHING_ELSE,
     ) -> None:
-        self.packages = packages or {}
+        self._packages = packages
         self._permitted = permitted
         self._first = MeshPlaces(first, packages, permitted)
         self._places = {first: self._first}
@@ -219,7 +219,7 @@ class FilePlaces:
         if file not in self._places:
             self._places[file] = MeshPlaces(
                 file,
-                self.packages,
+                self._packages,
                 self._permitted,
                 included_by=self._first,
             )

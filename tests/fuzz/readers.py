@@ -72,7 +72,7 @@ _MODELS = MeshFiles()  # one child process for all files
 def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
-        _MODELS.robot(str(path), path, FilePlaces(str(path)))
+        _MODELS.robot(str(path), path, FilePlaces(str(path)), {}, "collision")
     except SceneFileError as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error
