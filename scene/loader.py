@@ -34,7 +34,7 @@ _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTI
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
-    from satcheck.scene.known_meshes import KnownMeshes
+    from satcheck.scene.mesh_files import KnownMeshes
 
 
 class LoadOptions(Struct, frozen=True, kw_only=True):

@@ -1,22 +1,26 @@
-"""Reads each mesh file once, whole or split into nodes, and makes the mesh of each shape once."""
+"""Reads each mesh file once, whole or split into nodes, and makes the mesh of each shape once.
+For a process that checks many scenes, what is read stays in memory."""
 
 from __future__ import annotations
 
 import math
 import os
+from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.files_read import note, note_lost_reader
+from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
@@ -37,7 +41,6 @@ from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.scene.known_meshes import KnownMeshes
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot.model import Robot
     from satcheck.scene.robot.packages import FilePlaces
@@ -152,8 +155,6 @@ class MeshFiles:
         }
         if len(waiting) < 2 or is_careful():
             return
-        from threading import Thread
-
         queue = list(waiting.values())
 
         def read() -> None:
@@ -194,6 +195,59 @@ class MeshFiles:
         """path: the file that states it."""
         made: MeshFile | MeshFileError = self._once((shape, path), partial(shape_file, shape, path))
         return made
+
+
+class _Known(Struct, frozen=True):
+    """read: what was made of these files."""
+
+    read: Nodes
+    files: FilesRead
+    triangles: int
+
+
+class KnownMeshes:
+    """The files that were used last, of this many triangles together. A file that has changed is
+    read again."""
+
+    def __init__(self, triangles: int) -> None:
+        self._most = triangles
+        self._held = 0
+        self._known: OrderedDict[Hashable, _Known] = OrderedDict()
+        self._lock = Lock()
+
+    def recall(self, key: Hashable, load: Callable[[], Nodes]) -> Nodes:
+        """The result of `load`, or of an earlier one with this key. Raises what it raises."""
+        known = self._take(key)
+        if known is not None and known.files.are_certain():
+            known.files.note_again()
+            self._put(key, known)
+            return known.read
+        with files_read() as files:
+            read = load()
+        if files.are_settled():
+            self._put(key, _Known(read, files, _triangles(read)))
+        return read
+
+    def _take(self, key: Hashable) -> _Known | None:
+        with self._lock:
+            known = self._known.pop(key, None)
+            self._held -= known.triangles if known else 0
+            return known
+
+    def _put(self, key: Hashable, known: _Known) -> None:
+        """The files of the longest ago make room."""
+        with self._lock:
+            self._known[key] = known
+            self._held += known.triangles
+            while self._held > self._most:
+                _, oldest = self._known.popitem(last=False)
+                self._held -= oldest.triangles
+
+
+def _triangles(read: Nodes) -> int:
+    """Each mesh counts for a little more than its triangles."""
+    files = (node.file for node in read.nodes.values())
+    return sum(100 + file.mesh.triangle_count for file in files if isinstance(file, MeshFile))
 
 
 def _absolute(location: Path) -> str:
