@@ -52,11 +52,9 @@ class SceneBuilder:
         self._groups = UniqueNames()
         self._shared_groups: dict[str, str] = {}  # of documents
         self._inputs: list[Input] = []
-        self._bodies: list[Body] = []
-        self._unreadable: list[Unreadable] = []
         self._scenes = JoinedScenes(self._groups)
         self._has_scenes = False
-        self._rule_files: dict[str, SceneFile] = {}  # by their places
+        self._rule_files: set[str] = set()
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
         self._robots: list[SceneRobot] = []
@@ -104,9 +102,8 @@ class SceneBuilder:
             place = os.path.realpath(path)
             if place in self._rule_files:
                 return
-            self._rule_files[place] = scene
-        else:
-            self._begin("scene", scene.name, path, scene.units)
+            self._rule_files.add(place)
+        self._begin("scene" if scene.bodies else "rules", scene.name, path, scene.units)
         self._has_scenes = True
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
@@ -204,7 +201,7 @@ class SceneBuilder:
 
     def _begin(self, kind: Kind, name: str, path: str, declares: str | None) -> None:
         """Starts an input. The bodies that follow belong to it."""
-        unit = stated_unit(declares) or self._given_units
+        unit = stated_unit(declares) or (None if kind == "rules" else self._given_units)
         self._inputs.append(Input(kind, name, path, declares, unit))
 
     def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
@@ -219,14 +216,13 @@ class SceneBuilder:
         """Adds a body and returns its id. path: of the file that it is about. The placement is that
         of coordinates of the file; the units override what the file states."""
         id_ = self._ids.unique(wanted)
-        self._inputs[-1].ids.append(id_)
         file, is_floor = node.file, isinstance(node.shape, HalfSpace)
         if isinstance(file, MeshFileError):
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if node.shape is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
             lost = Unreadable(id_, path, reason, node.groups, node.path, node.static)
-            self._unreadable.append(lost)
+            self._inputs[-1].bodies.append(lost)
             return id_
         body = Body(
             id_,
@@ -241,13 +237,12 @@ class SceneBuilder:
             stated_unit(node.units or file.units) or self._inputs[-1].unit,
             surface_tolerance=node.surface_tolerance,
         )
-        self._bodies.append(body)
+        self._inputs[-1].bodies.append(body)
         return id_
 
     def scene(self) -> Scene:
         """Raises SceneFileError if a rule has to be expanded into too many pairs."""
-        units_of_rules = {scene.path: scene.units for scene in self._rule_files.values()}
-        common = in_one_unit(self._bodies, self._inputs, units_of_rules)
+        common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
         if not self._robots and not self._srdfs and not self._jointed:
             return with_reach(scene)
@@ -272,15 +267,19 @@ class SceneBuilder:
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
         stated, scales = self._scenes, common.scales
-        everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
+        inputs = [each for each in self._inputs if each.kind != "rules"]
+        bodies = [body for each in inputs for body in each.readable]
+        everyone = [body for each in inputs for body in each.bodies]
+        lost = [body for body in everyone if isinstance(body, Unreadable)]
+        everybody: list[Body | Unreadable] = [*bodies, *lost]
         body_rules = stated.body_rules(everybody, scales)
         spaces = (rule.permission for rule in body_rules if rule.region)
         return Scene(
-            name=" ".join(each.name for each in self._inputs),
+            name=" ".join(each.name for each in inputs),
             units=common.label,
             bodies=common.bodies,
-            unreadable=tuple(self._unreadable),
-            order=tuple(id_ for each in self._inputs for id_ in each.ids),
+            unreadable=tuple(lost),
+            order=tuple(body.id for body in everyone),
             ignore_within_groups=frozenset(stated.ignored),
             # Those of documents and of regions first, so that a rule of a scene can override them.
             rules=(*self._document_rules, *spaces, *stated.rules(everybody, scales)),
@@ -291,11 +290,11 @@ class SceneBuilder:
             motions=stated.motions(scales),
             entries=self._entries,
             reading=self._files.allowed.options,
-            composed=any(each.kind != "mesh" or len(each.ids) > 1 for each in self._inputs),
+            composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(
                 *self._issues,
-                *_of_lost(self._unreadable),
-                *_issues_of_files(self._bodies),
+                *_of_lost(lost),
+                *_issues_of_files(bodies),
                 *common.issues,
             ),
         )
