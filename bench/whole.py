@@ -165,7 +165,7 @@ def readers(folder: Path, rounds: int) -> list[str]:
     for form in WRITERS:
         path = written(folder, "a", ring(0.7, 1, *SMALL), form)
         reads: dict[str, Callable[[str], Any]] = {
-            "ours": lambda path: MeshFiles().whole(path, Path(path)),
+            "ours": lambda path: MeshFiles().node(path, Path(path), None),
             "theirs": lambda path: trimesh.load(path, force="mesh"),
         }
         best = dict.fromkeys(reads, float("inf"))

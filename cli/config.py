@@ -219,7 +219,7 @@ def read_config(path: Path) -> ConfigFile:
 
 def text_of(path: Path) -> bytes:
     """Raises as `read_config`."""
-    from satcheck.scene.loading.regular_file import read_whole
+    from satcheck.scene.opening import read_whole
 
     try:
         return read_whole(str(path), path, MOST_BYTES, SatcheckError)

@@ -10,7 +10,6 @@ from typing import Any, Self
 import click
 from msgspec import Struct
 
-from satcheck.audit.batch.options import LoadOptions
 from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar
@@ -18,13 +17,15 @@ from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.input_kind import kind_of
-from satcheck.scene.loader import is_mesh, is_rules
-from satcheck.scene.loading.readers import reader_of
-from satcheck.scene.mesh_files import (
+from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
+from satcheck.scene.loading.nodes import Split
+from satcheck.scene.loading.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
-    MeshFiles,
+    ReadLimits,
+    reader_of,
 )
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.path_kind import is_folder
 from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.read_options import (
@@ -33,7 +34,6 @@ from satcheck.scene.read_options import (
     Purpose,
     ReadOptions,
 )
-from satcheck.scene.scene_builder import Split
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
@@ -112,13 +112,8 @@ class Inputs(Struct, frozen=True):
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
         with."""
-        return MeshFiles(
-            self.seconds_per_file,
-            self.megabytes_per_file,
-            permitted=ANYWHERE,
-            hashed=False,
-            options=reading,
-        )
+        seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
+        return MeshFiles(ReadLimits(seconds, megabytes, ANYWHERE, hashed=False, options=reading))
 
     @property
     def has_poses(self) -> bool:

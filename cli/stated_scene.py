@@ -14,12 +14,13 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.nodes import CORNER
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.loading.readers import ReadLimits
+from satcheck.scene.opening import read_whole
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
-from satcheck.scene.shape_file import shape_file
 
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
@@ -38,7 +39,7 @@ def stated_scene(
     whose file has changed is there as it is now. root: where the paths in the report start."""
     reading = as_stated(to_builtins(report.reading))
     permitted = Permitted(anywhere=allow_outside)
-    files = MeshFiles(permitted=permitted, options=reading)
+    files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
     bodies: list[Body] = []
     issues: list[Issue] = []
     for entry in report.bodies:
@@ -70,10 +71,7 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Me
             return shape_file(shape_from(to_builtins(entry.shape)), entry.file)
         except MeshFileError as error:
             return error
-    if entry.path is None:
-        return files.whole(entry.file, location)
-    node = files.part(entry.file, location, entry.path)
-    return node if isinstance(node, MeshFileError) else node.file
+    return files.node(entry.file, location, entry.path).file
 
 
 def _placed(entry: BodyReport, file: MeshFile) -> Body:

@@ -227,21 +227,5 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 def _is_exact_scaling(transform: Transform) -> bool:
     """Return whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
-    return frexp(scale)[0] == 0.5 and transform == (
-        scale,
-        0,
-        0,
-        0,
-        0,
-        scale,
-        0,
-        0,
-        0,
-        0,
-        scale,
-        0,
-        0,
-        0,
-        0,
-        1,
-    )
+    scaling = (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])
+    return frexp(scale)[0] == 0.5 and transform == scaling

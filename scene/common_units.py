@@ -14,27 +14,29 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
-from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body
+from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Unreadable
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
 from satcheck.scene.words import listed
 
-Kind = Literal["mesh", "scene", "robot"]
+Kind = Literal["mesh", "scene", "robot", "rules"]
 
 
-class Input:
-    """One input with bodies. declares: its units as it writes them. unit: the unit meant by that,
-    or the unit given for inputs that declare none; None: unknown. ids: of its bodies."""
+class Input(Struct):
+    """One input. kind: "rules": a file of rules, without bodies. declares: its units as it writes
+    them. unit: the unit meant by that, or the unit given for inputs that declare none; None:
+    unknown."""
 
-    __slots__ = ("declares", "ids", "kind", "path", "unit")
+    kind: Kind
+    name: str
+    path: str
+    declares: str | None
+    unit: str | None
+    bodies: list[Body | Unreadable] = []
 
-    def __init__(self, kind: Kind, path: str, declares: str | None, otherwise: str | None) -> None:
-        """otherwise: the unit to assume if the input declares none."""
-        self.kind = kind
-        self.path = path
-        self.declares = declares
-        self.unit = stated_unit(declares) or otherwise
-        self.ids: list[str] = []
+    @property
+    def readable(self) -> list[Body]:
+        return [body for body in self.bodies if isinstance(body, Body)]
 
 
 class InOneUnit(Struct, frozen=True):
@@ -50,12 +52,9 @@ class InOneUnit(Struct, frozen=True):
     issues: tuple[Issue, ...]
 
 
-def in_one_unit(
-    bodies: Sequence[Body], inputs: Sequence[Input], rules: Mapping[str, str | None]
-) -> InOneUnit:
-    """bodies: the `units` of each are those of its mesh, else those of its input, else None. Their
-    transforms lead into the unit of their input. rules: path of a file of rules -> the units that
-    it declares.
+def in_one_unit(inputs: Sequence[Input]) -> InOneUnit:
+    """inputs: the `units` of their bodies are those of the mesh, else those of the input, else
+    None. Their transforms lead into the unit of the input.
 
     A scene without a unit has the unit of its meshes if they all state the same one. An input
     without any stated unit has the unit of the first file of rules that states one.
@@ -63,34 +62,33 @@ def in_one_unit(
     there are several, the smallest is taken, because the factors of the others are then usually
     whole numbers.
     """
-    by_id = {body.id: body for body in bodies}
-    known_rules = {path: unit for path, text in rules.items() if (unit := stated_unit(text))}
+    of_rules = next((each.unit for each in inputs if each.kind == "rules" and each.unit), None)
     for source in inputs:
-        _infer(source, [by_id[id_] for id_ in source.ids if id_ in by_id], known_rules)
-    unit = _common(inputs) or next(iter(known_rules.values()), None)
-    converted = {
-        id_: _converted(by_id[id_], source.unit, unit)
+        if source.kind != "rules" and source.unit is None:
+            source.unit = _inferred(source.readable, of_rules)
+    unit = _common(inputs) or of_rules
+    owned = [
+        (source, _converted(body, source.unit, unit))
         for source in inputs
-        for id_ in source.ids
-        if id_ in by_id
+        for body in source.readable
+    ]
+    bodies = tuple(body for _, body in owned)
+    scales = {
+        source.path: ratio(source.unit, unit)
+        for kind in ("scene", "rules")
+        for source in inputs
+        if source.kind == kind and source.unit and unit
     }
-    scaled = [converted.get(body.id, body) for body in bodies]
-    units = {source.path: source.unit for source in inputs if source.kind == "scene"} | known_rules
-    scales = {path: ratio(own, unit) for path, own in units.items() if own and unit}
-    declared = [*(source.declares for source in inputs), *rules.values()]
-    stated_by = {id_: source.path for source in inputs for id_ in source.ids}
-    issues = (*_conversions(scaled, stated_by), *_unknown(scaled, inputs))
-    return InOneUnit(tuple(scaled), unit, _label(scaled, declared, unit), scales, issues)
+    declared = [each.declares for each in sorted(inputs, key=lambda each: each.kind == "rules")]
+    issues = (*_conversions(owned), *_unknown(owned, inputs))
+    return InOneUnit(bodies, unit, _label(bodies, declared, unit), scales, issues)
 
 
-def _infer(source: Input, bodies: Sequence[Body], rules: Mapping[str, str]) -> None:
-    if source.unit is not None:
-        return
+def _inferred(bodies: Sequence[Body], of_rules: str | None) -> str | None:
     stated = {body.units for body in bodies if body.shape is None}
-    if len(stated - {None}) == 0:
-        source.unit = next(iter(rules.values()), None)
-    elif len(stated) == 1:
-        (source.unit,) = stated
+    if not stated - {None}:
+        return of_rules
+    return next(iter(stated)) if len(stated) == 1 else None
 
 
 def _common(inputs: Iterable[Input]) -> str | None:
@@ -145,13 +143,12 @@ def _label(bodies: Iterable[Body], declared: Iterable[str | None], unit: str | N
     return words[0] if alike and is_unit(words[0]) else unit
 
 
-def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[Issue]:
-    """A note for each unit that was converted, with the files that state it. stated_by: id of a
-    body -> the input that states the unit if the mesh file does not."""
+def _conversions(owned: Iterable[tuple[Input, Body]]) -> list[Issue]:
+    """A note for each unit that was converted, with the files that state it."""
     files: dict[tuple[float, str], dict[str, None]] = {}
-    for body in bodies:
+    for source, body in owned:
         if body.unit_scale is not None and body.units is not None:
-            path = body.file.path if body.file.units else stated_by[body.id]
+            path = body.file.path if body.file.units else source.path
             files.setdefault((body.unit_scale, body.units), {})[path] = None
     notes = []
     for (scale, unit), paths in files.items():
@@ -162,18 +159,16 @@ def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[I
     return notes
 
 
-def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
+def _unknown(owned: Sequence[tuple[Input, Body]], inputs: Sequence[Input]) -> list[Issue]:
     """A warning if the units of two bodies cannot be compared."""
-    if len({body.units for body in bodies}) < 2:
+    if len({body.units for _, body in owned}) < 2:
         return []
-    owners = {id_: source for source in inputs for id_ in source.ids}
     unsaid = next(
         (source.path for source in inputs if source.kind == "scene" and source.unit is None), None
     )
     files: dict[str | None, dict[str, None]] = {}
-    for body in bodies:
-        owner = owners[body.id]
-        path = body.file.path if owner.path == unsaid else owner.path
+    for source, body in owned:
+        path = body.file.path if source.path == unsaid else source.path
         files.setdefault(body.units, {})[path] = None
     unstated = list(files.pop(None, {})) or [unsaid or ""]
     known = " and ".join(f"{listed(list(paths))} in {unit}" for unit, paths in files.items())

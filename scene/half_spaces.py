@@ -17,8 +17,8 @@ from satcheck.core import largest_stretch
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.motion import Motion, PosePath, Rotation
-from satcheck.scene.shape_file import shape_file
 
 if TYPE_CHECKING:
     from satcheck.core.conventions import Vector

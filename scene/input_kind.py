@@ -7,7 +7,7 @@ from typing import Literal
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots, robots_of
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.opening import size_of
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
@@ -14,16 +15,18 @@ from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.input_kind import kind_of
-from satcheck.scene.mesh_files import (
+from satcheck.scene.loading.nodes import Split
+from satcheck.scene.loading.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
-    MeshFiles,
+    ReadLimits,
 )
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import ANYWHERE, Permitted
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.scene_builder import SceneBuilder, Split
+from satcheck.scene.scene_builder import SceneBuilder
 from satcheck.scene.units import MICROMETRES, unit_of
 
 # The header of a body in TOML, or the first body of a list in JSON.
@@ -31,48 +34,19 @@ _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTI
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
-    from satcheck.scene.known_meshes import KnownMeshes
+    from satcheck.scene.mesh_files import KnownMeshes
 
 
-def load_scene(
-    paths: Sequence[str | Path],
-    *,
-    split: Split | None = None,
-    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE,
-    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE,
-    packages: Mapping[str, str | Path] | None = None,
-    folders: Sequence[str | Path] = (),
-    allow_outside: bool = False,
-    hashed: bool = True,
-    units: str | None = None,
-    rules: Sequence[str | Path] = (),
-    between: Sequence[tuple[str, str]] = (),
-    geometry: GeometryKind | None = None,
-    known: KnownMeshes | None = None,
-    reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
-) -> Scene:
-    """All bodies of the given mesh files, scene files and robots, in that order.
-
-    - `.toml` and `.json` files are scenes: satcheck.scene/1, JSON also satcheck-scene-1. Rules of a
-      scene apply to its own bodies, mesh files and robots. Rules of a scene without bodies apply to
-      all bodies.
-    - A `.urdf` file, or other XML with <robot> as its root, is a robot at rest with a body for each
-      <collision>. A `.srdf` file says which of its links may touch.
-    - A USD or IFC file has a body for each prim or element, and rules of its own.
-    - A `.sdf` or `.world` file, or other XML with <sdf> as its root, is read as a robot too.
-    - Files of rules and SRDFs have no bodies. They change no body and no id.
-    Ids come from the scene file, the links, `plain_ids`, or the paths of nodes (after the id of
-    their file if there are several files). Repeated ids get the suffix -2, -3, ...
+class LoadOptions(Struct, frozen=True, kw_only=True):
+    """How the inputs of a check are read.
 
     split: how a mesh file is split into bodies. "none": the whole file is one body. "nodes": each
     node with a mesh in a GLB, glTF, 3MF or STEP file is a body, and so are several nodes of DAE and
-    objects (`o`) of OBJ; other formats have none.
-    "components": each edge-connected component of these is a body. None: "nodes" for a single file,
-    else "none".
+    objects (`o`) of OBJ; other formats have none. "components": each edge-connected component of
+    these is a body. None: "nodes" for a single file, else "none".
     packages: folders of the packages and models that a robot names, see `robot.FilePlaces`.
     folders: files in them may name other files in them, and not only in their own folder.
     allow_outside: a scene, a robot, a USD or glTF file may name files outside of these folders.
-    hashed: compute the SHA-256 of each file, which some reports contain.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
     rules: files of rules, about all bodies. They count after those of the scenes.
@@ -81,53 +55,101 @@ def load_scene(
     geometry: which elements of the links of robots are bodies, "collision" or "visual"; of USD the
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
-    known: mesh files that stay in memory from scene to scene.
     reading: options for formats that leave a choice, such as the time of a USD file. A scene may
     state those that are not given here.
-
-    A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
-    is loaded. Raises SceneFileError for an invalid scene file or robot.
     """
-    given = _as_texts(paths)
-    if geometry is not None:
-        reading = replace(reading, geometry=geometry)
-    permitted = Permitted.around(given, folders, anywhere=allow_outside)
-    scenes = _read_scenes(given, permitted)
-    reading = reading.beside(_stated_reading(scenes.values()))
-    files = MeshFiles(
-        seconds_per_file,
-        megabytes_per_file,
-        permitted=permitted,
-        hashed=hashed,
-        known=known,
-        options=reading,
-    )
-    builder = SceneBuilder(files, None if units is None else _unit(units), reading)
-    ids = iter(plain_ids([path for path in given if is_mesh(path)]))
-    document_ids = iter(plain_ids([path for path in given if kind_of(path) == "document"]))
-    alone = sum(_has_bodies(path, scenes) for path in given) == 1
-    # Colliders are exact shapes, which no mesh of a whole file holds.
-    split = split or ("nodes" if alone or reading.geometry == "collision" else "none")
-    if split == "none":
-        files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
-    for path in given:
-        kind = kind_of(path)
-        if kind == "scene":
-            builder.add_scene(scenes[path])
-        elif kind == "robot":
-            builder.add_robot(path, Path(path), packages, permitted, geometry or "collision")
-        elif kind == "srdf":
-            builder.add_srdf(path, Path(path))
-        elif kind == "document":
-            builder.add_document(next(document_ids), path, Path(path), alone)
-        elif split == "none":
-            builder.add_mesh(next(ids), path, Path(path))
-        else:
-            builder.add_nodes(next(ids), path, Path(path), split, alone)
-    for path in _as_texts(rules):
-        builder.add_scene(read_rules(path))
-    scene = builder.scene()
-    return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
+
+    split: Split | None = None
+    packages: Mapping[str, str] | None = None
+    geometry: GeometryKind | None = None
+    folders: tuple[str, ...] = ()
+    allow_outside: bool = False
+    units: str | None = None
+    rules: tuple[str, ...] = ()
+    between: tuple[tuple[str, str], ...] = ()
+    reading: ReadOptions = ReadOptions()
+    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
+    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
+
+    def load(
+        self,
+        paths: Sequence[str | Path],
+        *,
+        hashed: bool = True,
+        known: KnownMeshes | None = None,
+    ) -> Scene:
+        """Return all bodies of the given mesh files, scene files and robots, in that order.
+
+        hashed: compute the SHA-256 of each file, which some reports contain. known: mesh files that
+        stay in memory from scene to scene.
+
+        - `.toml` and `.json` files are scenes: satcheck.scene/1, JSON also satcheck-scene-1. Rules
+          of a scene apply to its own bodies, mesh files and robots. Rules of a scene without bodies
+          apply to all bodies.
+        - A `.urdf` file, or other XML with <robot> as its root, is a robot at rest with a body for
+          each <collision>. A `.srdf` file says which of its links may touch.
+        - A USD or IFC file has a body for each prim or element, and rules of its own.
+        - A `.sdf` or `.world` file, or other XML with <sdf> as its root, is read as a robot too.
+        - Files of rules and SRDFs have no bodies. They change no body and no id.
+        Ids come from the scene file, the links, `plain_ids`, or the paths of nodes (after the id of
+        their file if there are several files). Repeated ids get the suffix -2, -3, ...
+
+        A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the
+        rest is loaded. Raises SceneFileError for an invalid scene file or robot.
+        """
+        given = [(path, kind_of(path)) for path in _as_texts(paths)]
+        names = [path for path, _ in given]
+        permitted = Permitted.around(names, self.folders, anywhere=self.allow_outside)
+        scenes = {path: _scene(path, permitted) for path, kind in given if kind == "scene"}
+        reading = self.reading
+        if self.geometry is not None:
+            reading = replace(reading, geometry=self.geometry)
+        reading = reading.beside(_stated_reading(scenes.values()))
+        seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
+        files = MeshFiles(ReadLimits(seconds, megabytes, permitted, hashed, reading), known)
+        builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
+        have_bodies = [
+            bool(scenes[path].bodies) if kind == "scene" else kind != "srdf" for path, kind in given
+        ]
+        alone = sum(have_bodies) == 1
+        # Colliders are exact shapes, which no mesh of a whole file holds.
+        apart = alone or reading.geometry == "collision"
+        split: Split = self.split or ("nodes" if apart else "none")
+        meshes = [path for path, kind in given if kind == "mesh"]
+        documents = [path for path, kind in given if kind == "document"]
+        ids = {"mesh": iter(plain_ids(meshes)), "document": iter(plain_ids(documents))}
+        if split == "none":
+            files.read_ahead((path, Path(path)) for path in meshes)
+        for path, kind in given:
+            match kind:
+                case "scene":
+                    builder.add_scene(scenes[path])
+                case "robot":
+                    geometry = self.geometry or "collision"
+                    builder.add_robot(path, Path(path), self.packages, geometry)
+                case "srdf":
+                    builder.add_srdf(path, Path(path))
+                case "document":
+                    builder.add_file("scene", next(ids[kind]), path, "nodes", alone)
+                case "mesh":
+                    builder.add_file("mesh", next(ids[kind]), path, split, alone)
+        for path in _as_texts(self.rules):
+            builder.add_scene(read_rules(path))
+        scene = builder.scene()
+        between = self.between
+        return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
+
+
+def load_scene(
+    paths: Sequence[str | Path],
+    *,
+    hashed: bool = True,
+    known: KnownMeshes | None = None,
+    **options: Any,
+) -> Scene:
+    """Return the scene of these files, see `LoadOptions.load`. options: those of `LoadOptions`;
+    what names files may be a Path."""
+    return LoadOptions(**options).load(paths, hashed=hashed, known=known)
 
 
 def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
@@ -153,14 +175,11 @@ def _unit(name: str) -> str:
     return unit
 
 
-def _read_scenes(given: Sequence[str], permitted: Permitted) -> dict[str, SceneFile]:
-    """The scene files among the inputs, by their paths. Raises SceneFileError."""
-    paths = [path for path in given if kind_of(path) == "scene"]
-    if not paths:
-        return {}
+def _scene(path: str, permitted: Permitted) -> SceneFile:
+    """Raises SceneFileError."""
     from satcheck.scene.format.reading import read_scene_file
 
-    return {path: read_scene_file(path, Path(path), permitted) for path in paths}
+    return read_scene_file(path, Path(path), permitted)
 
 
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
@@ -184,27 +203,16 @@ def read_rules(path: str) -> SceneFile:
 def is_rules(path: str) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises SceneFileError."""
-    scene = _read_scenes([path], ANYWHERE).get(path)
-    return scene is not None and not scene.bodies
+    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).bodies
 
 
 def has_only_rules(path: str) -> bool:
     """Return whether the input is a scene file with rules and without bodies. Raises
     SceneFileError."""
-    if _begins_a_body(path):
+    if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
         return False
-    scene = _read_scenes([path], ANYWHERE).get(path)
-    return scene is not None and bool(scene.rules or scene.body_rules) and not scene.bodies
-
-
-def _begins_a_body(path: str) -> bool:
-    """Return whether the text of a scene file has a body, without parsing it. False: perhaps."""
-    content = content_of(Path(path)) if kind_of(path) == "scene" else None
-    return content is not None and _BODY.search(content) is not None
-
-
-def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
-    return bool(scenes[path].bodies) if path in scenes else kind_of(path) != "srdf"
+    scene = _scene(path, ANYWHERE)
+    return bool(scene.rules or scene.body_rules) and not scene.bodies
 
 
 def is_mesh(path: str) -> bool:

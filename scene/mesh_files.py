@@ -1,111 +1,166 @@
-"""Reads each mesh file once, whole or split into nodes, and makes the mesh of each shape once."""
+"""Reads each mesh file once, whole or split into nodes, and makes the mesh of each shape once.
+For a process that checks many scenes, what is read stays in memory."""
 
 from __future__ import annotations
 
 import math
 import os
+from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from functools import partial
+from contextlib import contextmanager, suppress
+from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from threading import Lock, Thread
+from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.files_read import note, note_lost_reader
+from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
+from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.loading import ReadLimits, load_mesh_file
-from satcheck.scene.loading.nodes import Node, Nodes, load_nodes
-from satcheck.scene.loading.readers import RobotFile, reader_of
-from satcheck.scene.loading.reading_children import ReadingChildren
-from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import LARGE_FILE_BYTES
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
+from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
+from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.readers import (
+    File,
+    NeedsChild,
+    ReadLimits,
+    RobotFile,
+    read,
+    reader_named,
+    reader_of,
+)
+from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
+from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
-from satcheck.scene.read_options import GeometryKind, ReadOptions
-from satcheck.scene.shape_file import remeshed, shape_file
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.scene.known_meshes import KnownMeshes
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot.model import Robot
     from satcheck.scene.robot.packages import FilePlaces
 
-Read = TypeVar("Read", MeshFile, Nodes)
-DEFAULT_SECONDS_PER_FILE = 60.0
-DEFAULT_MEGABYTES_PER_FILE = 2048
-
 
 class MeshFiles:
     """Reads each file once, even if several paths lead to it and many bodies use it. known: files
-    that earlier scenes have read. options: for formats that leave a choice.
+    that earlier scenes have read.
 
     Formats that need large parsers are read in a child process, which ends with this object.
     """
 
     def __init__(
         self,
-        seconds: float = DEFAULT_SECONDS_PER_FILE,
-        megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
-        *,
-        permitted: Permitted = NOTHING_ELSE,
-        hashed: bool = True,
+        allowed: ReadLimits = ReadLimits(),  # noqa: B008  it is frozen
         known: KnownMeshes | None = None,
-        options: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
     ) -> None:
+        self.allowed = allowed
         self._known = known
-        self._limits = ReadLimits(seconds, megabytes, permitted, hashed, options)
-        self._children = ReadingChildren(megabytes)
-        self._places: dict[Path, Path] = {}
-        self._wholes: dict[Path, MeshFile | MeshFileError] = {}
-        self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
-        self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
-        self._hulls: dict[tuple[Path, str], Node | MeshFileError] = {}
-        self._shapes: dict[tuple[Shape, str], MeshFile | MeshFileError] = {}
+        self._made: dict[Hashable, Any] = {}
 
-    def _absolute(self, location: Path) -> Path:
-        """The absolute path; cached, because many bodies may share a path."""
-        if location not in self._places:
-            self._places[location] = Path(location).absolute()
-        return self._places[location]
+    @cached_property
+    def _children(self) -> ReadingChildren:
+        return ReadingChildren(self.allowed.megabytes)
 
-    def whole(self, path: str, location: Path) -> MeshFile | MeshFileError:
-        """The whole file as one mesh. path: its name in messages; location: on disk."""
-        key = self._absolute(location)
-        if key not in self._wholes:
+    def nodes(self, path: str, location: Path, split: Split) -> Nodes | MeshFileError:
+        """Return the bodies of a file. path: its name in messages; location: on disk."""
+        key = _absolute(location), split
+        load = partial(self._load, path, location, split)
+        if self._known is not None:
+            load = partial(self._known.recall, (path, key, self.allowed), load)
+        made: Nodes | MeshFileError = self._once(key, load)
+        return made
+
+    def _once(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        """Return what `make` returns, or the MeshFileError that it raises; both once."""
+        if key not in self._made:
             try:
-                load = partial(self._load_whole, path, location)
-                self._wholes[key] = self._recalled(("whole", path, key), load)
+                self._made[key] = make()
             except MeshFileError as error:
-                self._wholes[key] = error
-        return self._wholes[key]
+                self._made[key] = error
+        return self._made[key]
+
+    def _load(self, path: str, location: Path, split: Split) -> Nodes:
+        with _reading(path, location), errors_of(path):
+            file = replace(open_file(path, location, self.allowed), whole=split == "none")
+            return nodes_of(file, self._read(file), split)
+
+    def _read(self, file: File) -> RawScene:
+        """In this process, or in the child process, as its reader says."""
+        reader = reader_named(file.format)
+        if reader is not None and file.size <= reader.here:
+            with suppress(NeedsChild):
+                return read(file)
+        if reader is not None and reader.by_name:
+            file = replace(file, data=b"")
+        place = f"{read.__module__}:{read.__name__}"
+        return read_in_child(file, place, RawScene, self._children, self.allowed)
+
+    def node(self, path: str, location: Path, part: str | None) -> Node:
+        """Return one node of the file by its path, which may end in "#" and the number of a
+        component, or in the mark of a convex hull, which may also stand alone. None: all of the
+        file."""
+        if part is not None and part.endswith(HULL_MARK):
+            hull: Node = self._once(
+                (_absolute(location), part), partial(self._hull, path, location, part)
+            )
+            return hull
+        split: Split = (
+            "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
+        )
+        loaded = self.nodes(path, location, split)
+        if isinstance(loaded, MeshFileError):
+            return Node(part, loaded)
+        if part is None or part in loaded.nodes:
+            return loaded.nodes[part]
+        hint = meant(part, filter(None, loaded.nodes))
+        message = f"there is no part {part!r} in the file{hint}"
+        reader = reader_of(location.suffix)
+        if reader is not None and "geometry" in reader.options:
+            message += "; --geometry, --purpose and `reading` of a scene choose its parts"
+        return Node(part, MeshFileError("unknown-part", message, file=path))
+
+    def _hull(self, path: str, location: Path, part: str) -> Node:
+        """Return a node with the convex hull of its mesh."""
+        node = self.node(path, location, part.removesuffix(HULL_MARK) or None)
+        if isinstance(node.file, MeshFileError):
+            return node
+        try:
+            hull = node.file.mesh.convex_hull().to_mesh()
+            return replace(node, path=part, file=replace(remeshed(node.file, hull), part=part))
+        except (MeshFileError, ValueError) as error:
+            code = error.code if isinstance(error, MeshFileError) else "flat"
+            return replace(node, file=MeshFileError(code, f"convex hull: {error}", file=path))
+
+    def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
+        """Return the issues that concern no single part of a file whose parts are read."""
+        place = _absolute(location)
+        made = [self._made.get((place, split)) for split in ("nodes", "components")]
+        return next((nodes.issues for nodes in made if isinstance(nodes, Nodes)), ())
 
     def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
-        """Reads the large ones of these files in parallel and caches them for whole().
+        """Reads the large ones of these files in parallel, as a whole.
 
         given: (name in messages, location). Only formats whose reader runs in this process and
         releases the GIL.
         """
         waiting = {
-            self._absolute(location): (path, location)
+            _absolute(location): (path, location)
             for path, location in given
             if _is_read_here(location) and _is_large(location)
         }
         if len(waiting) < 2 or is_careful():
             return
-        from threading import Thread
-
         queue = list(waiting.values())
 
         def read() -> None:
             while queue:
                 try:
-                    self.whole(*queue.pop())
+                    self.nodes(*queue.pop(), "none")
                 except Exception:  # noqa: BLE001 reported when the file is used
                     continue
 
@@ -120,109 +175,83 @@ class MeshFiles:
         for thread in threads:
             thread.join()
 
-    def _recalled(self, key: tuple[Hashable, ...], load: Callable[[], Read]) -> Read:
-        if self._known is None:
-            return load()
-        return self._known.recall((*key, self._limits), load)
-
-    def _load_whole(self, path: str, location: Path) -> MeshFile:
-        with _reading(path, location):
-            return load_mesh_file(path, location, self._limits, self._children)
-
-    def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
-        """The file split into nodes."""
-        key = self._absolute(location), components
-        if key not in self._nodes:
-            try:
-                load = partial(self._load_nodes, path, location, components)
-                loaded = self._recalled(("nodes", path, *key), load)
-                self._nodes[key] = loaded
-                self._by_path[key] = {node.path: node for node in loaded.nodes}
-            except MeshFileError as error:
-                self._nodes[key] = error
-        return self._nodes[key]
-
-    def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
-        with _reading(path, location):
-            return load_nodes(path, location, self._limits, self._children, components=components)
-
-    def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
-        """One node of the file by its path, which may end in "#" and the number of a component, or
-        in the mark of a convex hull, which may also stand alone."""
-        if part.endswith(HULL_MARK):
-            return self._hull(path, location, part)
-        components = COMPONENT_MARK in part
-        loaded = self.nodes(path, location, components=components)
-        if isinstance(loaded, MeshFileError):
-            return loaded
-        by_path = self._by_path[self._absolute(location), components]
-        if part in by_path:
-            return by_path[part]
-        message = f"there is no part {part!r} in the file{meant(part, filter(None, by_path))}"
-        reader = reader_of(location.suffix)
-        if reader is not None and "geometry" in reader.options:
-            message += "; --geometry, --purpose and `reading` of a scene choose its parts"
-        return MeshFileError("unknown-part", message, file=path)
-
-    def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
-        """Return the issues that concern no single part of a file whose parts are read."""
-        place = self._absolute(location)
-        for components in (False, True):
-            nodes = self._nodes.get((place, components))
-            if isinstance(nodes, Nodes):
-                return nodes.issues
-        return ()
-
-    def _hull(self, path: str, location: Path, part: str) -> Node | MeshFileError:
-        key = self._absolute(location), part
-        if key not in self._hulls:
-            whole = part == HULL_MARK
-            mesh = self.whole(path, location) if whole else None
-            node = Node(part, mesh) if mesh else self.part(path, location, part[: -len(HULL_MARK)])
-            self._hulls[key] = node if isinstance(node, MeshFileError) else _with_hull(node, part)
-        return self._hulls[key]
-
     def robot(
         self,
         path: str,
         location: Path,
         places: FilePlaces,
-        packages: Mapping[str, str | Path] | None = None,
-        geometry: GeometryKind = "collision",
-        *,
-        hulls: bool = False,
+        packages: Mapping[str, str | Path],
+        geometry: GeometryKind,
     ) -> tuple[Robot, tuple[Issue, ...]]:
         """Return the robot that a file describes, and issues. Raises SceneFileError, and
         MeshFileError if reading it has ended the process before."""
         from satcheck.scene.robot import read_robot
 
-        file = RobotFile(places, packages or {}, geometry, hulls, self._limits, self._children)
         with _reading(path, location):
+            file = RobotFile(places, packages, geometry, self.allowed, self._children)
             return read_robot(path, location, file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
-        key = shape, path
-        loaded = self._shapes.get(key)
-        if loaded is None:
-            try:
-                loaded = shape_file(shape, path)
-            except MeshFileError as error:
-                loaded = error
-            self._shapes[key] = loaded
-        return loaded
+        made: MeshFile | MeshFileError = self._once((shape, path), partial(shape_file, shape, path))
+        return made
 
 
-def _with_hull(node: Node, part: str) -> Node:
-    """The node with the convex hull of its mesh."""
-    if isinstance(node.file, MeshFileError):
-        return node
-    try:
-        hull = node.file.mesh.convex_hull().to_mesh()
-        return replace(node, path=part, file=replace(remeshed(node.file, hull), part=part))
-    except (MeshFileError, ValueError) as error:
-        code = error.code if isinstance(error, MeshFileError) else "flat"
-        return replace(node, file=MeshFileError(code, f"convex hull: {error}", file=node.file.path))
+class _Known(Struct, frozen=True):
+    """read: what was made of these files."""
+
+    read: Nodes
+    files: FilesRead
+    triangles: int
+
+
+class KnownMeshes:
+    """The files that were used last, of this many triangles together. A file that has changed is
+    read again."""
+
+    def __init__(self, triangles: int) -> None:
+        self._most = triangles
+        self._held = 0
+        self._known: OrderedDict[Hashable, _Known] = OrderedDict()
+        self._lock = Lock()
+
+    def recall(self, key: Hashable, load: Callable[[], Nodes]) -> Nodes:
+        """The result of `load`, or of an earlier one with this key. Raises what it raises."""
+        known = self._take(key)
+        if known is not None and known.files.are_certain():
+            known.files.note_again()
+            self._put(key, known)
+            return known.read
+        with files_read() as files:
+            read = load()
+        if files.are_settled():
+            self._put(key, _Known(read, files, _triangles(read)))
+        return read
+
+    def _take(self, key: Hashable) -> _Known | None:
+        with self._lock:
+            known = self._known.pop(key, None)
+            self._held -= known.triangles if known else 0
+            return known
+
+    def _put(self, key: Hashable, known: _Known) -> None:
+        """The files of the longest ago make room."""
+        with self._lock:
+            self._known[key] = known
+            self._held += known.triangles
+            while self._held > self._most:
+                _, oldest = self._known.popitem(last=False)
+                self._held -= oldest.triangles
+
+
+def _triangles(read: Nodes) -> int:
+    """Each mesh counts for a little more than its triangles."""
+    files = (node.file for node in read.nodes.values())
+    return sum(100 + file.mesh.triangle_count for file in files if isinstance(file, MeshFile))
+
+
+def _absolute(location: Path) -> str:
+    return os.path.join(os.getcwd(), location)  # noqa: PTH109, PTH118  many bodies share a path
 
 
 @contextmanager

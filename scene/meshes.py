@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
@@ -13,9 +12,9 @@ from satcheck.core.mesh_arrays import MeshLike, arrays_of, numbers, refused, req
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading import mesh_file
+from satcheck.scene.inspect import mesh_file
 from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
-from satcheck.scene.loading.source import Source
+from satcheck.scene.loading.readers import File
 from satcheck.scene.resolution import STEPS
 
 if TYPE_CHECKING:
@@ -89,7 +88,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
         faces.astype("<u4", order="C", copy=False).data.cast("B"),
         _number_format(vertices),
     )
-    return mesh_file(Source(id_, Path(id_), "memory", None, 0, b""), raw)
+    return mesh_file(File("memory", "", "", b"", 0, path=id_), raw)
 
 
 def _number_format(values: Array) -> NumberFormat:

@@ -15,17 +15,15 @@ from msgspec import to_builtins
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
-from satcheck.scene.common_units import scaled_mesh
+from satcheck.scene.common_units import scaled_mesh, scaled_world
 from satcheck.scene.format.document import SCENE_1
-from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.text import is_toml
 from satcheck.scene.loading.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
 from satcheck.scene.path_kind import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
-from satcheck.scene.scene_builder import SceneBuilder
-from satcheck.scene.units import unit_in
+from satcheck.scene.units import ratio, stated_unit, unit_in
 
 Vector = tuple[float, float, float]
 Entries = list[dict[str, Any]]
@@ -108,27 +106,17 @@ def _has_file(body: Unreadable) -> bool:
 def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
     """Where the bodies would stand if the scene file did not place them: where their mesh file
     places them, in the unit of the scene."""
-    unplaced = {
-        body.id: (scaled_mesh(None, body.unit_scale or 1.0) if body.shape is None else None)
-        or IDENTITY
-        for body in scene.bodies
-    }
-    parts = tuple(
-        BodyEntry(
-            body.id,
-            MeshPath(body.file.path, Path(body.file.path)),
-            part=body.path,
-            units=_stated_units(body),
-        )
-        for body in scene.bodies
-        if body.path is not None
-    )
-    if parts:
-        builder = SceneBuilder(files, None, scene.reading)
-        nothing: Any = ()
-        builder.add_scene(SceneFile("", "", scene.units, parts, frozenset(), False, *[nothing] * 3))
-        for body in builder.scene().bodies:
-            unplaced[body.id] = body.transform or IDENTITY
+    unplaced: dict[str, Transform] = {}
+    unit = stated_unit(scene.units)
+    for body in scene.bodies:
+        place = None
+        if body.path is not None:
+            node = files.node(body.file.path, Path(body.file.path), body.path)
+            own = stated_unit(_stated_units(body) or body.file.units)
+            place = scaled_world(node.transform, ratio(own, unit) if own and unit else 1.0)
+        elif body.shape is None:
+            place = scaled_mesh(None, body.unit_scale or 1.0)
+        unplaced[body.id] = place or IDENTITY
     return unplaced
 
 

@@ -17,12 +17,13 @@ from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.half_spaces import holds
+from satcheck.scene.inspect import shape_file
+from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.shape_file import shape_file
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.open_parts import bounds_nothing, with_backs
@@ -116,7 +117,7 @@ class Bodies:
     ) -> None:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)
-        self._files = MeshFiles(permitted=permitted, options=reading)
+        self._files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
@@ -180,12 +181,7 @@ class Bodies:
 
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
-        location = self._root / file
-        if path is None:
-            mesh = self._files.whole(file, location)
-        else:
-            node = self._files.part(file, location, path)
-            mesh = node if isinstance(node, MeshFileError) else node.file
+        mesh = self._files.node(file, self._root / file, path).file
         if isinstance(mesh, MeshFileError):
             return Missing(file) if mesh.code == "file-not-found" else str(mesh)
         key = (file, mesh.part, "")

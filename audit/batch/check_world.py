@@ -18,7 +18,7 @@ from satcheck.report.assets import Asset, asset
 from satcheck.report.report import Report
 from satcheck.scene import Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
-from satcheck.scene.known_meshes import KnownMeshes
+from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.path_kind import exists, is_folder
 
 # Why a file that is as it should be has no body that can collide.

@@ -1,8 +1,8 @@
-"""How worlds are read: the options of `load_scene` that a call gives for all its worlds."""
+"""What a call asks of each of its worlds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from msgspec import Struct
 
@@ -10,11 +10,8 @@ from satcheck.audit import Settings
 from satcheck.audit.request.in_units import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import StatedConfig
-from satcheck.scene import Scene, load_scene
-from satcheck.scene.known_meshes import KnownMeshes
-from satcheck.scene.mesh_files import DEFAULT_MEGABYTES_PER_FILE, DEFAULT_SECONDS_PER_FILE
-from satcheck.scene.read_options import GeometryKind, ReadOptions
-from satcheck.scene.scene_builder import Split
+from satcheck.scene import Scene
+from satcheck.scene.loader import LoadOptions
 from satcheck.scene.units import Length
 
 # The files of a world, in the order in which they are read; the first one names it.
@@ -22,43 +19,6 @@ World = tuple[str, ...]
 SettingValue = bool | int | float | str | tuple[str, ...] | Length | None
 # A measured time is at least this long, as clocks are coarse.
 _SHORTEST_SECONDS = 1e-3
-
-
-class LoadOptions(Struct, frozen=True, kw_only=True):
-    """As in `load_scene`."""
-
-    split: Split | None = None
-    packages: Mapping[str, str] | None = None
-    geometry: GeometryKind | None = None
-    folders: tuple[str, ...] = ()
-    allow_outside: bool = False
-    units: str | None = None
-    rules: tuple[str, ...] = ()
-    between: tuple[tuple[str, str], ...] = ()
-    reading: ReadOptions = ReadOptions()
-    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
-    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
-
-    def load(
-        self, files: Sequence[str], *, hashed: bool = True, known: KnownMeshes | None = None
-    ) -> Scene:
-        """hashed, known: as in `load_scene`. Raises what `load_scene` raises."""
-        return load_scene(
-            files,
-            split=self.split,
-            packages=self.packages,
-            geometry=self.geometry,
-            folders=self.folders,
-            allow_outside=self.allow_outside,
-            units=self.units,
-            hashed=hashed,
-            known=known,
-            rules=self.rules,
-            between=self.between,
-            reading=self.reading,
-            seconds_per_file=self.seconds_per_file,
-            megabytes_per_file=self.megabytes_per_file,
-        )
 
 
 class CheckOptions(LoadOptions, frozen=True, kw_only=True):

@@ -20,7 +20,7 @@ from satcheck.core.rounding import rounding_pad
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.shapes import is_curved
 from satcheck.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS, Vector
-from satcheck.scene.shape_file import remeshed
+from satcheck.scene.inspect import remeshed
 
 
 def sandwiched_depth(pair: Pair, move: Vector | None, trace: Trace) -> Depth:

@@ -33,10 +33,10 @@ from satcheck.report.decomposition import (
     Remark,
 )
 from satcheck.report.report import Issue
-from satcheck.scene import Body, Scene, parts_file
+from satcheck.scene import Body, Scene, written_meshes
 from satcheck.scene.units import unit_of
 
-_FILES = ", ".join(parts_file.FORMATS)
+_FILES = ", ".join(written_meshes.FORMATS)
 
 
 class _Parts(Struct, frozen=True):
@@ -49,7 +49,7 @@ class _Parts(Struct, frozen=True):
     def has_parts(self) -> bool:
         return isinstance(self.result, Decomposition)
 
-    def named(self) -> Iterator[parts_file.Part]:
+    def named(self) -> Iterator[written_meshes.Part]:
         if isinstance(self.result, Decomposition):
             for number, part in enumerate(self.result.parts, 1):
                 yield f"{self.body.id}-{number}", part.to_mesh()
@@ -131,7 +131,7 @@ def command(
                 bar(number, len(scene.bodies))
     parts = [part for each in bodies for part in each.named()]
     if parts_out is not None and parts:
-        write_file(parts_out, parts_file.written(parts, parts_out.suffix.lower(), scene.units))
+        write_file(parts_out, written_meshes.written(parts, parts_out.suffix.lower(), scene.units))
     for each in bodies:
         if isinstance(each.result, SatcheckError):
             said = f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]"
@@ -148,14 +148,14 @@ def command(
 def _refuse_outputs(paths: tuple[str, ...], parts_out: Path | None, output: Path | None) -> None:
     if not paths:
         raise click.UsageError("give a mesh file or a scene")
-    if output is not None and output.suffix.lower() in parts_file.FORMATS:
+    if output is not None and output.suffix.lower() in written_meshes.FORMATS:
         raise click.UsageError(
             f"-o {output}: the report is no mesh; --parts-out {output} writes the parts"
         )
     if parts_out is None:
         return
     refuse_early(Inputs(paths), parts_out, option="--parts-out")
-    if parts_out.suffix.lower() not in parts_file.FORMATS:
+    if parts_out.suffix.lower() not in written_meshes.FORMATS:
         raise click.UsageError(f"--parts-out {parts_out}: parts are written as {_FILES}")
 
 
@@ -179,7 +179,7 @@ def _split(
 def _rounding(bodies: list[_Parts], output: Path | None) -> float | None:
     """Return the rounding of the file that was written."""
     parts = [part for each in bodies for part in each.named()]
-    return None if output is None else parts_file.rounding(parts, output.suffix.lower())
+    return None if output is None else written_meshes.rounding(parts, output.suffix.lower())
 
 
 def _report(

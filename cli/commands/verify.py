@@ -18,7 +18,7 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.stated_scene import MOST_BYTES
 from satcheck.core.errors import SatcheckError
 from satcheck.report.verification import CheckedSupport, Outcome
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.verify import Checked, Rejected, VerificationReport, is_certified, parse, verify
 
 # At most this many files that are not there are named.

@@ -15,9 +15,10 @@ import mujoco
 import numpy as np
 
 from satcheck.plugins.mjcf.files import ModelFiles
-from satcheck.plugins.mjcf.messages import FileMesh, Key, Place, Request
+from satcheck.plugins.mjcf.messages import FileMesh, Key, Place
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.robot.packages import FilePlaces
 
 # Else MuJoCo writes its warnings into a file of the working directory.
@@ -49,10 +50,10 @@ class Compiled(NamedTuple):
     aligned: bool
 
 
-def compiled(request: Request) -> Compiled:
+def compiled(file: File) -> Compiled:
     """Raises SceneFileError."""
-    path = request.path
-    places = FilePlaces(path, request.packages, request.permitted)
+    path = file.path
+    places = FilePlaces(path, file.packages, file.permitted)
     models = ModelFiles(path, places).models
     try:
         return _compiled(path, places, models)

@@ -1,4 +1,4 @@
-"""What the child process that runs MuJoCo is asked, and what it answers.
+"""What the child process that runs MuJoCo answers.
 
 Poses are (x, y, z) and a unit quaternion (w, x, y, z), as in MuJoCo. Lengths in metres, angles in
 radians. Bodies, geoms and joints are numbered as in the compiled model; body 0 is the world.
@@ -13,17 +13,8 @@ from msgspec import Struct
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.scene.loading.raw_mesh import Refusal
-from satcheck.scene.permitted import Permitted
 
 Quaternion = tuple[float, float, float, float]
-
-
-class Request(Struct, frozen=True):
-    """path: of the file, as given. packages, permitted: as for `FilePlaces`."""
-
-    path: str
-    packages: dict[str, str]
-    permitted: Permitted
 
 
 class Place(Struct, frozen=True):
@@ -118,10 +109,3 @@ class Model(Struct, frozen=True, tag=True):
     keys: tuple[Key, ...]
     parents_pass: bool
     notes: tuple[tuple[str, str], ...]
-
-
-class Answer(Struct, frozen=True):
-    """files: those that were read or looked for."""
-
-    content: Model | Refusal
-    files: tuple[str, ...]

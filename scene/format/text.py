@@ -16,7 +16,7 @@ from msgspec import Struct
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.lines import Keys, innermost, lines_of
 from satcheck.scene.loading.limits import MAX_DEPTH
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.scene.words import why_unreadable
 
 TOML_SUFFIX = ".toml"

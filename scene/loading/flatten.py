@@ -2,56 +2,66 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Sequence
+from operator import mul
 
 from satcheck.core import Mesh, largest_stretch
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.issue import BLOCKING
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import (
+    NO_SURFACE,
+    Block,
+    RawMesh,
+    RawNode,
+    RawScene,
+    Refusal,
+)
 
 _SHAPES = "it has exact shapes, which no mesh holds: name one part of the file"
 _SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
 
 
 def flattened(scene: RawScene) -> RawMesh:
-    """One mesh of all nodes.
+    """Return one mesh of all nodes.
 
     A mesh of lines or points only adds a warning. Raises MeshFileError if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
-    warnings = list(scene.warnings)
-    placed = []
+    if scene.nodes == (RawNode(None, 0),) and not scene.warnings:
+        only = scene.parts[0].mesh
+        if isinstance(only, RawMesh):
+            return only
+    said = list(scene.warnings)
+    placed: list[tuple[RawMesh, Transform | None]] = []
     for node in scene.nodes:
         mesh = scene.parts[node.part].mesh
         if isinstance(mesh, RawMesh):
             placed.append((mesh, node.matrix))
         elif not isinstance(mesh, Refusal):
             raise MeshFileError("unsupported-feature", _SHAPES)
-        elif mesh.code == NO_SURFACE:
-            warnings.append(("ignored-geometry", mesh.message))
+        elif mesh.code == NO_SURFACE and len(scene.nodes) > 1:
+            said.append(("ignored-geometry", mesh.message))
         else:
             raise MeshFileError(mesh.code, mesh.message)
-    total = sum(len(mesh.triangles) // 12 for mesh, _ in placed)
-    if total > limits.MAX_TRIANGLES:
-        raise MeshFileError(
-            "too-large",
-            f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}: {_SPLIT}",
-        )
-    corners = sum(len(mesh.vertices) // 24 for mesh, _ in placed)
-    if corners > limits.MAX_VERTICES:
-        raise MeshFileError(
-            "too-large",
-            f"{corners} vertices in all instances exceed {limits.MAX_VERTICES}: {_SPLIT}",
-        )
+    if not placed:
+        raise MeshFileError("empty-mesh", "empty mesh: no node has a surface")
     meshes = [mesh for mesh, _ in placed]
+    for most, what, count in (
+        (limits.MAX_TRIANGLES, "triangles", sum(len(mesh.triangles) // 12 for mesh in meshes)),
+        (limits.MAX_VERTICES, "vertices", sum(len(mesh.vertices) // 24 for mesh in meshes)),
+    ):
+        if count > most:
+            message = f"{count} {what} in all instances exceed {most}: {_SPLIT}"
+            raise MeshFileError("too-large", message)
     vertices, triangles = concatenate(
         [(mesh.vertices, mesh.triangles, matrix) for mesh, matrix in placed]
     )
-    for mesh in meshes:
-        warnings += mesh.warnings
+    said += [warning for mesh in meshes for warning in mesh.warnings]
+    # The last warning of each code, but all that block a pass.
+    once = {(code, text if code in BLOCKING else ""): (code, text) for code, text in said}
+    stretches = [1.0 if matrix is None else largest_stretch(matrix) for _, matrix in placed]
     return RawMesh(
         vertices=vertices,
         triangles=triangles,
@@ -59,45 +69,33 @@ def flattened(scene: RawScene) -> RawMesh:
         decimals=max(mesh.decimals for mesh in meshes),
         significant=max(mesh.significant for mesh in meshes),
         units=meshes[0].units,
-        warnings=_once(warnings),
-        surface_tolerance=max(mesh.surface_tolerance * _stretch(matrix) for mesh, matrix in placed),
-        rounding=max(mesh.rounding * _stretch(matrix) for mesh, matrix in placed),
+        warnings=tuple(once.values()),
+        surface_tolerance=max(map(mul, stretches, (m.surface_tolerance for m in meshes))),
+        rounding=max(map(mul, stretches, (mesh.rounding for mesh in meshes))),
     )
 
 
-def _once(warnings: Sequence[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """Return the last warning of each code, but all that block a pass."""
-    kept = {(code, said if code in BLOCKING else ""): (code, said) for code, said in warnings}
-    return tuple(kept.values())
-
-
-def _stretch(matrix: Transform | None) -> float:
-    return 1.0 if matrix is None else largest_stretch(matrix)
-
-
 def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
-    """(vertices, triangles) of all parts, each transformed by its matrix.
+    """Return (vertices, triangles) of all parts, each transformed by its matrix.
 
     parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
     winding.
     """
     if len(parts) == 1 and parts[0][2] is None:
         return parts[0][:2]
-    all_vertices, all_triangles = bytearray(), array("I")
-    for vertices, triangles, matrix in parts:
-        if matrix is not None:
-            vertices, triangles = _placed(vertices, triangles, matrix)
-        before = len(all_vertices) // 24
-        corners = array("I", bytes(triangles))
-        all_triangles.extend((corner + before for corner in corners) if before else corners)
-        all_vertices += vertices
-    return bytes(all_vertices), all_triangles.tobytes()
+    if not parts:
+        return b"", b""
+    import numpy as np
 
-
-def _placed(vertices: Block, triangles: Block, matrix: Transform) -> tuple[Block, Block]:
-    try:
-        return Mesh.from_bytes(vertices, triangles).transformed(matrix).to_bytes()
-    except ValueError as error:
-        raise MeshFileError("singular-transform", f"a part cannot be placed: {error}") from None
-    except OverflowError as error:
-        raise MeshFileError("out-of-range", f"a part cannot be placed: {error}") from None
+    vertices, triangles, before = [], [], 0
+    for points, corners, matrix in parts:
+        mesh = Mesh.from_bytes(points, corners)
+        try:
+            mesh = mesh if matrix is None else mesh.transformed(matrix)
+        except (OverflowError, ValueError) as error:
+            code = "out-of-range" if isinstance(error, OverflowError) else "singular-transform"
+            raise MeshFileError(code, f"a part cannot be placed: {error}") from None
+        vertices.append(mesh.vertices)
+        triangles.append(mesh.triangles + np.uint32(before))
+        before += mesh.vertex_count
+    return np.concatenate(vertices).data.cast("B"), np.concatenate(triangles).data.cast("B")

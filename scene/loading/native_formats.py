@@ -23,8 +23,7 @@ _READERS = {
 def read_native(file: File) -> RawScene:
     """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
     MeshFileError with line or byte."""
-    in_pieces = len(file.data) < file.size
-    outcome = _read_in_pieces(file) if in_pieces else _READERS[file.format](bytes(file.data))
+    outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
         raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}")
     whole = RawMesh(
@@ -36,8 +35,8 @@ def read_native(file: File) -> RawScene:
         rounding=outcome.rounding,
         warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
-    objects = [] if file.flat else outcome.objects()
-    if outcome.several_groups and len(objects) < 2 and not file.flat:
+    objects = [] if file.whole else outcome.objects()
+    if outcome.several_groups and len(objects) < 2 and not file.whole:
         what = "solids" if file.format == "stl" else "groups (g)"
         said = "left-out", f"{what} are no bodies: all of the file is one"
         whole = replace(whole, warnings=(*whole.warnings, said))

@@ -23,23 +23,26 @@ from satcheck.scene.read_options import GeometryKind, ReadOptions
 
 if TYPE_CHECKING:
     from satcheck.scene.issue import Issue
-    from satcheck.scene.loading import ReadLimits
     from satcheck.scene.loading.reading_children import ReadingChildren
     from satcheck.scene.loading.xml_tree import Element
     from satcheck.scene.robot.model import Robot
     from satcheck.scene.robot.packages import FilePlaces
 
 T = TypeVar("T")
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
 _ZIP = b"PK\x03\x04"
 
 
 class File(Struct, frozen=True):
-    """A file to read. It can be sent to a child process.
+    """A file that is open for a reader. It can be sent to a child process.
 
-    directory: that its references are relative to. name: in the directory. data: its bytes; of a
-    large binary STL file and of a format that is `by_name`, less or none. size: in bytes.
-    flat: one mesh for the whole file is wanted. permitted: where what it
-    names may lie, beside the directory. isolated: this process may crash.
+    directory: that its references are relative to. name: in the directory. data: its bytes, text as
+    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
+    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
+    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
+    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
+    packages: of a robot, see `robot.FilePlaces`.
     """
 
     format: str
@@ -48,13 +51,38 @@ class File(Struct, frozen=True):
     data: Block
     size: int
     options: ReadOptions = ReadOptions()
-    flat: bool = False
+    whole: bool = False
     permitted: Permitted = NOTHING_ELSE
     isolated: bool = False
+    path: str = ""
+    sha256: str | None = None
+    packages: Mapping[str, str] = {}
 
     @property
     def location(self) -> Path:
         return Path(self.directory, self.name)
+
+    @property
+    def in_pieces(self) -> bool:
+        """Return whether the data are the first bytes alone."""
+        return len(self.data) < self.size
+
+
+class ReadLimits(Struct, frozen=True):
+    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+
+    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
+    """
+
+    seconds: float = DEFAULT_SECONDS_PER_FILE
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+    permitted: Permitted = NOTHING_ELSE
+    hashed: bool = True
+    options: ReadOptions = ReadOptions()
+
+    @property
+    def file_bytes(self) -> int:
+        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
 
 
 class NeedsChild(Exception):
@@ -69,7 +97,7 @@ class Reader(Struct, frozen=True):
     MeshFileError without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
     reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
-    may begin, of those in `loading/source.py`. text: "plain": the reader is shown UTF-8 without a
+    may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
     byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
     read in this process, all others, and all of other packages, in a child process. by_name: it
     opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.
@@ -91,22 +119,29 @@ class Reader(Struct, frozen=True):
     up: Literal["y", "z"] | None = None
     complete: bool = True
 
-    def function(self) -> Callable[[File], RawScene]:
-        return cast("Callable[[File], RawScene]", function_at(self.read))
+    def scene(self, file: File) -> RawScene:
+        """Return the meshes of a file and their placements. Raises MeshFileError and NeedsChild."""
+        scene = cast("RawScene", function_at(self.read)(file))
+        scene.check()
+        if self.complete:
+            return scene
+        message = (
+            "the library that reads it may leave out what it does not know: overlaps count as it "
+            "places the bodies, and no pair is proven apart"
+        )
+        return replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
 
 
 class RobotFile(Struct, frozen=True):
     """An XML file of a robot, and what its reader may ask for.
 
-    places: where the files that it names are looked for. packages: as given.
-    geometry: which elements of links become bodies. hulls: of its meshes are meant. allowed,
-    children: for readers that need a child process.
+    places: where the files that it names are looked for. packages: as given. geometry: which
+    elements of links become bodies. allowed, children: for readers that need a child process.
     """
 
     places: FilePlaces
     packages: Mapping[str, str | Path]
     geometry: GeometryKind
-    hulls: bool
     allowed: ReadLimits
     children: ReadingChildren
 
@@ -232,6 +267,14 @@ def reader_named(name: str) -> Reader | None:
     """Return the reader of a format by its name in reports; None: this process has not looked for
     it, or there is none, as of shapes."""
     return _registry().by_name.get(name)
+
+
+def read(file: File) -> RawScene:
+    """Return the meshes of a file, in this process. Raises MeshFileError and NeedsChild."""
+    # A child process has not looked for the readers of other packages.
+    reader = reader_named(file.format) or reader_of(file.location.suffix)
+    assert reader is not None  # it has been opened for its reader
+    return reader.scene(file)
 
 
 def robot_reader(root: str) -> RobotReader | None:

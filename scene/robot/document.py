@@ -6,12 +6,13 @@ bodies then stand exactly where the file places them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+
+from msgspec import Struct
 
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body
 from satcheck.scene.common_units import InOneUnit
-from satcheck.scene.document_rules import Jointed
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import RawJoint
 from satcheck.scene.robot.assembly import RobotBody, SceneRobot
@@ -20,6 +21,14 @@ from satcheck.scene.robot.model import Limits, Link, Robot
 from satcheck.scene.units import ratio
 
 _WORLD = ""
+
+
+class Jointed(Struct, frozen=True):
+    """A document with joints that move. links: id of a body -> its rigid body."""
+
+    path: str
+    joints: tuple[RawJoint, ...]
+    links: Mapping[str, str]
 
 
 def robots_of_documents(

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Scene
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.scene.robot.assembly import posed
 from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
 

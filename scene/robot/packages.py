@@ -20,8 +20,8 @@ from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.files_read import note, note_folders_in
-from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import read_elements
+from satcheck.scene.opening import read_whole
 from satcheck.scene.path_kind import followed, is_file, is_folder
 from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.search_path import folders_of_environment

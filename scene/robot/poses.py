@@ -19,7 +19,7 @@ from msgspec import Struct
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.regular_file import read_whole
+from satcheck.scene.opening import read_whole
 from satcheck.scene.robot.model import Joint, Robot, State, Values
 from satcheck.scene.words import meant, why_unreadable
 

@@ -15,7 +15,6 @@ from typing import NoReturn
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import RobotFile, robot_reader, robots
-from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import (
     EXPAND,
     Element,
@@ -23,6 +22,7 @@ from satcheck.scene.loading.xml_tree import (
     parse_xml,
     read_elements,
 )
+from satcheck.scene.opening import read_whole
 from satcheck.scene.robot.model import Robot
 
 _MAX_BYTES = 64 << 20

@@ -13,7 +13,7 @@ import trimesh
 
 from satcheck.cli.formats.picture.glb import MET, OVERLAP
 from satcheck.core import Mesh
-from satcheck.scene.glb_file import Node, glb
+from satcheck.scene.written_meshes import Node, glb
 from tests.cli.process import PUSHED, satcheck
 
 

@@ -16,10 +16,10 @@ from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
-from satcheck.scene.loading.child_formats import Reply, Request, serve
 from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.raw_mesh import RawScene, Refusal
 from satcheck.scene.loading.readers import File
+from satcheck.scene.loading.reading_children import Reply, Request, serve
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.robot import FilePlaces
 from satcheck.scene.robot.poses import read_poses
@@ -50,8 +50,9 @@ def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     data = path.read_bytes()
     file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
-    reply = serve(msgspec.msgpack.encode(Request.about(file, file.directory)))
-    content = msgspec.msgpack.decode(reply, type=Reply).content
+    request = Request.about(file, "satcheck.scene.loading.readers:read")
+    reply = serve(msgspec.msgpack.encode(request))
+    content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
     if isinstance(content, Refusal):
         raise MeshFileError(content.code, content.message)
     flattened(content)
@@ -69,7 +70,7 @@ _MODELS = MeshFiles()  # one child process for all files
 def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
-        _MODELS.robot(str(path), path, FilePlaces(str(path)))
+        _MODELS.robot(str(path), path, FilePlaces(str(path)), {}, "collision")
     except SceneFileError as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error

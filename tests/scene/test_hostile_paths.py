@@ -8,8 +8,8 @@ import os
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import SceneFileError, load_scene
-from satcheck.scene.loading import limits, source
+from satcheck.scene import SceneFileError, load_scene, opening
+from satcheck.scene.loading import limits
 from tests.scene import files
 from tests.scene.hostile import issues, needs_links, needs_pipes, write
 from tests.scene.loading import refusal
@@ -138,7 +138,7 @@ def test_a_link_to_a_device_is_not_read(tmp_path, device, name):
 
 def test_a_file_that_states_no_size_is_read_up_to_the_limit(tmp_path, monkeypatch):
     """As those of /proc do, and files that grow."""
-    monkeypatch.setattr(source, "size_of", lambda _: 0)
+    monkeypatch.setattr(opening, "size_of", lambda _: 0)
     assert issues(write(tmp_path, "a.obj", files.obj())) == []
     (found,) = issues(write(tmp_path, "b.obj", b"#" * (5 << 20)), megabytes_per_file=16)
     assert found[0] == "too-large"

@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.files_read import files_read
-from satcheck.scene.known_meshes import KnownMeshes
+from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES
 
 

@@ -7,12 +7,11 @@ from threading import Thread
 
 import pytest
 
-from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files
-from satcheck.scene.loading import ReadLimits, limits, open_source
-from satcheck.scene.loading import source as loading_source
+from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files, opening
+from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import read_native
-from satcheck.scene.loading.nodes import Node
-from satcheck.scene.loading.readers import File
+from satcheck.scene.loading.readers import ReadLimits
+from satcheck.scene.opening import open_file
 from satcheck.scene.permitted import ANYWHERE
 from tests.scene import files, graphs
 
@@ -28,9 +27,7 @@ def wheel(tmp_path):
 
 def test_a_part_is_the_node_where_the_file_places_it(wheel):
     read = MeshFiles()
-    rim, tyre = (read.part("wheel.glb", wheel, name) for name in ("rim", "tyre"))
-    assert isinstance(rim, Node)
-    assert isinstance(tyre, Node)
+    rim, tyre = (read.node("wheel.glb", wheel, name) for name in ("rim", "tyre"))
     assert rim.file is tyre.file
     assert isinstance(rim.file, MeshFile)
     assert rim.file.path == "wheel.glb"
@@ -41,7 +38,7 @@ def test_a_part_is_the_node_where_the_file_places_it(wheel):
 
 
 def test_a_part_that_is_not_there_is_an_error_with_a_suggestion(wheel):
-    found = MeshFiles().part("wheel.glb", wheel, "tire")
+    found = MeshFiles().node("wheel.glb", wheel, "tire").file
     assert isinstance(found, MeshFileError)
     assert found.code == "unknown-part"
     assert "did you mean 'tyre'?" in found.message
@@ -51,30 +48,29 @@ def test_a_component_is_a_part_of_any_format(tmp_path):
     path = tmp_path / "two.obj"
     path.write_bytes(files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES))
     read = MeshFiles()
-    found = read.part("two.obj", path, "#2")
-    assert isinstance(found, Node)
+    found = read.node("two.obj", path, "#2")
     assert isinstance(found.file, MeshFile)
     assert found.file.mesh.bounds == ((3, 0, 0), (4, 1, 1))
-    assert isinstance(read.part("two.obj", path, "#3"), MeshFileError)
-    assert isinstance(read.part("two.obj", path, "two"), MeshFileError)
+    assert isinstance(read.node("two.obj", path, "#3").file, MeshFileError)
+    assert isinstance(read.node("two.obj", path, "two").file, MeshFileError)
 
 
 def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
     read = MeshFiles()
-    first = read.whole("wheel.glb", wheel)
-    part = read.part("wheel.glb", wheel, "rim")
+    first = read.node("wheel.glb", wheel, None)
+    part = read.node("wheel.glb", wheel, "rim")
     wheel.unlink()
     monkeypatch.chdir(wheel.parent)
-    assert read.whole("wheel.glb", wheel.relative_to(wheel.parent)) is first
-    assert read.part("wheel.glb", wheel, "rim") is part
+    assert read.node("wheel.glb", wheel.relative_to(wheel.parent), None) is first
+    assert read.node("wheel.glb", wheel, "rim") is part
 
 
 def test_what_cannot_be_read_stays_so(tmp_path):
     read = MeshFiles()
-    missing = read.part("gone.glb", tmp_path / "gone.glb", "a")
+    missing = read.node("gone.glb", tmp_path / "gone.glb", "a").file
     assert isinstance(missing, MeshFileError)
     assert missing.code == "file-not-found"
-    assert read.part("gone.glb", tmp_path / "gone.glb", "b") is missing
+    assert read.node("gone.glb", tmp_path / "gone.glb", "b").file is missing
 
 
 @pytest.mark.parametrize("in_process", [True, False])
@@ -89,10 +85,11 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     path = tmp_path / "level" / "level.gltf"
     path.parent.mkdir()
     path.write_bytes(graphs.gltf(document))
-    refused = MeshFiles().whole("level.gltf", path)
+    refused = MeshFiles().node("level.gltf", path, None).file
     assert isinstance(refused, MeshFileError)
     assert refused.code == "outside-path"
-    assert isinstance(MeshFiles(permitted=ANYWHERE).whole("level.gltf", path), MeshFile)
+    allowed = ReadLimits(permitted=ANYWHERE)
+    assert isinstance(MeshFiles(allowed).node("level.gltf", path, None).file, MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
 
@@ -106,7 +103,7 @@ def stl_of(triangles: int) -> bytes:
 
 @pytest.mark.parametrize("damage", ["none", "infinite", "short", "long", "png", "text"])
 def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monkeypatch, damage):
-    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
     content = bytearray(stl_of(300))
     if damage == "infinite":
         content[84 + 50 * 200 + 12 : 84 + 50 * 200 + 16] = struct.pack("<f", float("inf"))
@@ -120,12 +117,12 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
         content = bytearray(b"solid x\nendsolid x\n" * 10)
     path = tmp_path / "fan.stl"
     path.write_bytes(content)
-    pieces = MeshFiles(hashed=False).whole("fan.stl", path)
-    whole = MeshFiles().whole("fan.stl", path)
+    pieces = MeshFiles(ReadLimits(hashed=False)).node("fan.stl", path, None).file
+    whole = MeshFiles().node("fan.stl", path, None).file
     if damage == "none":
         assert isinstance(pieces, MeshFile)
         assert isinstance(whole, MeshFile)
-        assert open_source("", path, ReadLimits(1, 100, hashed=False)).in_pieces
+        assert open_file("", path, ReadLimits(1, 100, hashed=False)).in_pieces
         assert pieces.sha256 is None
         assert pieces.mesh.to_bytes() == whole.mesh.to_bytes()
         assert (pieces.health, pieces.resolution) == (whole.health, whole.resolution)
@@ -136,12 +133,11 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
 
 
 def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
     path = tmp_path / "fan.stl"
     path.write_bytes(stl_of(300))
-    source = open_source("fan.stl", path, ReadLimits(1, 100, hashed=False))
-    assert source.in_pieces
-    file = File("stl", str(tmp_path), path.name, source.data, source.size)
+    file = open_file("fan.stl", path, ReadLimits(1, 100, hashed=False))
+    assert file.in_pieces
     path.write_bytes(stl_of(300)[:1000])
     with pytest.raises(MeshFileError, match="byte 1000: truncated while it was read"):
         read_native(file)
@@ -167,7 +163,7 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
     ahead, alone = MeshFiles(), MeshFiles()
     ahead.read_ahead(places.items())
     for name, place in places.items():
-        found, expected = ahead.whole(name, place), alone.whole(name, place)
+        found, expected = (read.node(name, place, None).file for read in (ahead, alone))
         if isinstance(expected, MeshFile):
             assert isinstance(found, MeshFile)
             assert found.mesh.to_bytes() == expected.mesh.to_bytes()
@@ -175,4 +171,4 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
         else:
             assert isinstance(found, MeshFileError)
             assert (found.code, str(found)) == (expected.code, str(expected))
-    assert isinstance(ahead.whole("bad.obj", places["bad.obj"]), MeshFileError)
+    assert isinstance(ahead.node("bad.obj", places["bad.obj"], None).file, MeshFileError)

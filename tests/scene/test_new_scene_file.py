@@ -11,6 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.scene import Scene, load_scene
+from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file
 from satcheck.scene.permitted import ANYWHERE
@@ -133,7 +134,7 @@ def two_nodes() -> str:
 
 
 def written(output: Path, scene: Scene, **moves: tuple[float, float, float]) -> Scene:
-    text = new_scene_file(output, scene, MeshFiles(permitted=ANYWHERE), moves)
+    text = new_scene_file(output, scene, MeshFiles(ReadLimits(permitted=ANYWHERE)), moves)
     output.write_text(text, encoding="utf-8")
     return load_scene([output], allow_outside=True)
 

@@ -304,7 +304,7 @@ def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
 
 
 def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
-    from satcheck.scene import loading
+    from satcheck.scene import inspect
     from satcheck.scene.loading import gltf
 
     counts = {"read": 0, "examined": 0}
@@ -317,7 +317,7 @@ def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
         return call
 
     monkeypatch.setattr(gltf._Scene, "_mesh", counted("read", gltf._Scene._mesh))
-    monkeypatch.setattr(loading, "examine", counted("examined", loading.examine))
+    monkeypatch.setattr(inspect, "examine", counted("examined", inspect.examine))
     nodes = [{"mesh": k % 2, "name": "n", "translation": [2 * k, 0, 0]} for k in range(1000)]
     scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "a", "b"))
     assert len(scene.bodies) == len({body.id for body in scene.bodies}) == 1000

@@ -6,7 +6,7 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Primitive, Sphere
 from satcheck.scene import MeshFileError
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.inspect import shape_file
 
 
 def test_a_box_is_a_file_of_its_own():

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from satcheck.audit import Settings, check
 from satcheck.core.shapes import Box, Sphere
 from satcheck.scene import Body, Scene
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.inspect import shape_file
 from satcheck.verify import Rejected
 from tests.cli.process import VALIDATOR
 from tests.verify.reports import Json, is_accepted, verified

@@ -15,7 +15,7 @@ from satcheck.audit.bodies.placed_bodies import book_of
 from satcheck.core.shapes import Box
 from satcheck.report.report import Exempt
 from satcheck.scene import Body, Rule, Scene, Selector
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.inspect import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.document import rule_book

@@ -14,7 +14,7 @@ from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.report.report import OVERLAPS
-from satcheck.scene.glb_file import Material, Node, glb
+from satcheck.scene.written_meshes import Material, Node, glb
 
 if TYPE_CHECKING:
     from satcheck.core import Mesh

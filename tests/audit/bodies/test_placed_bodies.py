@@ -11,8 +11,8 @@ from satcheck.audit.bodies.placed_bodies import BodyCache, place
 from satcheck.audit.request.settings import Settings
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Scene, Unreadable
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.issue import issue
-from satcheck.scene.shape_file import shape_file
 
 FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")
 GROUPS = [(), ("a",), ("a",), ("a", "b"), ("b",), ("b", "c"), ("c",), ("d",), ("d",), ("c", "a")]

@@ -11,9 +11,9 @@ from msgspec.structs import replace
 from satcheck.audit import Finding, Settings, check
 from satcheck.core.shapes import Sphere
 from satcheck.scene import Body, Scene
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.shape_file import shape_file
 from tests.scene.planar.flat import scene, sheet
 
 RADIUS = 1000.0

@@ -13,8 +13,8 @@ from satcheck.audit.request.settings import Settings
 from satcheck.core import box_gap
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Rule, Scene, Selector, Unreadable
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.issue import issue
-from satcheck.scene.shape_file import shape_file
 
 FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")
 

@@ -18,9 +18,9 @@ from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Sphere
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.scene import Body, Scene, load_scene
+from satcheck.scene.inspect import shape_file
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.shape_file import shape_file
 from tests.oracles.exact_polygons import convex, signed_square
 from tests.oracles.free_directions import along, is_free
 from tests.scene.planar.flat import Corners, scene, sheet

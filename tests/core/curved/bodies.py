@@ -11,7 +11,7 @@ from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Primitive
 from satcheck.scene import Body, Scene
-from satcheck.scene.shape_file import shape_file
+from satcheck.scene.inspect import shape_file
 from tests.scene.planar.flat import body as mesh_body
 
 Transform = tuple[float, ...]

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import msgspec
 import mujoco
 import pytest
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
-from satcheck.plugins.mjcf.child import serve
-from satcheck.plugins.mjcf.messages import Answer, Request
+from satcheck.plugins.mjcf.child import model as read_model
 from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
 from satcheck.scene.loading import extras
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.readers import File
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from tests.cli.process import satcheck
 from tests.plugins.mjcf.files import (
@@ -130,8 +127,7 @@ def test_a_part_is_read_again_by_its_name(tmp_path: Path, part: str) -> None:
     options = ReadOptions(mesh_hulls=part.endswith("hull"))
     (only,) = load_scene([write(tmp_path, text)], reading=options).bodies
     assert only.path == part
-    again = MeshFiles().part(only.file.path, Path(only.file.path), part)
-    assert not isinstance(again, MeshFileError)
+    again = MeshFiles().node(only.file.path, Path(only.file.path), part)
     assert isinstance(again.file, MeshFile)
     assert again.file.mesh.to_bytes() == only.file.mesh.to_bytes()
 
@@ -301,8 +297,6 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "import_module", missing)
-    request = Request("m.xml", {}, NOTHING_ELSE)
-    answer = msgspec.msgpack.decode(serve(msgspec.msgpack.encode(request)), type=Answer)
-    assert isinstance(answer.content, Refusal)
-    assert answer.content.code == "missing-extra"
-    assert "pip install 'satcheck[mjcf]'" in answer.content.message
+    with pytest.raises(MeshFileError, match=r"pip install 'satcheck\[mjcf\]'") as caught:
+        read_model(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
+    assert caught.value.code == "missing-extra"

@@ -31,7 +31,7 @@ def read_robot(
 ) -> tuple[Robot, tuple[Issue, ...]]:
     """The robot of a file of any format, and issues. path: its name in messages."""
     name = path or str(location)
-    return MeshFiles().robot(name, location, FilePlaces(name), geometry=geometry)
+    return MeshFiles().robot(name, location, FilePlaces(name), {}, geometry)
 
 
 def robot_of(*elements: str) -> str:

@@ -1,20 +1,40 @@
-"""Reads the bytes of a mesh file once, hashes them, and checks its suffix and content."""
+"""Opens the files of inputs: regular files only, no larger than a limit, each noted for whoever
+keeps results. Of a mesh file it reads the bytes once, hashes them, and checks suffix and content.
+"""
 
 from __future__ import annotations
 
 import codecs
 import hashlib
+import stat
 from pathlib import Path
-
-from msgspec import Struct
+from typing import TypeVar
 
 from satcheck._native.readers import read_file
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.readers import KINDS, Reader, mesh_reader, reader_of, readers
-from satcheck.scene.loading.regular_file import size_of, without_padding
+from satcheck.scene.files_read import note
+from satcheck.scene.loading.readers import (
+    KINDS,
+    File,
+    Reader,
+    ReadLimits,
+    mesh_reader,
+    reader_of,
+    readers,
+)
 from satcheck.scene.plugins import failures
 
+STANDARD_INPUT = "-"
+_ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
+E = TypeVar("E", bound=SatcheckError)
+
+# Opening one of these may block, or reading it may never end.
+_SPECIAL = (
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
 # Relatives of the formats that are read, and what to do with them.
 _CONVERTIBLE = {
     ".stpz": "it is a packed STEP file: unpack it and name the .stp file",
@@ -63,74 +83,118 @@ _TEXT_HEAD_BYTES = 4096
 _BINARY_PLY = b"\nformat binary"
 
 
-class Source(Struct, frozen=True):
-    """A mesh file as it lies on disk.
+def size_of(location: Path) -> int:
+    """Size of a regular file in bytes. Raises SatcheckError, without a file name, for anything
+    else."""
+    if str(location) == STANDARD_INPUT:
+        raise SatcheckError("not-a-file", "standard input is not read: give the path of a file")
+    note(location)
+    try:
+        status = location.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        raise SatcheckError("file-not-found", "no such file") from None
+    except OSError as error:
+        raise _unreadable(error) from None
+    except ValueError as error:  # a path with a NUL character
+        raise SatcheckError("unreadable-file", f"cannot be read: {error}") from None
+    if stat.S_ISDIR(status.st_mode):
+        raise SatcheckError("not-a-file", "is a directory, not a file")
+    if not stat.S_ISREG(status.st_mode):
+        kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
+        raise SatcheckError("not-a-file", f"is {kind}, not a file: not read")
+    return status.st_size
 
-    path: as given, for messages. location: on disk. sha256: of the file, hex; None: not requested.
-    data: its bytes; a byte order mark is removed, its text is converted to UTF-8, and NUL bytes
-    after the end of a text, which some programs write, are removed. Of a large binary STL file, if
-    its SHA-256 is not needed, data holds only the first bytes, because its reader reads it in
-    pieces. size: bytes of the data, or of the whole file if data holds only its start.
+
+def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
+    """The bytes of a text file, without padding. Raises an error of this kind, with the path, if it
+    is not a regular file, has more than `most` bytes, or cannot be read."""
+    try:
+        if size_of(location) > most:
+            raise _too_large(most)
+        with location.open("rb") as file:
+            data = file.read(most + 1)  # a system file states no size
+        if len(data) > most:
+            raise _too_large(most)
+        return without_padding(data)
+    except SatcheckError as error:
+        raise kind(error.code, error.message, file=path) from None
+    except OSError as error:
+        reason = _unreadable(error)
+        raise kind(reason.code, reason.message, file=path) from None
+
+
+def without_padding(data: bytes) -> bytes:
+    """Return a text without the NUL bytes that some programs write after its last line; data that
+    are no text as they are. NUL bytes within a line may stand where others were lost."""
+    if not data.endswith(b"\0"):
+        return data
+    end = data.index(b"\0")
+    is_text = data.endswith(_ENDS, 0, end) and data.count(b"\0", end) == len(data) - end
+    return data[:end] if is_text else data
+
+
+def _unreadable(error: OSError) -> SatcheckError:
+    return SatcheckError("unreadable-file", f"cannot be read: {error.strerror}")
+
+
+def _too_large(most: int) -> SatcheckError:
+    return SatcheckError("too-large", f"larger than {most >> 20} MiB, the most for such a file")
+
+
+def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
+    """Return a mesh file as its reader takes it. Raises SatcheckError, without a file name.
+
+    path: its name in messages and reports. location: on disk. Only a file whose suffix is that of a
+    reader is opened. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
+    are read here: its reader reads it in pieces.
     """
-
-    path: str
-    location: Path
-    format: str
-    sha256: str | None
-    size: int
-    data: bytes
-
-    @property
-    def in_pieces(self) -> bool:
-        return len(self.data) < self.size
-
-
-def read_source(
-    path: str,
-    location: Path,
-    *,
-    max_bytes: int,
-    hashed: bool = True,
-) -> Source:
-    """Reads a mesh file, or raises MeshFileError.
-
-    Only a regular file whose suffix is that of a reader is opened.
-    """
-    size = _size(path, location)
+    size = size_of(location)
+    most = allowed.file_bytes
     reader = reader_of(location.suffix)
     if reader is None:
         known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
         hint = _CONVERTIBLE.get(location.suffix.lower(), known)
         failed = failures("readers", KINDS)
         message = f"unsupported format {location.suffix!r}: {hint}{failed}"
-        raise MeshFileError("unsupported-format", message, file=path)
-    _refuse_large(path, size, max_bytes)
+        raise SatcheckError("unsupported-format", message)
+    _refuse_large(size, most)
     try:
-        in_pieces = reader.name == "stl" and not hashed
-        size, data = _read(location, size, max_bytes, in_pieces=in_pieces)
+        in_pieces = reader.name == "stl" and not allowed.hashed
+        size, data = _read(location, size, most, in_pieces=in_pieces)
     except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise MeshFileError("unreadable-file", reason, file=path) from None
-    _refuse_large(path, size, max_bytes)
-    digest = hashlib.sha256(data).hexdigest() if hashed else None
+        raise _unreadable(error) from None
+    _refuse_large(size, most)
+    digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     if reader.text == "plain" and not _is_binary_stl(size, data):
-        unmarked = _without_mark(path, data)
+        unmarked = _without_mark(data)
         size, data = size + len(unmarked) - len(data), unmarked
     if reader.text != "none" and not _is_binary(size, data):
         text = without_padding(data)
         size, data = size + len(text) - len(data), text
-    _refuse_other_content(path, reader, size, data)
-    return Source(path, location, reader.name, digest, size, data)
+    content = _other_content(reader, size, data)
+    if content is not None:
+        message = f"not of format {reader.title}: its content is {content}"
+        raise SatcheckError("format-mismatch", message)
+    return File(
+        reader.name,
+        str(location.parent),
+        location.name,
+        data,
+        size,
+        allowed.options,
+        permitted=allowed.permitted,
+        path=path,
+        sha256=digest,
+    )
 
 
-def _refuse_large(path: str, size: int, max_bytes: int) -> None:
-    if size > max_bytes:
-        raise MeshFileError(
-            "too-large",
-            f"{size} bytes exceed the limit of {max_bytes} bytes, a quarter of the memory for one "
-            "file (raise it with --megabytes-per-file)",
-            file=path,
+def _refuse_large(size: int, most: int) -> None:
+    if size > most:
+        message = (
+            f"{size} bytes exceed the limit of {most} bytes, a quarter of the memory for one file "
+            "(raise it with --megabytes-per-file)"
         )
+        raise SatcheckError("too-large", message)
 
 
 def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
@@ -149,7 +213,7 @@ def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tupl
     return len(data), data
 
 
-def _without_mark(path: str, data: bytes) -> bytes:
+def _without_mark(data: bytes) -> bytes:
     """Converts text with a byte order mark to UTF-8 without one."""
     if data.startswith(codecs.BOM_UTF8):
         return data[len(codecs.BOM_UTF8) :]
@@ -160,24 +224,8 @@ def _without_mark(path: str, data: bytes) -> bytes:
             except UnicodeError:
                 name = encoding[: len("utf-16")].upper()
                 message = f"the byte order mark is that of {name}, the text is not"
-                raise MeshFileError("bad-encoding", message, file=path) from None
+                raise SatcheckError("bad-encoding", message) from None
     return data
-
-
-def _size(path: str, location: Path) -> int:
-    try:
-        return size_of(location)
-    except SatcheckError as error:
-        raise MeshFileError(error.code, error.message, file=path) from None
-
-
-def _refuse_other_content(path: str, reader: Reader, size: int, data: bytes) -> None:
-    content = _other_content(reader, size, data)
-    if content is None and reader.name == "stl":
-        content = _other_text(data)
-    if content is not None:
-        message = f"not of format {reader.title}: its content is {content}"
-        raise MeshFileError("format-mismatch", message, file=path)
 
 
 def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
@@ -185,7 +233,9 @@ def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
     for signature, name in _SIGNATURES:
         if data.startswith(signature):
             return None if signature in reader.marks else name
-    return "a binary STL file" if _is_binary_stl(size, data) and reader.name != "stl" else None
+    if reader.name == "stl":
+        return _other_text(data)
+    return "a binary STL file" if _is_binary_stl(size, data) else None
 
 
 def _is_binary(size: int, data: bytes) -> bool:

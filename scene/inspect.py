@@ -1,24 +1,97 @@
-"""Makes a MeshFile of a shape, or of a new mesh for a file."""
+"""Makes a MeshFile: of a mesh as read, of a shape, or of a new mesh for a file. Each mesh is
+inspected here, once."""
 
 from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
 
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import LARGEST_LENGTH, SMALLEST_SIZE
+from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.health import examine
+from satcheck.scene.health import examine, examine_bytes
+from satcheck.scene.issue import issue
+from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.readers import File
 from satcheck.scene.planar.outline import Outline, Shape
-from satcheck.scene.resolution import FLOAT64_STEP
+from satcheck.scene.resolution import (
+    FLOAT64_STEP,
+    far_vertex,
+    file_resolution,
+    placement_step,
+)
 from satcheck.scene.words import told_apart
 
 SHAPE_FORMAT = "shape"
+
+
+@contextmanager
+def errors_of(path: str) -> Iterator[None]:
+    """Raises what goes wrong with a file meanwhile as MeshFileError with its name, also what no
+    reader checks."""
+    try:
+        yield
+    except SatcheckError as error:
+        raise MeshFileError(error.code, error.message, file=path) from error.__cause__
+    except MemoryError as error:
+        not_for_lack_of_memory(error)
+        raise MeshFileError("reader-out-of-memory", "out of memory", file=path) from error
+    except (OverflowError, ValueError) as error:
+        code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"
+        raise MeshFileError(code, str(error), file=path) from error
+
+
+def mesh_file(
+    file: File,
+    raw: RawMesh,
+    mesh: Mesh | None = None,
+    part: str | None = None,
+    *,
+    placed: bool = False,
+) -> MeshFile:
+    """Inspect a mesh of a file.
+
+    raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
+    file itself places it. Raises MeshFileError.
+    """
+    with errors_of(file.path):
+        resolution = partial(resolution_of, raw)
+        if mesh is None:
+            examined = examine_bytes(raw.vertices, raw.triangles, resolution)
+        else:
+            examined = examine(mesh, resolution=resolution)
+        far = far_vertex(raw, examined.mesh)
+        said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
+        return MeshFile(
+            path=file.path,
+            sha256=file.sha256,
+            format=file.format,
+            resolution=resolution_of(raw, examined.mesh),
+            units=raw.units,
+            mesh=examined.mesh,
+            topology=examined.topology,
+            health=examined.health,
+            issues=tuple(issue(code, message, file=file.path) for code, message in said),
+            part=part,
+            placement_step=placement_step(raw, by_file=placed),
+            surface_tolerance=raw.surface_tolerance,
+        )
+
+
+def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
+    """Return the precision of the coordinates of the mesh."""
+    low, high = mesh.bounds
+    return file_resolution(raw, max(map(abs, (*low, *high))))
 
 
 def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:

@@ -1,12 +1,13 @@
-"""Meshes as a GLB file (glTF 2.0, Khronos, 2021), by trimesh: named nodes, each mesh and material
-once.
+"""Writes meshes: as a GLB file of named nodes, each mesh and material once, by trimesh; convex
+parts also as OBJ (an object for each) or STL.
 
-GLB holds 32-bit floats (section 3.6.2.2), metres (section 3.4).
+GLB and STL hold 32-bit floats (glTF 2.0, section 3.6.2.2; the STL of 3D Systems, 1988). GLB holds
+metres (section 3.4).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,9 @@ from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
+
+Part = tuple[str, Mesh]
+_CONTINUES = "\\"  # at the end of a line of OBJ: the next line belongs to it
 
 
 class Material(Struct, frozen=True):
@@ -84,3 +88,55 @@ def _mesh(node: Node) -> Trimesh:
 def _metres(units: str | None) -> float:
     unit = unit_of(units)
     return 1.0 if unit is None else MICROMETRES[unit] / MICROMETRES["m"]
+
+
+def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
+    """The content of a file. parts: names, and meshes in one frame. suffix: a key of FORMATS.
+    units: of the coordinates. If they are known, a GLB file is in metres."""
+    return FORMATS[suffix]([(_plain(name), mesh) for name, mesh in parts], units)
+
+
+def rounding(parts: Sequence[Part], suffix: str) -> float:
+    """An upper bound on how far a vertex moves when its coordinates are rounded for the file."""
+    if suffix == ".obj":
+        return 0.0
+    steps = [mesh.vertices - mesh.vertices.astype("<f4") for _, mesh in parts]
+    return max((float(np.linalg.norm(step, axis=1).max()) for step in steps), default=0.0)
+
+
+def _plain(name: str) -> str:
+    """A name of one line."""
+    return "".join(c if c.isprintable() else "_" for c in name)
+
+
+def _obj(parts: Sequence[Part], units: str | None) -> bytes:
+    lines = ["# convex parts, made by satcheck", *([f"# units: {units}"] if units else [])]
+    first = 1
+    for name, mesh in parts:
+        lines.append(f"o {name.rstrip(_CONTINUES)}")
+        lines += ["v {!r} {!r} {!r}".format(*point) for point in mesh.vertices.tolist()]
+        corners = mesh.triangles.astype(np.int64) + first
+        lines += ["f {} {} {}".format(*triangle) for triangle in corners.tolist()]
+        first += mesh.vertex_count
+    return "".join(f"{line}\n" for line in lines).encode(errors="backslashreplace")
+
+
+def _stl(parts: Sequence[Part], units: str | None) -> bytes:
+    import trimesh
+    from trimesh.exchange.stl import export_stl
+
+    del units
+    meshes = [trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False) for _, mesh in parts]
+    content: bytes = export_stl(trimesh.util.concatenate(meshes))
+    return content
+
+
+def _glb(parts: Sequence[Part], units: str | None) -> bytes:
+    return glb([Node(name, mesh) for name, mesh in parts], units)
+
+
+FORMATS: dict[str, Callable[[Sequence[Part], str | None], bytes]] = {
+    ".glb": _glb,
+    ".obj": _obj,
+    ".stl": _stl,
+}
