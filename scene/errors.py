@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from satcheck.core.errors import SatcheckError
 
 
-class MeshFileError(SatcheckError):
+class Refused(SatcheckError):
     """A mesh file cannot be used. Other files are not affected."""
 
 
-class SceneFileError(SatcheckError):
+class Refused(SatcheckError):
     """A scene file is refused as a whole.
 
     line: the line of the file at fault; None: no single line.
@@ -30,7 +30,7 @@ class SceneFileError(SatcheckError):
         self.line = line
 
     @classmethod
-    def combined(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
+    def combined(cls, errors: Sequence[Refused]) -> Refused:
         """The first error, with the others attached."""
         first, *others = errors
         first.others = tuple(others)

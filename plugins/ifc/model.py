@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from satcheck.plugins.ifc.elements import declared, instances_of
 from satcheck.plugins.ifc.failures import Message, logged, start_log
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
@@ -56,7 +56,7 @@ _UNREAD = frozenset(("OwnerHistory",))
 
 
 def open_model(data: memoryview) -> Any:
-    """The ifcopenshell.file. Raises MeshFileError."""
+    """The ifcopenshell.file. Raises Refused."""
     content = unpacked(data)
     _refuse_other_content(content)
     ifcopenshell = imported("ifcopenshell", "ifc", "IFC files")
@@ -71,19 +71,19 @@ def open_model(data: memoryview) -> Any:
     _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):
         message = "the file has no IfcGeometricRepresentationContext, so its shapes have no meaning"
-        raise MeshFileError("bad-record", message)
+        raise Refused("bad-record", message)
     return model
 
 
 def unpacked(data: memoryview) -> bytes:
-    """The text of the file; of the only IFC file in an ifcZIP. Raises MeshFileError."""
+    """The text of the file; of the only IFC file in an ifcZIP. Raises Refused."""
     if bytes(data[: len(_ZIP)]) != _ZIP:
         return bytes(data)
     with opened_zip(data, "an ifcZIP file") as archive:
         names = [name for name in archive.namelist() if name.lower().endswith((".ifc", ".ifcxml"))]
         if len(names) != 1:
             message = f"an ifcZIP file holds one IFC file, not {len(names)}"
-            raise MeshFileError("bad-record" if names else "missing-resource", message)
+            raise Refused("bad-record" if names else "missing-resource", message)
         with open_part(archive, names[0]) as part:
             return part.read()
 
@@ -92,12 +92,12 @@ def _refuse_other_content(content: bytes) -> None:
     start = content[:_ENDS_BYTES].lstrip(b"\xef\xbb\xbf \t\r\n")
     if start.startswith(b"<"):
         message = "ifcXML is not read: export the model as a STEP physical file (.ifc)"
-        raise MeshFileError("unsupported-feature", message)
+        raise Refused("unsupported-feature", message)
     if not start.startswith(_FIRST):
         message = f"not an IFC file: it does not begin with {_FIRST.decode()}"
-        raise MeshFileError("not-this-format", message)
+        raise Refused("not-this-format", message)
     if _LAST not in content[-_ENDS_BYTES:]:
-        raise MeshFileError("truncated", f"the file ends without {_LAST.decode()}")
+        raise Refused("truncated", f"the file ends without {_LAST.decode()}")
 
 
 def _text(content: bytes) -> str:
@@ -108,19 +108,17 @@ def _text(content: bytes) -> str:
         return content.decode("latin-1")
 
 
-def _unopened(messages: list[Message], otherwise: str) -> MeshFileError:
+def _unopened(messages: list[Message], otherwise: str) -> Refused:
     said = messages[0].line if messages else otherwise
-    return MeshFileError("bad-record", f"the file cannot be parsed: {said}")
+    return Refused("bad-record", f"the file cannot be parsed: {said}")
 
 
 def _refuse_damage(model: Any, messages: Iterable[Message]) -> None:
     for message in messages:
         if message.level == "error" or message.message.startswith(_TWICE):
-            raise MeshFileError(
-                "bad-record", f"the parser reads a part of the file: {message.line}"
-            )
+            raise Refused("bad-record", f"the parser reads a part of the file: {message.line}")
         if message.code == _WRONG_COUNT and _shapes(model, message):
-            raise MeshFileError("bad-record", f"a record is of another form: {message.line}")
+            raise Refused("bad-record", f"a record is of another form: {message.line}")
 
 
 def _shapes(model: Any, message: Message) -> bool:
@@ -144,7 +142,7 @@ def _is_a(value: Any, name: str) -> bool:
 def _refuse_without_unit(model: Any) -> None:
     units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
     if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
-        raise MeshFileError("bad-record", "the file states no unit of length (LENGTHUNIT)")
+        raise Refused("bad-record", "the file states no unit of length (LENGTHUNIT)")
 
 
 def _refuse_cycles(model: Any) -> None:
@@ -161,7 +159,7 @@ def _refuse_cycles(model: Any) -> None:
         while place is not None and place not in fine:
             if place in chain:
                 message = f"placement #{place} is relative to itself: a cycle"
-                raise MeshFileError("reference-cycle", message)
+                raise Refused("reference-cycle", message)
             chain[place] = None
             place = above.get(place)
         fine.update(chain)
@@ -190,7 +188,7 @@ class _Attribute(Struct, frozen=True):
 
 
 def refuse_other_kinds(model: Any) -> None:
-    """Raises MeshFileError (`bad-record`)."""
+    """Raises Refused (`bad-record`)."""
     known: dict[str, tuple[_Attribute, ...]] = {}
     for name in _READ:
         for instance in instances_of(model, name):
@@ -202,7 +200,7 @@ def refuse_other_kinds(model: Any) -> None:
                     message = (
                         f"{kind} #{instance.id()}: {each.name} is not what the schema prescribes"
                     )
-                    raise MeshFileError("bad-record", message)
+                    raise Refused("bad-record", message)
 
 
 def _attributes(model: Any, kind: str) -> Iterator[_Attribute]:

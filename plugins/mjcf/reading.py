@@ -21,12 +21,12 @@ from satcheck.scene.robot.model import (
     Geometry,
     Link,
     MeshReference,
-    RefusedShape,
+    Refusal,
     Robot,
     State,
 )
 
-_FLEX = RefusedShape("unsupported-feature", "a deformable body (flex) is not read")
+_FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
 def robot_of_model(
@@ -120,7 +120,7 @@ class _Reader:
     def _shape(self, geom: Geom) -> Geometry:
         match geom.shape:
             case Refusal(code, message):
-                return RefusedShape(code, message)
+                return Refusal(code, message)
             case OwnMesh(part):
                 own = Path(self._path).name
                 return MeshReference(own, (1.0, 1.0, 1.0), part=part, hull=self._hulls)

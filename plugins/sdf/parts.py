@@ -13,7 +13,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import DRAWN_PLANE, Collision, RefusedShape
+from satcheck.scene.robot.model import DRAWN_PLANE, Collision, Refusal
 from satcheck.scene.robot.slips import Slips
 
 ALL_BITS = 0xFFFF
@@ -63,7 +63,7 @@ def parts_in(
                     shape.refuse(DRAWN_PLANE, "unsupported-feature")
                 origin = compose(origin, facing(shape))
         except RefusedElement as error:
-            refused = RefusedShape(error.code, error.reason)
+            refused = Refusal(error.code, error.reason)
             part = Collision(name, IDENTITY, refused, error.at, element.file)
             parts.append(Part(part, mask))
         else:

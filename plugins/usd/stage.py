@@ -14,7 +14,7 @@ from pxr import Ar, Sdf, Usd, UsdGeom
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.permitted import Permitted
@@ -76,7 +76,7 @@ class Remarks:
 
 
 def open_stage(location: Path, permitted: Permitted) -> Stage:
-    """permitted: where its layers may lie. Raises MeshFileError, and what the library raises."""
+    """permitted: where its layers may lie. Raises Refused, and what the library raises."""
     closed = Closed(permitted, location.parent)
     root = Sdf.Layer.FindOrOpen(str(location))
     if root is not None and not permitted.anywhere:
@@ -92,7 +92,7 @@ def open_stage(location: Path, permitted: Permitted) -> Stage:
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
-        raise MeshFileError("bad-record", f"upAxis is {axis!r}, not Y or Z")
+        raise Refused("bad-record", f"upAxis is {axis!r}, not Y or Z")
     y_up = axis == UsdGeom.Tokens.y
     return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
 
@@ -119,14 +119,14 @@ def _note_files(layers: list[Any]) -> None:
 
 
 def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:
-    """(prim -> why a part of it is missing, warnings). Raises MeshFileError for a lost layer."""
+    """(prim -> why a part of it is missing, warnings). Raises Refused for a lost layer."""
     lost: dict[str, Refusal] = {}
     ignored: list[str] = []
     for error in stage.GetCompositionErrors():
         kind, message = type(error).__name__, said(error)
         code = _CODES.get(kind, "missing-resource")
         if any(word in kind for word in _OF_LAYERS):
-            raise MeshFileError(code, message)
+            raise Refused(code, message)
         if any(word in kind for word in _OF_OPINIONS) or _ONLY_MATERIALS.search(message):
             ignored.append(message)
             continue
@@ -179,7 +179,7 @@ def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
     """(unit, factor from stage units to it). Only the root layer's value counts."""
     metres = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)  # some files store it as float32
     if not (isinstance(metres, float) and math.isfinite(metres) and metres > 0):
-        raise MeshFileError("bad-record", f"metersPerUnit is {metres}")
+        raise Refused("bad-record", f"metersPerUnit is {metres}")
     if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
         message = f"the file has no metersPerUnit: {metres:g} counts, the default of USD"
         warnings.append(("assumed-units", message))

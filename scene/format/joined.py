@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeVar
 from msgspec.structs import replace
 
 from satcheck.scene.bodies import Accepted, Body, Unreadable
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
@@ -86,7 +86,7 @@ class JoinedScenes:
         return tuple(scaled_motion(motion, scales.get(path, 1.0)) for path, motion in self._motions)
 
     def rules(self, everybody: Bodies, scales: Mapping[str, float]) -> tuple[Rule, ...]:
-        """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError if a
+        """everybody: all bodies of the check. scales: as for motions. Raises Refused if a
         rule has to be expanded into too many pairs."""
         return tuple(self._in_check(lambda scene: scene.rules, _own_rules, everybody, scales))
 
@@ -159,7 +159,7 @@ def _own_rules(rules: Sequence[Rule], own: _Own) -> Iterator[Rule]:
                 f"{rule.name}: beside the other inputs this rule has to be written out for "
                 f"{len(a) * len(b)} pairs; check this scene alone, or select fewer bodies"
             )
-            raise SceneFileError("too-large", message, file=own.scene.path)
+            raise Refused("too-large", message, file=own.scene.path)
         else:
             pairs: dict[frozenset[str], tuple[str, str]] = {}
             for pair in product(a, b):

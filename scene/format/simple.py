@@ -57,7 +57,7 @@ class Scene(Table, frozen=True, forbid_unknown_fields=False):
 
 
 def read_scene(parsed: Parsed) -> SceneFile:
-    """Raises SceneFileError with all errors of the file."""
+    """Raises Refused with all errors of the file."""
     path, values, problems = parsed.path, parsed.document, Problems(parsed)
     inner = {k: v for k in ("bodies", "allowed_pairs") if isinstance(v := values.get(k), list)}
     if "bodies" not in values:

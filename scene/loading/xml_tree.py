@@ -14,7 +14,7 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.limits import MAX_DEPTH
 
 _NAMESPACE_SEPARATOR = " "
@@ -36,14 +36,14 @@ def guarded_parser(
 
     allowed_encodings: lower-case names of encodings that are accepted; None: all that expat knows.
     namespaces: False reports names as written, "prefix:local-name", even if the prefix is not
-    declared. Parsing raises MeshFileError.
+    declared. Parsing raises Refused.
     """
     separator = _NAMESPACE_SEPARATOR if namespaces else None
     parser = expat.ParserCreate(namespace_separator=separator)
     parser.buffer_text = True
 
     def refuse_entity(*_: object) -> NoReturn:
-        raise MeshFileError(
+        raise Refused(
             "entity-declaration",
             f"line {parser.CurrentLineNumber}: entity declarations are refused",
         )
@@ -51,9 +51,7 @@ def guarded_parser(
     def check_encoding(_version: str, encoding: str | None, _standalone: int) -> None:
         if allowed_encodings and encoding and encoding.lower() not in allowed_encodings:
             expected = " or ".join(sorted(allowed_encodings))
-            raise MeshFileError(
-                "bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected"
-            )
+            raise Refused("bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected")
 
     parser.EntityDeclHandler = refuse_entity
     parser.ExternalEntityRefHandler = refuse_entity
@@ -61,12 +59,12 @@ def guarded_parser(
     return parser
 
 
-class UnboundPrefix(MeshFileError):
+class UnboundPrefix(Refused):
     """A prefix is used but not declared."""
 
 
 def parse_xml(parse: Callable[[], object]) -> None:
-    """Runs a parser and turns an error of expat into a MeshFileError."""
+    """Runs a parser and turns an error of expat into a Refused."""
     try:
         parse()
     except expat.ExpatError as error:
@@ -76,12 +74,10 @@ def parse_xml(parse: Callable[[], object]) -> None:
             raise UnboundPrefix("bad-record", message) from None
         if "encoding" in reason or (error.lineno == 1 and error.offset < len(_DECLARATION)):
             message = f"invalid XML encoding, or not XML: {reason}"
-            raise MeshFileError("bad-encoding", message) from None
-        raise MeshFileError(
-            "bad-record", f"line {error.lineno}: not well-formed XML: {reason}"
-        ) from None
+            raise Refused("bad-encoding", message) from None
+        raise Refused("bad-record", f"line {error.lineno}: not well-formed XML: {reason}") from None
     except (LookupError, UnicodeError) as error:
-        raise MeshFileError("bad-encoding", f"invalid XML encoding: {error}") from None
+        raise Refused("bad-encoding", f"invalid XML encoding: {error}") from None
 
 
 def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
@@ -109,7 +105,7 @@ def with_declared_prefixes(data: bytes) -> bytes:
     return f"{outermost[1]}{more}{text[outermost.end(1) :]}".encode(*coding)
 
 
-class RefusedElement(SceneFileError):
+class RefusedElement(Refused):
     """An element of a robot. at: its line; reason: what is wrong with it."""
 
     def __init__(self, code: str, at: int, reason: str, file: str) -> None:
@@ -242,11 +238,11 @@ class Element:
             self.refuse(str(error))
 
     def refuse(self, message: str, code: str | None = None) -> NoReturn:
-        """Raises MeshFileError (`bad-record`), or RefusedElement (`bad-robot`) in a robot."""
+        """Raises Refused (`bad-record`), or RefusedElement (`bad-robot`) in a robot."""
         reason = f"<{self.tag}>: {message}"
         if self.file:
             raise RefusedElement(code or "bad-robot", self.line, reason, self.file)
-        raise MeshFileError(code or "bad-record", f"line {self.line}: {reason}")
+        raise Refused(code or "bad-record", f"line {self.line}: {reason}")
 
 
 def read_elements(
@@ -256,7 +252,7 @@ def read_elements(
     file: str | None = None,
 ) -> Element:
     """The outermost element. encodings: as in `guarded_parser`. file: of a robot, whose names keep
-    their prefixes. Raises MeshFileError."""
+    their prefixes. Raises Refused."""
     stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
     parser = guarded_parser(encodings, namespaces=file is None)
     outermost: list[Element] = []
@@ -269,7 +265,7 @@ def read_elements(
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
             )
-            raise MeshFileError("too-large", message)
+            raise Refused("too-large", message)
         (around[-1].children if around else outermost).append(element)
         around.append(element)
 
@@ -278,9 +274,9 @@ def read_elements(
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
     try:
         parse_stream(parser, stream)
-    except MeshFileError as error:
+    except Refused as error:
         if not around:
             raise
         still = f"<{around[-1].tag}> of line {around[-1].line} was still open"
-        raise MeshFileError(error.code, f"{error.message}; {still}") from None
+        raise Refused(error.code, f"{error.message}; {still}") from None
     return outermost[0]

@@ -41,7 +41,7 @@ class MeshReference(Struct, frozen=True):
     hull: bool = False
 
 
-class RefusedShape(Struct, frozen=True):
+class Refusal(Struct, frozen=True):
     """Geometry that cannot be used. code: of `issue.CODES`. reason: without the line, so that one
     message can cover all bodies with this reason."""
 
@@ -49,7 +49,7 @@ class RefusedShape(Struct, frozen=True):
     reason: str
 
 
-Geometry = MeshReference | Primitive | RefusedShape
+Geometry = MeshReference | Primitive | Refusal
 
 
 class Collision(Struct, frozen=True):

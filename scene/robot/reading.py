@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import RobotFile, robot_reader, robots
 from satcheck.scene.loading.xml_tree import (
@@ -40,7 +40,7 @@ _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
 def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and issues. Raises SceneFileError with the file, the line and the element.
+    """Return the robot, and issues. Raises Refused with the file, the line and the element.
 
     path: of the file, for messages; location: where it lies. No mesh is opened.
     """
@@ -50,8 +50,8 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
         _refuse_root(root, robots())
     try:
         robot, issues = reader.function()(root, file)
-    except MeshFileError as error:
-        raise SceneFileError(error.code, error.message, file=error.file) from error.__cause__
+    except Refused as error:
+        raise Refused(error.code, error.message, file=error.file) from error.__cause__
     if file.geometry == "visual":
         message = "visual geometry is checked, not collision geometry"
         issues = (*issues, issue("visual-geometry", message, file=path))
@@ -61,9 +61,9 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
 def read_tree(path: str, location: Path, *roots: str) -> Element:
     """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
-    Text between elements is ignored. Raises SceneFileError, with the line.
+    Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
+    document = _parse(path, read_whole(path, location, _MAX_BYTES, Refused))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)
@@ -105,7 +105,7 @@ def first_tags(head: bytes, count: int) -> list[str]:
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
-    with suppress(MeshFileError):  # the reader reports the error
+    with suppress(Refused):  # the reader reports the error
         parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
     return tags[:count]
 
@@ -118,14 +118,14 @@ def _with_declaration_first(data: bytes) -> bytes:
 
 def _parse(path: str, data: bytes) -> Element:
     try:
-        with suppress(MeshFileError):
+        with suppress(Refused):
             return read_elements(_with_declaration_first(data), file=path)
         plain = _AMPERSAND.sub(b"&amp;", _without_comments(data))
         return read_elements(_with_declaration_first(plain), file=path)
-    except MeshFileError as error:
+    except Refused as error:
         if _ERB in data:
-            raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
-        raise SceneFileError(error.code, error.message, file=path) from None
+            raise Refused("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
+        raise Refused(error.code, error.message, file=path) from None
 
 
 def _without_comments(data: bytes) -> bytes:

@@ -32,7 +32,7 @@ from satcheck.scene.robot.model import (
     Link,
     MeshReference,
     Mimic,
-    RefusedShape,
+    Refusal,
     Robot,
     UrdfJointKind,
 )
@@ -55,7 +55,7 @@ _SHAPES: dict[str, tuple[Callable[..., Primitive], dict[str, int]]] = {  # size 
 
 
 def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and warnings. Raises SceneFileError with the file, the line and the
+    """Return the robot, and warnings. Raises Refused with the file, the line and the
     element. root: the outermost element. No mesh is opened."""
     return _Reader(root.file, file.geometry).read(root)
 
@@ -134,7 +134,7 @@ class _Reader:
                 origin = compose(origin, _facing(shape))
             return Collision(name, origin, geometry, element.line)
         except RefusedElement as error:
-            return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
+            return Collision(name, IDENTITY, Refusal(error.code, error.reason), error.at)
 
     def _joint(self, element: Element, names: Sequence[str]) -> Joint:
         self._slips.look(element, JOINT)
