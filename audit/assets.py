@@ -22,7 +22,7 @@ from satcheck.report.report import (
     PairCounts,
     Report,
 )
-from satcheck.scene import Scene, SceneFileError
+from satcheck.scene import Refused, Scene
 
 NO_PAIRS = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
 
@@ -86,7 +86,7 @@ def _passing_by_rules(report: Report, scene: Scene) -> Report:
 
 
 def _line_of(error: SatcheckError) -> int | None:
-    return error.line if isinstance(error, SceneFileError) else None
+    return error.line if isinstance(error, Refused) else None
 
 
 def unused_rules(assets: Sequence[Asset], files: Collection[str]) -> tuple[Issue, ...]:

@@ -10,13 +10,13 @@ from msgspec.structs import replace
 from satcheck.report.bodies import Place
 from satcheck.report.report import Report
 from satcheck.scene import Scene
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 
 _TOLD = ("error", "warning", "note")
 
 
 def with_stated_places(report: Report, scene: Scene) -> Report:
-    """scene: that the report is about. Scene files are read again: raises SceneFileError where one
+    """scene: that the report is about. Scene files are read again: raises Refused where one
     is gone by now."""
     told = {id_ for f in report.findings if f.severity in _TOLD for id_ in (f.a, f.b)}
     entries = {id_: scene.entries[id_] for id_ in told if id_ in scene.entries}
@@ -46,4 +46,4 @@ def _lines(path: str, numbers: Iterable[int]) -> dict[int, int]:
         return {number: lines[of] for number, of in keys.items()}
     except (ValueError, LookupError):
         message = "the scene file has changed since it was read"
-        raise SceneFileError("bad-scene", message, file=path) from None
+        raise Refused("bad-scene", message, file=path) from None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from msgspec import to_builtins
 
 from satcheck.report.report import Issue
-from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
+from satcheck.scene import Body, MeshFile, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.nodes import CORNER
@@ -39,7 +39,7 @@ def stated_scene(
         if entry.sha256 is None:
             continue  # the report says why
         file = _mesh_file(entry, files, root)
-        if isinstance(file, MeshFileError):
+        if isinstance(file, Refused):
             issues.append(_issue(GONE, entry, f"not drawn: {file}"))
             continue
         body = _placed(entry, file)
@@ -55,14 +55,14 @@ def stated_scene(
     return Scene(name="", units=report.units, bodies=tuple(bodies)), list(_once(issues))
 
 
-def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | MeshFileError:
+def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Refused:
     """Return the mesh file of a body. Of a shape the report has the sizes: the file that states it
     is not read again."""
     location = root / entry.file
     if entry.shape is not None:
         try:
             return shape_file(shape_from(to_builtins(entry.shape)), entry.file)
-        except MeshFileError as error:
+        except Refused as error:
             return error
     return files.node(entry.file, location, entry.path).file
 

@@ -7,7 +7,7 @@ warnings about the others are `Issue`s with the stable codes of `CODES`.
 """
 
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import CODES, Code, Issue
 from satcheck.scene.loader import load_scene
@@ -20,12 +20,11 @@ __all__ = [
     "Code",
     "Issue",
     "MeshFile",
-    "MeshFileError",
     "MeshFiles",
     "MeshHealth",
+    "Refused",
     "Rule",
     "Scene",
-    "SceneFileError",
     "Selector",
     "Unreadable",
     "load_scene",

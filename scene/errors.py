@@ -1,4 +1,4 @@
-"""Why a file cannot be used. Codes are those of `issue.CODES`."""
+"""Why an input, or a part of it, cannot be used. Codes are those of `issue.CODES`."""
 
 from __future__ import annotations
 
@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from satcheck.core.errors import SatcheckError
 
 
-class MeshFileError(SatcheckError):
-    """A mesh file cannot be used. Other files are not affected."""
+class Refused(SatcheckError):
+    """A file, a mesh of it or an element of it is refused. What is beside it is not affected,
+    unless it has no meaning without it, as the bodies of a scene file.
 
-
-class SceneFileError(SatcheckError):
-    """A scene file is refused as a whole.
-
-    line: the line of the file at fault; None: no single line.
+    line: the line of the file at fault; None: no single line, or the message states it.
     """
 
     def __init__(
@@ -30,7 +27,7 @@ class SceneFileError(SatcheckError):
         self.line = line
 
     @classmethod
-    def combined(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
+    def combined(cls, errors: Sequence[Refused]) -> Refused:
         """The first error, with the others attached."""
         first, *others = errors
         first.others = tuple(others)

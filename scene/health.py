@@ -8,7 +8,7 @@ from collections.abc import Callable
 from msgspec import Struct
 
 from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 
 
 class MeshHealth(Struct, frozen=True):
@@ -77,7 +77,7 @@ def examine(mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact)
 
     Vertices and triangles are sorted, so that no answer depends on their order in the file.
     resolution: computes the precision of the coordinates; called only if the mesh has a boundary.
-    Raises MeshFileError (without a file name) when no triangle has an area.
+    Raises Refused (without a file name) when no triangle has an area.
     """
     return _judged(_sealed(inspect(mesh, orient), orient, resolution))
 
@@ -101,7 +101,7 @@ def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Ins
 def _judged(inspection: Inspection) -> Examined:
     topology, after, turned = inspection.topology, inspection.repaired, inspection.turned
     if topology.degenerate_triangles == topology.triangles:
-        raise MeshFileError(
+        raise Refused(
             "only-degenerate",
             f"only degenerate triangles: all {topology.triangles} have area 0",
         )

@@ -18,7 +18,7 @@ from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.health import examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading.raw_mesh import RawMesh
@@ -37,18 +37,18 @@ SHAPE_FORMAT = "shape"
 
 @contextmanager
 def errors_of(path: str) -> Iterator[None]:
-    """Raises what goes wrong with a file meanwhile as MeshFileError with its name, also what no
+    """Raises what goes wrong with a file meanwhile as Refused with its name, also what no
     reader checks."""
     try:
         yield
     except SatcheckError as error:
-        raise MeshFileError(error.code, error.message, file=path) from error.__cause__
+        raise Refused(error.code, error.message, file=path) from error.__cause__
     except MemoryError as error:
         not_for_lack_of_memory(error)
-        raise MeshFileError("reader-out-of-memory", "out of memory", file=path) from error
+        raise Refused("reader-out-of-memory", "out of memory", file=path) from error
     except (OverflowError, ValueError) as error:
         code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"
-        raise MeshFileError(code, str(error), file=path) from error
+        raise Refused(code, str(error), file=path) from error
 
 
 def mesh_file(
@@ -62,7 +62,7 @@ def mesh_file(
     """Inspect a mesh of a file.
 
     raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
-    file itself places it. Raises MeshFileError.
+    file itself places it. Raises Refused.
     """
     with errors_of(file.path):
         resolution = partial(resolution_of, raw)
@@ -98,7 +98,7 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
     """The mesh of the shape. path: the scene file that states it.
 
     sha256: of the values of the shape and the number of segments. The sizes are exact float64
-    numbers, so the resolution is float64 rounding. Raises MeshFileError (`out-of-range`).
+    numbers, so the resolution is float64 rounding. Raises Refused (`out-of-range`).
     The mesh of a curved shape lies within the shape.
     """
     try:
@@ -108,7 +108,7 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
             _require_in_range(shape, path)
             examined = examine(mesh_of(shape, segments))
     except OverflowError as error:
-        raise MeshFileError("out-of-range", str(error), file=path) from None
+        raise Refused("out-of-range", str(error), file=path) from None
     low, high = examined.mesh.bounds
     canonical = json.dumps([values_of(shape), segments], sort_keys=True)
     return MeshFile(
@@ -133,14 +133,14 @@ def _require_in_range(shape: Primitive, path: str) -> None:
                 f"out of range: sizes may be from {SMALLEST_SIZE:g} to {LARGEST_LENGTH:g}; use "
                 "another unit of length"
             )
-            raise MeshFileError("out-of-range", message, file=path)
+            raise Refused("out-of-range", message, file=path)
 
 
 def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
     """The file with this mesh instead, inspected and repaired as after reading.
 
     sha256: of the mesh, so that cached results for the mesh of the file are not used for this one.
-    Raises MeshFileError when no triangle has an area.
+    Raises Refused when no triangle has an area.
     """
     examined = examine(mesh, resolution=lambda _: file.resolution)
     return replace(

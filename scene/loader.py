@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loading.nodes import Split
 from satcheck.scene.loading.readers import (
@@ -95,7 +95,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         their file if there are several files). Repeated ids get the suffix -2, -3, ...
 
         A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the
-        rest is loaded. Raises SceneFileError for an invalid scene file or robot.
+        rest is loaded. Raises Refused for an invalid scene file or robot.
         """
         given = [(path, kind_of(path)) for path in _as_texts(paths)]
         names = [path for path, _ in given]
@@ -176,25 +176,25 @@ def _unit(name: str) -> str:
 
 
 def _scene(path: str, permitted: Permitted) -> SceneFile:
-    """Raises SceneFileError."""
+    """Raises Refused."""
     from satcheck.scene.format.reading import read_scene_file
 
     return read_scene_file(path, Path(path), permitted)
 
 
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
-    """The options that scenes state. Raises SceneFileError if two of them differ."""
+    """The options that scenes state. Raises Refused if two of them differ."""
     stated: dict[str, Any] = {}
     for scene in scenes:
         for name, value in scene.reading.items():
             if stated.setdefault(name, value) != value:
                 message = f"reading.{name} differs from that of another scene"
-                raise SceneFileError("bad-scene", message, file=scene.path)
+                raise Refused("bad-scene", message, file=scene.path)
     return stated
 
 
 def read_rules(path: str) -> SceneFile:
-    """A file of rules. Raises SceneFileError."""
+    """A file of rules. Raises Refused."""
     from satcheck.scene.format.reading import read_rules_file
 
     return read_rules_file(path, Path(path))
@@ -202,13 +202,13 @@ def read_rules(path: str) -> SceneFile:
 
 def is_rules(path: str) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
-    Raises SceneFileError."""
+    Raises Refused."""
     return kind_of(path) == "scene" and not _scene(path, ANYWHERE).bodies
 
 
 def has_only_rules(path: str) -> bool:
     """Return whether the input is a scene file with rules and without bodies. Raises
-    SceneFileError."""
+    Refused."""
     if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
         return False
     scene = _scene(path, ANYWHERE)

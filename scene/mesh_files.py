@@ -19,7 +19,7 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
@@ -66,21 +66,21 @@ class MeshFiles:
     def _children(self) -> ReadingChildren:
         return ReadingChildren(self.allowed.megabytes)
 
-    def nodes(self, path: str, location: Path, split: Split) -> Nodes | MeshFileError:
+    def nodes(self, path: str, location: Path, split: Split) -> Nodes | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
             load = partial(self._known.recall, (path, key, self.allowed), load)
-        made: Nodes | MeshFileError = self._once(key, load)
+        made: Nodes | Refused = self._once(key, load)
         return made
 
     def _once(self, key: Hashable, make: Callable[[], Any]) -> Any:
-        """Return what `make` returns, or the MeshFileError that it raises; both once."""
+        """Return what `make` returns, or the Refused that it raises; both once."""
         if key not in self._made:
             try:
                 self._made[key] = make()
-            except MeshFileError as error:
+            except Refused as error:
                 self._made[key] = error
         return self._made[key]
 
@@ -113,7 +113,7 @@ class MeshFiles:
             "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
         )
         loaded = self.nodes(path, location, split)
-        if isinstance(loaded, MeshFileError):
+        if isinstance(loaded, Refused):
             return Node(part, loaded)
         if part is None or part in loaded.nodes:
             return loaded.nodes[part]
@@ -122,19 +122,19 @@ class MeshFiles:
         reader = reader_of(location.suffix)
         if reader is not None and "geometry" in reader.options:
             message += "; --geometry, --purpose and `reading` of a scene choose its parts"
-        return Node(part, MeshFileError("unknown-part", message, file=path))
+        return Node(part, Refused("unknown-part", message, file=path))
 
     def _hull(self, path: str, location: Path, part: str) -> Node:
         """Return a node with the convex hull of its mesh."""
         node = self.node(path, location, part.removesuffix(HULL_MARK) or None)
-        if isinstance(node.file, MeshFileError):
+        if isinstance(node.file, Refused):
             return node
         try:
             hull = node.file.mesh.convex_hull().to_mesh()
             return replace(node, path=part, file=replace(remeshed(node.file, hull), part=part))
-        except (MeshFileError, ValueError) as error:
-            code = error.code if isinstance(error, MeshFileError) else "flat"
-            return replace(node, file=MeshFileError(code, f"convex hull: {error}", file=path))
+        except (Refused, ValueError) as error:
+            code = error.code if isinstance(error, Refused) else "flat"
+            return replace(node, file=Refused(code, f"convex hull: {error}", file=path))
 
     def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
@@ -183,17 +183,17 @@ class MeshFiles:
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
     ) -> tuple[Robot, tuple[Issue, ...]]:
-        """Return the robot that a file describes, and issues. Raises SceneFileError, and
-        MeshFileError if reading it has ended the process before."""
+        """Return the robot that a file describes, and issues. Raises Refused, also if reading it
+        has ended the process before."""
         from satcheck.scene.robot import read_robot
 
         with _reading(path, location):
             file = RobotFile(places, packages, geometry, self.allowed, self._children)
             return read_robot(path, location, file)
 
-    def shape(self, shape: Shape, path: str) -> MeshFile | MeshFileError:
+    def shape(self, shape: Shape, path: str) -> MeshFile | Refused:
         """path: the file that states it."""
-        made: MeshFile | MeshFileError = self._once((shape, path), partial(shape_file, shape, path))
+        made: MeshFile | Refused = self._once((shape, path), partial(shape_file, shape, path))
         return made
 
 
@@ -256,7 +256,7 @@ def _absolute(location: Path) -> str:
 
 @contextmanager
 def _reading(path: str, location: Path) -> Iterator[None]:
-    """Raises MeshFileError if reading this file has ended the process before."""
+    """Raises Refused if reading this file has ended the process before."""
     try:
         with risky_step(f"reading {path}"):
             yield
@@ -265,7 +265,7 @@ def _reading(path: str, location: Path) -> Iterator[None]:
         if not _is_read_here(location):  # it may name further files
             note_lost_reader()
         reason = f"the process that read it {error.message}"
-        raise MeshFileError(error.code, reason, file=path) from None
+        raise Refused(error.code, reason, file=path) from None
 
 
 def _is_read_here(location: Path) -> bool:

@@ -11,7 +11,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import MeshLike, arrays_of, numbers, refused, require_finite
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.inspect import mesh_file
 from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
 from satcheck.scene.loading.readers import File
@@ -75,7 +75,7 @@ def _body(id_: str, mesh: MeshLike, pose: ArrayLike | None) -> Body:
             matrix = numbers(pose, "pose")
             transform = _transform(matrix)
             file = replace(file, placement_step=STEPS[_number_format(matrix)])
-    except MeshFileError as error:
+    except Refused as error:
         raise SatcheckError(error.code, error.message, body=id_) from error.__cause__
     except SatcheckError as error:
         raise SatcheckError(error.code, error.message, body=id_) from None

@@ -19,7 +19,7 @@ from satcheck.scene.common_units import (
     scaled_mesh,
     scaled_world,
 )
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
@@ -69,7 +69,7 @@ class SceneBuilder:
         location = Path(path)
         name = location.stem or path
         nodes = self._files.nodes(path, location, split)
-        if isinstance(nodes, MeshFileError):
+        if isinstance(nodes, Refused):
             nodes = Nodes({None: Node(None, nodes)})
         self._issues.extend(nodes.issues)
         files = [node.file for node in nodes.nodes.values()]
@@ -163,12 +163,12 @@ class SceneBuilder:
         for part in parts:
             own = tuple(groups[group] for group in part.groups)
             place, shape, offset = part.file, None, part.offset
-            file: MeshFile | MeshFileError
+            file: MeshFile | Refused
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
                 file = self._part(place, part.source, part.piece).file
                 offset = scaled_mesh(offset, self._scale(file, None)) or offset
-            elif isinstance(part.source, MeshFileError):
+            elif isinstance(part.source, Refused):
                 file = part.source
             else:
                 shape = part.source
@@ -204,11 +204,11 @@ class SceneBuilder:
         unit = stated_unit(declares) or (None if kind == "rules" else self._given_units)
         self._inputs.append(Input(kind, name, path, declares, unit))
 
-    def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
+    def _scale(self, file: MeshFile | Refused, units: str | None) -> float:
         """The factor from the unit of the mesh file to the unit of the input. units: override the
         unit that the file states."""
         own = self._inputs[-1].unit
-        if isinstance(file, MeshFileError) or own is None:
+        if isinstance(file, Refused) or own is None:
             return 1.0
         return ratio(stated_unit(units or file.units) or own, own)
 
@@ -217,7 +217,7 @@ class SceneBuilder:
         of coordinates of the file; the units override what the file states."""
         id_ = self._ids.unique(wanted)
         file, is_floor = node.file, isinstance(node.shape, HalfSpace)
-        if isinstance(file, MeshFileError):
+        if isinstance(file, Refused):
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if node.shape is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
@@ -241,7 +241,7 @@ class SceneBuilder:
         return id_
 
     def scene(self) -> Scene:
-        """Raises SceneFileError if a rule has to be expanded into too many pairs."""
+        """Raises Refused if a rule has to be expanded into too many pairs."""
         common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
         if not self._robots and not self._srdfs and not self._jointed:

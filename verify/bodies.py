@@ -15,7 +15,7 @@ from msgspec import to_builtins
 from satcheck.core.shapes import HalfSpace, Primitive, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
-from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
+from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.readers import ReadLimits
@@ -182,7 +182,7 @@ class Bodies:
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
         mesh = self._files.node(file, self._root / file, path).file
-        if isinstance(mesh, MeshFileError):
+        if isinstance(mesh, Refused):
             return Missing(file) if mesh.code == "file-not-found" else str(mesh)
         key = (file, mesh.part, "")
         if key not in self._shapes:
@@ -199,7 +199,7 @@ class Bodies:
                 self._shapes[key] = (
                     curved_of(made, shape) if is_curved(shape) else _checked_shape(made, False)
                 )
-            except (MeshFileError, ValueError) as error:
+            except (Refused, ValueError) as error:
                 self._shapes[key] = f"{file}: not a shape: {error}"
         return self._shapes[key]
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 
 # Of these classes, and of those below them.
 _READ = (
@@ -51,7 +51,7 @@ class _Attribute(Struct, frozen=True):
 
 
 def refuse_other_kinds(model: Any) -> None:
-    """Raises MeshFileError (`bad-record`)."""
+    """Raises Refused (`bad-record`)."""
     known: dict[str, tuple[_Attribute, ...]] = {}
     for name in _READ:
         for instance in _instances(model, name):
@@ -63,7 +63,7 @@ def refuse_other_kinds(model: Any) -> None:
                     message = (
                         f"{kind} #{instance.id()}: {each.name} is not what the schema prescribes"
                     )
-                    raise MeshFileError("bad-record", message)
+                    raise Refused("bad-record", message)
 
 
 def _instances(model: Any, name: str) -> list[Any]:

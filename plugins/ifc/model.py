@@ -10,7 +10,7 @@ from typing import Any
 
 from satcheck.plugins.ifc.attributes import refuse_other_kinds
 from satcheck.plugins.ifc.kernel_log import Message, logged, start_log
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
@@ -39,7 +39,7 @@ _SHAPING = (
 
 
 def open_model(data: memoryview) -> Any:
-    """The ifcopenshell.file. Raises MeshFileError."""
+    """The ifcopenshell.file. Raises Refused."""
     content = unpacked(data)
     _refuse_other_content(content)
     ifcopenshell = imported("ifcopenshell", "ifc", "IFC files")
@@ -54,19 +54,19 @@ def open_model(data: memoryview) -> Any:
     _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):
         message = "the file has no IfcGeometricRepresentationContext, so its shapes have no meaning"
-        raise MeshFileError("bad-record", message)
+        raise Refused("bad-record", message)
     return model
 
 
 def unpacked(data: memoryview) -> bytes:
-    """The text of the file; of the only IFC file in an ifcZIP. Raises MeshFileError."""
+    """The text of the file; of the only IFC file in an ifcZIP. Raises Refused."""
     if bytes(data[: len(_ZIP)]) != _ZIP:
         return bytes(data)
     with opened_zip(data, "an ifcZIP file") as archive:
         names = [name for name in archive.namelist() if name.lower().endswith((".ifc", ".ifcxml"))]
         if len(names) != 1:
             message = f"an ifcZIP file holds one IFC file, not {len(names)}"
-            raise MeshFileError("bad-record" if names else "missing-resource", message)
+            raise Refused("bad-record" if names else "missing-resource", message)
         with open_part(archive, names[0]) as part:
             return part.read()
 
@@ -75,12 +75,12 @@ def _refuse_other_content(content: bytes) -> None:
     start = content[:_ENDS_BYTES].lstrip(b"\xef\xbb\xbf \t\r\n")
     if start.startswith(b"<"):
         message = "ifcXML is not read: export the model as a STEP physical file (.ifc)"
-        raise MeshFileError("unsupported-feature", message)
+        raise Refused("unsupported-feature", message)
     if not start.startswith(_FIRST):
         message = f"not an IFC file: it does not begin with {_FIRST.decode()}"
-        raise MeshFileError("not-this-format", message)
+        raise Refused("not-this-format", message)
     if _LAST not in content[-_ENDS_BYTES:]:
-        raise MeshFileError("truncated", f"the file ends without {_LAST.decode()}")
+        raise Refused("truncated", f"the file ends without {_LAST.decode()}")
 
 
 def _text(content: bytes) -> str:
@@ -91,19 +91,17 @@ def _text(content: bytes) -> str:
         return content.decode("latin-1")
 
 
-def _unopened(messages: list[Message], otherwise: str) -> MeshFileError:
+def _unopened(messages: list[Message], otherwise: str) -> Refused:
     said = messages[0].line if messages else otherwise
-    return MeshFileError("bad-record", f"the file cannot be parsed: {said}")
+    return Refused("bad-record", f"the file cannot be parsed: {said}")
 
 
 def _refuse_damage(model: Any, messages: Iterable[Message]) -> None:
     for message in messages:
         if message.level == "error" or message.message.startswith(_TWICE):
-            raise MeshFileError(
-                "bad-record", f"the parser reads a part of the file: {message.line}"
-            )
+            raise Refused("bad-record", f"the parser reads a part of the file: {message.line}")
         if message.code == _WRONG_COUNT and _shapes(model, message):
-            raise MeshFileError("bad-record", f"a record is of another form: {message.line}")
+            raise Refused("bad-record", f"a record is of another form: {message.line}")
 
 
 def _shapes(model: Any, message: Message) -> bool:
@@ -127,7 +125,7 @@ def _is_a(value: Any, name: str) -> bool:
 def _refuse_without_unit(model: Any) -> None:
     units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
     if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
-        raise MeshFileError("bad-record", "the file states no unit of length (LENGTHUNIT)")
+        raise Refused("bad-record", "the file states no unit of length (LENGTHUNIT)")
 
 
 def _refuse_cycles(model: Any) -> None:
@@ -144,7 +142,7 @@ def _refuse_cycles(model: Any) -> None:
         while place is not None and place not in fine:
             if place in chain:
                 message = f"placement #{place} is relative to itself: a cycle"
-                raise MeshFileError("reference-cycle", message)
+                raise Refused("reference-cycle", message)
             chain[place] = None
             place = above.get(place)
         fine.update(chain)

@@ -16,7 +16,7 @@ from satcheck.plugins.ifc.kernel import Shape, shapes_of
 from satcheck.plugins.ifc.model import UNITS, open_model
 from satcheck.plugins.ifc.relations import relations_of
 from satcheck.plugins.ifc.remarks import remarks_on
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.readers import File
@@ -25,13 +25,13 @@ _LONGEST_NAME = 60
 
 
 def read_ifc(file: File) -> RawScene:
-    """Return the bodies in metres, z up, sorted by GlobalId. Raises MeshFileError without a file
+    """Return the bodies in metres, z up, sorted by GlobalId. Raises Refused without a file
     name."""
     model = open_model(memoryview(file.data))
     elements = elements_of(model)
     bodies = elements.bodies
     if not bodies:
-        raise MeshFileError("empty-mesh", "no element of the file has a shape")
+        raise Refused("empty-mesh", "no element of the file has a shape")
     read = [body for body in bodies if body.id() not in elements.unread]
     shapes = {**shapes_of(model, read, file.options), **elements.unread}
     paths = path_names(bodies)

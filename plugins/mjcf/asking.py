@@ -7,7 +7,7 @@ from pathlib import Path
 from satcheck.plugins.mjcf.messages import Model
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.plugins.mjcf.reading import robot_of_model
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.readers import File, RobotFile
 from satcheck.scene.loading.reading_children import read_in_child
@@ -18,12 +18,12 @@ _MODEL = "satcheck.plugins.mjcf.child:model"
 
 
 def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot of a file, in its pose qpos0, and issues. Raises MeshFileError."""
+    """Return the robot of a file, in its pose qpos0, and issues. Raises Refused."""
     path, allowed = root.file, robot.allowed
     location = Path(path)
     if location.suffix.lower() != ENDING:
         message = f"MuJoCo reads files that end in {ENDING}: rename it"
-        raise MeshFileError("unsupported-format", message, file=path)
+        raise Refused("unsupported-format", message, file=path)
     file = File(
         "mjcf",
         str(location.parent),

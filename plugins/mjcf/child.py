@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from satcheck.plugins.mjcf.messages import Model
 from satcheck.plugins.mjcf.readers import ENDING
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.input_kind import is_robot
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.raw_mesh import RawScene
@@ -30,7 +30,7 @@ def own_meshes(file: File) -> RawScene:
     """Return the meshes that only MuJoCo reads. Raises SatcheckError."""
     if not is_robot(file.location):
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"
-        raise MeshFileError("unsupported-format", message)
+        raise Refused("unsupported-format", message)
     read = _compiled(replace(file, path=str(file.location)))
     from satcheck.plugins.mjcf.contents import own_meshes_of
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from satcheck.plugins.mjcf.files import ModelFiles
 from satcheck.plugins.mjcf.messages import FileMesh, Key, Place
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import File
 from satcheck.scene.robot.packages import FilePlaces
@@ -51,7 +51,7 @@ class Compiled(NamedTuple):
 
 
 def compiled(file: File) -> Compiled:
-    """Raises SceneFileError."""
+    """Raises Refused."""
     path = file.path
     places = FilePlaces(path, file.packages, file.permitted)
     models = ModelFiles(path, places).models
@@ -60,7 +60,7 @@ def compiled(file: File) -> Compiled:
     except (ValueError, mujoco.FatalError) as error:
         message = " ".join(str(error).removeprefix("Error: ").split())
         code = "missing-resource" if "Error opening file" in message else "bad-robot"
-        raise SceneFileError(code, f"MuJoCo refuses it: {message}", file=path) from None
+        raise Refused(code, f"MuJoCo refuses it: {message}", file=path) from None
 
 
 def _compiled(path: str, places: FilePlaces, models: list[str]) -> Compiled:
@@ -187,11 +187,11 @@ def _place_of(
     folders = dict.fromkeys(os.path.relpath(Path(model).parent, start) for model in models)
     uris = [os.path.normpath(folder / own) for folder in folders]
     located: dict[str, Path] = {}
-    failures: list[MeshFileError] = []
+    failures: list[Refused] = []
     for uri in uris:
         try:
             located[uri] = places.of(path).locate(uri)
-        except MeshFileError as error:
+        except Refused as error:
             failures.append(error)
     if len(located) > 1:
         message = f"mesh file {str(own)!r} lies beside several attached models"

@@ -23,7 +23,7 @@ from satcheck.plugins.mjcf.messages import (
     OwnMesh,
     Place,
 )
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
@@ -39,7 +39,7 @@ _VALUES = {"free": 7, "ball": 4, "slide": 1, "hinge": 1}
 
 
 def model_of(read: Compiled) -> Model:
-    """Raises SceneFileError if a number is not finite."""
+    """Raises Refused if a number is not finite."""
     return _Contents(read).model()
 
 
@@ -173,7 +173,7 @@ class _Contents:
 
 def own_meshes_of(read: Compiled) -> RawScene:
     """Return the meshes that only MuJoCo reads, in the coordinates of the compiled model. Raises
-    MeshFileError."""
+    Refused."""
     m = read.model
     parts: list[RawPart] = []
     nodes: list[RawNode] = []
@@ -187,7 +187,7 @@ def own_meshes_of(read: Compiled) -> RawScene:
         nodes.append(RawNode(_part_name(m, k), len(parts)))
         parts.append(RawPart(_part_name(m, k), mesh))
     if not parts:
-        raise MeshFileError("unknown-part", "it has no mesh of its own")
+        raise Refused("unknown-part", "it has no mesh of its own")
     return RawScene(tuple(parts), tuple(nodes))
 
 
@@ -232,5 +232,5 @@ def _place(at: Any, turn: Any) -> Place:
 def _vector(values: Any) -> Any:
     vector = tuple(map(float, values))
     if not all(map(math.isfinite, vector)):
-        raise SceneFileError("non-finite", "a number of the file is not finite")
+        raise Refused("non-finite", "a number of the file is not finite")
     return vector

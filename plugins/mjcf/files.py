@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.xml_tree import Element, read_tree
 
@@ -20,7 +20,7 @@ _FOLDERS = ("meshdir", "assetdir")  # attributes of <compiler>
 class ModelFiles:
     """All XML files of a model. models: the file itself and the models that it attaches.
 
-    Raises SceneFileError for a file that is missing, may not be opened, is no XML or has entities.
+    Raises Refused for a file that is missing, may not be opened, is no XML or has entities.
     """
 
     def __init__(self, path: str, places: FilePlaces) -> None:
@@ -66,16 +66,16 @@ class ModelFiles:
         """Refuses a file that may not be opened. MuJoCo reports one that is missing."""
         try:
             self._places.of(model).locate(file)
-        except MeshFileError as error:
+        except Refused as error:
             if error.code == "outside-path":
                 element.refuse(f"{file!r}: {error.message}", error.code)
 
     def _place(self, element: Element, file: str, model: str) -> str:
-        first: MeshFileError | None = None
+        first: Refused | None = None
         for start in dict.fromkeys((model, element.file)):
             try:
                 return self._places.of(start).locate(file).as_posix()
-            except MeshFileError as error:
+            except Refused as error:
                 first = first or error
                 if error.code == "outside-path":
                     break

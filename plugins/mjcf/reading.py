@@ -21,12 +21,11 @@ from satcheck.scene.robot.model import (
     Geometry,
     Link,
     MeshReference,
-    RefusedShape,
     Robot,
     State,
 )
 
-_FLEX = RefusedShape("unsupported-feature", "a deformable body (flex) is not read")
+_FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
 def robot_of_model(
@@ -129,8 +128,6 @@ class _Reader:
 
     def _shape(self, geom: Geom) -> Geometry:
         match geom.shape:
-            case Refusal(code, message):
-                return RefusedShape(code, message)
             case OwnMesh(part):
                 own = Path(self._path).name
                 return MeshReference(own, (1.0, 1.0, 1.0), part=part, hull=self._hulls)

@@ -14,9 +14,10 @@ from satcheck.plugins.sdf.joints import JointEntry
 from satcheck.plugins.sdf.parts import frame_named
 from satcheck.plugins.sdf.values import boolean, flag, pose_of, text_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot.model import Collision, RefusedShape
+from satcheck.scene.robot.model import Collision
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element
 
@@ -86,7 +87,7 @@ class Contents:
         }
 
     def read(self, root: Element) -> None:
-        """Reads a file. Raises SceneFileError."""
+        """Reads a file. Raises Refused."""
         around = Around(Scope(), _version(root), files=(root.file,))
         worlds = root.all("world")
         if len(worlds) > 1:
@@ -159,9 +160,9 @@ class Contents:
         try:
             if changes:
                 message = f"<{changes[0].tag}> changes the model: not read"
-                raise MeshFileError("unsupported-feature", message)
+                raise Refused("unsupported-feature", message)
             root = self._includes.document(uri, element.file)
-        except MeshFileError as error:
+        except Refused as error:
             self._lose(element, around, name or name_in(uri), error.code, uri, error.message)
             return
         if root.file in around.files:
@@ -200,7 +201,7 @@ class Contents:
         self.frames.opaque.add(path)
         # What is not read may be checked against the links around it, so its pairs stay open.
         contacts = Contacts(around.model or path, around.static, self_collide=True)
-        reason = RefusedShape(code, f"<{element.tag}>: {what!r} is not read: {why}")
+        reason = Refusal(code, f"<{element.tag}>: {what!r} is not read: {why}")
         body = Collision(None, IDENTITY, reason, element.line, element.file)
         self.links[path] = LinkEntry(element, around.scope, contacts, body)
 
@@ -271,7 +272,7 @@ class Contents:
             self._slips.note("stored-state", element, cause)
 
     def body(self, name: Name | str) -> str:
-        """The link that a frame moves with; WORLD if it does not move. Raises SceneFileError."""
+        """The link that a frame moves with; WORLD if it does not move. Raises Refused."""
         path, passed = self.frames.find(name), set[str]()
         while path != WORLD and path not in self.links:
             if path in passed:

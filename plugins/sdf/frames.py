@@ -80,7 +80,7 @@ class Frames:
         return self._frames[path].element
 
     def find(self, name: Name | str) -> str:
-        """The path of the frame. Raises SceneFileError if there is none."""
+        """The path of the frame. Raises Refused if there is none."""
         if isinstance(name, str):
             return name
         scope, text, element, of_joint = name
@@ -123,7 +123,7 @@ class Frames:
         return self.find(self._frames[path].attached)
 
     def world(self, path: str) -> Transform:
-        """The pose of the frame in the world. Raises SceneFileError for circles."""
+        """The pose of the frame in the world. Raises Refused for circles."""
         chain: dict[str, None] = {}
         while path not in self._worlds:
             path = self._step(path, chain)
@@ -152,7 +152,7 @@ class Frames:
         return compose(frame.pose, inverse(self.between(placement, path)))
 
     def _step(self, path: str, chain: dict[str, None]) -> str:
-        """The parent of the frame, which is added to the chain. Raises SceneFileError for
+        """The parent of the frame, which is added to the chain. Raises Refused for
         circles."""
         if path in chain:
             names = [*chain]

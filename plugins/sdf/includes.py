@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from satcheck.plugins.sdf.readers import ROOTS
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.path_kind import is_file, is_folder
 from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces
 from satcheck.scene.robot.xml_tree import Element, read_tree
@@ -26,14 +26,14 @@ class Includes:
         self._documents: dict[str, Element] = {}
 
     def document(self, uri: str, file: str) -> Element:
-        """The root of the file that `file` includes. Raises MeshFileError."""
+        """The root of the file that `file` includes. Raises Refused."""
         place = self._places.of(file).locate(uri, models=True)
         try:
             path = (self._model_file(place) if is_folder(place) else place).as_posix()
             if path not in self._documents:
                 self._documents[path] = read_tree(path, Path(path), *ROOTS)
-        except SceneFileError as error:
-            raise MeshFileError(error.code, str(error)) from None
+        except Refused as error:
+            raise Refused(error.code, str(error)) from None
         return self._documents[path]
 
     def _model_file(self, folder: Path) -> Path:

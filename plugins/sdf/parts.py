@@ -10,9 +10,10 @@ from satcheck.plugins.sdf.geometry import HULL, PLANE, facing, geometry_of, shap
 from satcheck.plugins.sdf.places import SHAPE
 from satcheck.plugins.sdf.values import bits, pose_of
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import DRAWN_PLANE, Collision, RefusedShape
+from satcheck.scene.robot.model import DRAWN_PLANE, Collision
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement
 
@@ -63,7 +64,7 @@ def parts_in(
                     shape.refuse(DRAWN_PLANE, "unsupported-feature")
                 origin = compose(origin, facing(shape))
         except RefusedElement as error:
-            refused = RefusedShape(error.code, error.reason)
+            refused = Refusal(error.code, error.reason)
             part = Collision(name, IDENTITY, refused, error.at, element.file)
             parts.append(Part(part, mask))
         else:

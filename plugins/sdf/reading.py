@@ -31,7 +31,7 @@ from satcheck.scene.robot.xml_tree import Element
 def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     """Return all links of the file and of the models that it includes as one robot, and warnings.
 
-    root: the outermost element. Links and joints have their paths as names. Raises SceneFileError
+    root: the outermost element. Links and joints have their paths as names. Raises Refused
     with the file, the line and the element. No mesh is opened.
     """
     includes, geometry = Includes(file.places), file.geometry

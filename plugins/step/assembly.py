@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.plugins.step.readers import CHORD
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import (
@@ -55,7 +55,7 @@ class _Part(Struct, frozen=True):
 def read_step(file: File) -> RawScene:
     """Return a body for each occurrence of a product that has surfaces, in millimetres.
 
-    Raises MeshFileError without a file name.
+    Raises Refused without a file name.
     """
     data, options = bytes(file.data), file.options
     exchange = read_exchange(data)
@@ -65,7 +65,7 @@ def read_step(file: File) -> RawScene:
         document: dict[str, Any] = json.loads(str(text, "utf-8"))
     except ValueError:  # it writes numbers that are not finite as they are
         message = "OpenCascade turns it into coordinates that are infinite or no numbers"
-        raise MeshFileError("non-finite", message) from None
+        raise Refused("non-finite", message) from None
     return _Assembly(document, chunk, exchange, options).read()
 
 
@@ -80,7 +80,7 @@ def _tessellated(data: bytes, options: ReadOptions) -> bytes:
         include_brep=True,
     )
     if not glb:
-        raise MeshFileError("bad-record", "OpenCascade finds no product in the file")
+        raise Refused("bad-record", "OpenCascade finds no product in the file")
     return glb
 
 
@@ -165,7 +165,7 @@ class _Assembly:
             return self._missing(part.name)
         try:
             raw = self._meshes.read(Shape(part.mesh), None)
-        except MeshFileError as error:
+        except Refused as error:
             return Refusal(error.code, error.message)
         vertices = _millimetres(np.frombuffer(raw.vertices))
         flat = not self._exchange.is_curved or all(map(self._is_flat, self._primitives[part.mesh]))
@@ -180,9 +180,9 @@ class _Assembly:
         """Refuses a file without any surface."""
         if names and self._exchange.documents:
             refusal = self._missing(names[0])
-            raise MeshFileError(refusal.code, refusal.message)
+            raise Refused(refusal.code, refusal.message)
         what = "curves alone" if curves else f"products without a shape: {listed(names)}"
-        raise MeshFileError("empty-mesh", f"empty mesh: the file has {what}")
+        raise Refused("empty-mesh", f"empty mesh: the file has {what}")
 
     def _missing(self, name: str) -> Refusal:
         documents = self._exchange.documents

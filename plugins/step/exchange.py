@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 from msgspec import Struct
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.vocabulary import Names
 
 _BEGIN, _END = "ISO-10303-21", "END-ISO-10303-21"
@@ -139,23 +139,23 @@ def read_exchange(data: bytes) -> Exchange:
     values or units which are none, kinds
     that are misspelt, or solids which are not read."""
     if not data.lstrip().startswith(_BEGIN.encode()):
-        raise MeshFileError("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
+        raise Refused("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
     schema = _SCHEMA.search(data)
     if schema is not None and schema[1].upper().startswith(b"IFC"):
-        raise MeshFileError("format-mismatch", "its content is an IFC model: name the file .ifc")
+        raise Refused("format-mismatch", "its content is an IFC model: name the file .ifc")
     bare = _COMMENT_OR_TEXT.sub(b"", data)
     if _END.encode() not in bare or b"'" in bare:
         message = f"the file ends before {_END}, or within a text"
-        raise MeshFileError("truncated", message)
+        raise Refused("truncated", message)
     _refuse_values(bare)
     kinds = _kinds(bare)
     unread = sorted(UNREAD_SOLIDS & kinds.keys())
     if unread:
         message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
-        raise MeshFileError("unsupported-feature", message)
+        raise Refused("unsupported-feature", message)
     if not kinds.keys() & _SURFACES and (facets := sorted(TESSELLATED & kinds.keys())):
         message = f"it has only facets ({', '.join(facets)}), which are not read: export surfaces"
-        raise MeshFileError("unsupported-feature", message)
+        raise Refused("unsupported-feature", message)
     of_complex = {
         m.decode("ascii").upper() for c in _COMPLEX.findall(bare) for m in _KIND.findall(c)
     }
@@ -174,11 +174,11 @@ def _refuse_values(bare: bytes) -> None:
     """OpenCascade reads numbers that are none, and unknown units, as something else."""
     if (wrong := _NO_VALUE.search(bare)) is not None:
         message = f"{wrong[1].decode('ascii', 'replace')!r} is no value of a record"
-        raise MeshFileError("bad-record", message)
+        raise Refused("bad-record", message)
     for prefix, unit in _SI_UNIT.findall(bare):
         if not (_PREFIX.fullmatch(prefix) and _UNIT.fullmatch(unit)):
             named = f"{prefix.decode()} {unit.decode()}".strip()
-            raise MeshFileError("bad-record", f"SI_UNIT: {named} is no unit")
+            raise Refused("bad-record", f"SI_UNIT: {named} is no unit")
 
 
 def _kinds(bare: bytes) -> Counter[str]:
@@ -192,7 +192,7 @@ def _kinds(bare: bytes) -> Counter[str]:
     if missing:
         first = min(missing, key=lambda name: (len(name), name)).decode()
         message = f"the file names {len(missing)} records that it lacks, such as {first}"
-        raise MeshFileError("index-out-of-range", message)
+        raise Refused("index-out-of-range", message)
     return kinds
 
 

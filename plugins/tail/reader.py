@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.placing import Instance, raw_scene
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
@@ -26,12 +26,12 @@ _MOST_VERTICES = 2**32  # they are numbered in 32 bits
 
 
 def read_tail(file: File) -> RawScene:
-    """Return the meshes of a file where trimesh places them. Raises MeshFileError without a file
+    """Return the meshes of a file where trimesh places them. Raises Refused without a file
     name."""
     trimesh = imported("trimesh", "tail", f"{file.format.upper()} files")
     if file.format not in trimesh.available_formats():
         message = f"{file.format.upper()} files: trimesh needs more: pip install 'satcheck[tail]'"
-        raise MeshFileError("missing-extra", message)
+        raise Refused("missing-extra", message)
     try:
         with _warnings() as said:
             scene = trimesh.load_scene(
@@ -44,12 +44,12 @@ def read_tail(file: File) -> RawScene:
         raise
     except Exception as error:  # noqa: BLE001  a library with exceptions of every kind
         reason = f"{type(error).__name__}: {error}"
-        raise MeshFileError("bad-record", f"trimesh cannot read it: {reason}") from None
+        raise Refused("bad-record", f"trimesh cannot read it: {reason}") from None
     if said:
-        raise MeshFileError("bad-record", f"trimesh reads a part of it: {said[0]}")
+        raise Refused("bad-record", f"trimesh reads a part of it: {said[0]}")
     nodes = sorted(scene.graph.nodes_geometry)
     if not nodes:
-        raise MeshFileError("empty-mesh", "trimesh finds no triangles in it")
+        raise Refused("empty-mesh", "trimesh finds no triangles in it")
     units = unit_of(scene.units) if scene.units else None
     read = raw_scene(
         [Instance(*_placed(scene, node), str(node)) for node in nodes],
@@ -64,7 +64,7 @@ def _placed(scene: Any, node: str) -> tuple[str, tuple[float, ...]]:
     matrix, name = scene.graph[node]
     values = np.asarray(matrix, dtype=float)
     if values.shape != (4, 4) or not np.isfinite(values).all():
-        raise MeshFileError("bad-record", f"trimesh gives {node} no finite placement")
+        raise Refused("bad-record", f"trimesh gives {node} no finite placement")
     return name, tuple(values.ravel().tolist())
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import UsdGeom
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.polygons import triangles_of
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
 
@@ -22,15 +22,15 @@ _FORMATS: dict[str, NumberFormat] = {
 
 
 def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
-    """The faces of a Mesh. Raises MeshFileError; its code is `NO_SURFACE` if there are no faces."""
+    """The faces of a Mesh. Raises Refused; its code is `NO_SURFACE` if there are no faces."""
     mesh = UsdGeom.Mesh(prim)
     points = _points(mesh, time)
     corners = _ints(mesh.GetFaceVertexIndicesAttr(), time)
     lengths = _ints(mesh.GetFaceVertexCountsAttr(), time)
     if not len(lengths):
-        raise MeshFileError(NO_SURFACE, "the mesh has no faces")
+        raise Refused(NO_SURFACE, "the mesh has no faces")
     if lengths.min() < 0 or lengths.sum() != len(corners):
-        raise MeshFileError(
+        raise Refused(
             "count-mismatch",
             f"{len(lengths)} faces promise {lengths.sum()} corners, there are {len(corners)}",
         )
@@ -43,7 +43,7 @@ def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
 
 
 def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
-    """The outer faces of a TetMesh. Raises MeshFileError."""
+    """The outer faces of a TetMesh. Raises Refused."""
     mesh = UsdGeom.TetMesh(prim)
     points = _points(mesh, time)
     faces = mesh.GetSurfaceFaceVertexIndicesAttr().Get(time)
@@ -52,7 +52,7 @@ def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
         _refuse_indices(tetrahedra.ravel(), len(points))
         faces = UsdGeom.TetMesh.ComputeSurfaceFaces(mesh, time)
     if not faces:
-        raise MeshFileError(NO_SURFACE, "the mesh has no tetrahedra")
+        raise Refused(NO_SURFACE, "the mesh has no tetrahedra")
     triangles = np.asarray(faces, np.int64).reshape(-1, 3)
     _refuse_indices(triangles.ravel(), len(points))
     return _raw(points, _outward(mesh, triangles, time), unit, ())
@@ -65,23 +65,23 @@ def _points(mesh: Any, time: Any) -> Points:
         return np.zeros((0, 3))
     points = np.asarray(value)
     if points.ndim != 2 or points.shape[1] != 3 or points.dtype.name not in _FORMATS:
-        raise MeshFileError("bad-record", "the points are no list of x, y, z")
+        raise Refused("bad-record", "the points are no list of x, y, z")
     if not np.isfinite(points).all():
-        raise MeshFileError("non-finite", "non-finite coordinates")
+        raise Refused("non-finite", "non-finite coordinates")
     return points
 
 
 def _ints(attribute: Any, time: Any) -> Ints:
     values = np.asarray(attribute.Get(time) or ())
     if len(values) and (values.ndim != 1 or values.dtype.kind != "i"):
-        raise MeshFileError("bad-record", f"{attribute.GetName()} is no list of integers")
+        raise Refused("bad-record", f"{attribute.GetName()} is no list of integers")
     return values.astype(np.int64)
 
 
 def _refuse_indices(corners: Ints, count: int) -> None:
     if len(corners) and not 0 <= corners.min() <= corners.max() < count:
         worst = corners.min() if corners.min() < 0 else corners.max()
-        raise MeshFileError("index-out-of-range", f"index out of range: {worst} of {count} points")
+        raise Refused("index-out-of-range", f"index out of range: {worst} of {count} points")
 
 
 def _solid_faces(
@@ -100,7 +100,7 @@ def _solid_faces(
         warnings.append(("short-face", message))
     corners, lengths = corners[np.repeat(~left_out, lengths)], lengths[~left_out]
     if not len(lengths):
-        raise MeshFileError(NO_SURFACE, "the mesh has no faces")
+        raise Refused(NO_SURFACE, "the mesh has no faces")
     return corners, lengths, tuple(warnings)
 
 

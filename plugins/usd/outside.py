@@ -12,7 +12,7 @@ from typing import Any
 
 from pxr import Ar, Sdf, Tf
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.path_kind import followed
 from satcheck.scene.permitted import Permitted
 
@@ -27,7 +27,7 @@ class Closed:
 
     def close(self, root: Any) -> None:
         """Puts empty layers for what the root layer, and the layers that it names, name outside.
-        Raises MeshFileError for value clips outside, which USD opens late."""
+        Raises Refused for value clips outside, which USD opens late."""
         variables = root.pseudoRoot.GetInfo("expressionVariables") or {}
         seen, waiting = {root.identifier}, [root]
         while waiting:
@@ -47,10 +47,10 @@ class Closed:
     def permits(self, place: str) -> bool:
         return self._permitted.has(Path(_file_of(place)), self._own)
 
-    def refusal(self, place: str) -> MeshFileError:
+    def refusal(self, place: str) -> Refused:
         where = self._permitted.beyond("the file's directory")
         message = f"layer {place!r} lies {where}: refused (allow it with --allow-outside)"
-        return MeshFileError("outside-path", message)
+        return Refused("outside-path", message)
 
     def _stand_in(self, place: str) -> None:
         if Path(_file_of(place)).exists():

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 
 from satcheck.plugins.usd.stage import open_stage, said
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.raw_mesh import RawScene
 from satcheck.scene.loading.readers import File
 
 
 def read_usd(file: File) -> RawScene:
-    """Return the bodies of a stage. Raises MeshFileError."""
+    """Return the bodies of a stage. Raises Refused."""
     os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
     tf = imported("pxr.Tf", "usd", "USD files")
     try:
@@ -21,4 +21,4 @@ def read_usd(file: File) -> RawScene:
 
         return read_scene(stage, file.options)
     except tf.ErrorException as error:
-        raise MeshFileError("bad-record", f"not a valid USD file: {said(error)}") from None
+        raise Refused("bad-record", f"not a valid USD file: {said(error)}") from None

@@ -30,7 +30,7 @@ from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.read_options import ReadOptions
@@ -40,7 +40,7 @@ Content = RawMesh | Primitive | Refusal
 
 
 def read_scene(stage: Stage, options: ReadOptions) -> RawScene:
-    """Raises MeshFileError if the stage has no body."""
+    """Raises Refused if the stage has no body."""
     return _Reading(stage, options).scene()
 
 
@@ -75,7 +75,7 @@ class _Reading:
             reasons = "; ".join(message for _, message in warnings)
             is_explained = all(CODES[code].severity == "note" for code, _ in warnings)
             code = "no-body" if is_explained else "empty-mesh"
-            raise MeshFileError(code, f"the stage has no body. {reasons}".strip())
+            raise Refused(code, f"the stage has no body. {reasons}".strip())
         said = Remarks()
         physics = with_physics(self._stage.stage, self._nodes, self._placed, said)
         joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
@@ -97,7 +97,7 @@ class _Reading:
             return
         name, reason = next(iter(self._lost.items()))
         message = f"{name}: {reason.message} (the stage has instances, which may lack it, too)"
-        raise MeshFileError(reason.code, message)
+        raise Refused(reason.code, message)
 
     def _of_time(self) -> list[tuple[str, str]]:
         if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
@@ -170,7 +170,7 @@ class _Reading:
                 return self._mesh(prim), _NOT_TURNED
             if prim.IsA(UsdGeom.TetMesh):
                 return read_tetrahedra(prim, time, unit), _NOT_TURNED
-        except MeshFileError as error:
+        except Refused as error:
             return Refusal(error.code, error.message), _NOT_TURNED
         except Tf.ErrorException as error:
             return Refusal("bad-record", said(error)), _NOT_TURNED
@@ -200,7 +200,7 @@ class _Reading:
             try:
                 hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
             except ValueError as error:
-                raise MeshFileError("bad-record", f"it has no convex hull: {error}") from None
+                raise Refused("bad-record", f"it has no convex hull: {error}") from None
             vertices, triangles = hull.to_bytes()
             return RawMesh(vertices, triangles, mesh.number_format, units=mesh.units)
         words = f"a simulator takes its {kind}, its mesh is checked"

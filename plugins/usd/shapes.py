@@ -14,7 +14,7 @@ from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.walk import type_of
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.raw_mesh import RawMesh
 
 # Many programs write rotations and scales as float32. A placement this close to one of a shape is
@@ -39,7 +39,7 @@ _TURNS = {
 def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
     """(curved shape, the turn to its axis as a matrix for row vectors); None: it is no such shape.
 
-    Raises MeshFileError for sizes that make no shape, and for two different radii.
+    Raises Refused for sizes that make no shape, and for two different radii.
     """
 
     def size(name: str) -> float:
@@ -60,20 +60,20 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
             case _:
                 return None
     except ValueError as error:
-        raise MeshFileError("bad-record", f"{type_of(prim)}: {error}") from None
+        raise Refused("bad-record", f"{type_of(prim)}: {error}") from None
     return shape, axis_turn(prim, time)
 
 
 def axis_turn(prim: Any, time: Any) -> Any:
     """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
-    MeshFileError for an axis other than X, Y and Z."""
+    Refused for an axis other than X, Y and Z."""
     return _TURNS[_axis(prim, time)]
 
 
 def _axis(prim: Any, time: Any) -> str:
     axis = str(prim.GetAttribute("axis").Get(time))
     if axis not in _TURNS:
-        raise MeshFileError("bad-record", f"{type_of(prim)}: axis is {axis!r}, not X, Y or Z")
+        raise Refused("bad-record", f"{type_of(prim)}: axis is {axis!r}, not X, Y or Z")
     return axis
 
 
@@ -85,11 +85,11 @@ def _of_two_radii(prim: Any, size: Any) -> Primitive:
     if form is Cylinder and top == 0:
         return Cone(bottom, size("height"))
     message = f"a {form.__name__.lower()} of two radii: convert it to a Mesh"
-    raise MeshFileError("unsupported-feature", message)
+    raise Refused("unsupported-feature", message)
 
 
 def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
-    """A Cube, or a Plane as it is drawn; None: it is neither. Raises MeshFileError.
+    """A Cube, or a Plane as it is drawn; None: it is neither. Raises Refused.
 
     Their triangles are exact. Their precision is that of float32, in which most files scale them.
     """
@@ -98,7 +98,7 @@ def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
             try:
                 box = Box((_number(prim, "size", time),) * 3)
             except ValueError as error:
-                raise MeshFileError("bad-record", f"Cube: {error}") from None
+                raise Refused("bad-record", f"Cube: {error}") from None
             vertices, triangles = mesh_of(box).to_bytes()
         case "Plane":
             vertices, triangles = _quad(prim, time)
@@ -120,7 +120,7 @@ def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
 def _number(prim: Any, name: str, time: Any) -> float:
     value = prim.GetAttribute(name).Get(time)
     if not isinstance(value, float | int):
-        raise MeshFileError("bad-record", f"{type_of(prim)}: {name} is no number")
+        raise Refused("bad-record", f"{type_of(prim)}: {name} is no number")
     return float(value)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from msgspec.structs import replace
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.raw_mesh import RawMesh
 
 
@@ -31,7 +31,7 @@ class Skinning:
         return bool(query) and (query.HasJointInfluences() or query.HasBlendShapes())
 
     def moved(self, prim: Any, mesh: RawMesh) -> RawMesh:
-        """The mesh with the points that the skeleton gives it. Raises MeshFileError."""
+        """The mesh with the points that the skeleton gives it. Raises Refused."""
         query, skeleton = self._query(prim), UsdSkel.BindingAPI(prim).GetInheritedSkeleton()
         joints = self._skeletons.GetSkelQuery(skeleton) if skeleton else None
         if not joints:
@@ -44,7 +44,7 @@ class Skinning:
             self._bend(prim, query, joints, points)
         moved = np.array(points, "<f8").reshape(-1, 3)
         if not np.isfinite(moved).all():
-            raise MeshFileError("non-finite", "its skeleton gives it coordinates that are none")
+            raise Refused("non-finite", "its skeleton gives it coordinates that are none")
         return replace(mesh, vertices=moved.astype("<f8").tobytes(), number_format="float32")
 
     def _query(self, prim: Any) -> Any:
@@ -77,7 +77,7 @@ class Skinning:
             points,
         )
         if not moved:
-            raise MeshFileError("bad-record", "its blend shapes do not fit its points")
+            raise Refused("bad-record", "its blend shapes do not fit its points")
 
     def _bend(self, prim: Any, query: Any, joints: Any, points: Any) -> None:
         turns = joints.ComputeSkinningTransforms(self._time)
@@ -85,7 +85,7 @@ class Skinning:
         if turns and mapper:
             turns = mapper.RemapTransforms(turns)
         if not turns or not query.ComputeSkinnedPoints(turns, points, self._time):
-            raise MeshFileError("bad-record", "its skeleton does not fit its points")
+            raise Refused("bad-record", "its skeleton does not fit its points")
         here = self._places.GetLocalToWorldTransform(prim)
         there = self._places.GetLocalToWorldTransform(joints.GetPrim())
         back = there * here.GetInverse()

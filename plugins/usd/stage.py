@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.permitted import Permitted
@@ -57,7 +57,7 @@ class Stage(Struct, frozen=True):
 
 
 def open_stage(location: Path, permitted: Permitted) -> Stage:
-    """permitted: where its layers may lie. Raises MeshFileError, and what the library raises."""
+    """permitted: where its layers may lie. Raises Refused, and what the library raises."""
     from pxr import Sdf, Usd, UsdGeom
 
     from satcheck.plugins.usd.outside import Closed
@@ -77,7 +77,7 @@ def open_stage(location: Path, permitted: Permitted) -> Stage:
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
-        raise MeshFileError("bad-record", f"upAxis is {axis!r}, not Y or Z")
+        raise Refused("bad-record", f"upAxis is {axis!r}, not Y or Z")
     y_up = axis == UsdGeom.Tokens.y
     return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
 
@@ -106,14 +106,14 @@ def _note_files(layers: list[Any]) -> None:
 
 
 def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:
-    """(prim -> why a part of it is missing, warnings). Raises MeshFileError for a lost layer."""
+    """(prim -> why a part of it is missing, warnings). Raises Refused for a lost layer."""
     lost: dict[str, Refusal] = {}
     ignored: list[str] = []
     for error in stage.GetCompositionErrors():
         kind, message = type(error).__name__, said(error)
         code = _CODES.get(kind, "missing-resource")
         if any(word in kind for word in _OF_LAYERS):
-            raise MeshFileError(code, message)
+            raise Refused(code, message)
         if any(word in kind for word in _OF_OPINIONS) or _ONLY_MATERIALS.search(message):
             ignored.append(message)
             continue
@@ -176,7 +176,7 @@ def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
 
     metres = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)  # some files store it as float32
     if not (isinstance(metres, float) and math.isfinite(metres) and metres > 0):
-        raise MeshFileError("bad-record", f"metersPerUnit is {metres}")
+        raise Refused("bad-record", f"metersPerUnit is {metres}")
     if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
         message = f"the file has no metersPerUnit: {metres:g} counts, the default of USD"
         warnings.append(("assumed-units", message))

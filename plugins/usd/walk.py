@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct
 from pxr import Usd, UsdGeom
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Refusal
 
@@ -72,7 +72,7 @@ class Walk:
 
     def prims(self) -> Iterator[PlacedPrim]:
         """Every active, defined prim but the prototypes of point instancers; and each instance of
-        these. Raises MeshFileError for more than the limit."""
+        these. Raises Refused for more than the limit."""
         yield from self._below(Usd.PrimRange.Stage(self._stage, _WITH_INSTANCES), WORLD)
 
     def _below(self, prims: Any, frame: Frame) -> Iterator[PlacedPrim]:
@@ -89,7 +89,7 @@ class Walk:
         self._count += 1
         if self._count > limits.MAX_PLACEMENTS:
             message = f"more than {limits.MAX_PLACEMENTS} prims with all instances: split the file"
-            raise MeshFileError("too-large", message)
+            raise Refused("too-large", message)
 
     def _with_matrix(self, prim: Any, frame: Frame) -> PlacedPrim:
         name = frame.name_of(prim)
@@ -111,7 +111,7 @@ class Walk:
             return
         try:
             placed = self._placed(prim, frame)
-        except MeshFileError as error:
+        except Refused as error:
             reason = Refusal(error.code, f"{own.name}: point instancer: {error.message}")
             yield PlacedPrim(own.name, prim, frame, None, reason)
             return
@@ -122,9 +122,9 @@ class Walk:
 
     def _placed(self, prim: Any, frame: Frame) -> list[tuple[int, Any, Any]]:
         """(number, prototype, placement in the space of the instancer) of each instance that is not
-        masked. Raises MeshFileError."""
+        masked. Raises Refused."""
         if prim in _instancers(frame):
-            raise MeshFileError("reference-cycle", "a prototype holds it: a cycle")
+            raise Refused("reference-cycle", "a prototype holds it: a cycle")
         instancer, time = UsdGeom.PointInstancer(prim), self._time
         numbers = instancer.GetProtoIndicesAttr().Get(time) or ()
         paths = instancer.GetPrototypesRel().GetForwardedTargets()
@@ -132,7 +132,7 @@ class Walk:
         if used and not 0 <= used[0] <= used[-1] < len(paths):
             wrong = used[0] if used[0] < 0 else used[-1]
             message = f"it places prototype {wrong} of {len(paths)}"
-            raise MeshFileError("index-out-of-range", message)
+            raise Refused("index-out-of-range", message)
         roots = {number: self._prototype(paths[number]) for number in used}
         samples = instancer.GetPositionsAttr().GetTimeSamples()
         if samples and time == Usd.TimeCode.EarliestTime():
@@ -148,7 +148,7 @@ class Walk:
         )
         if len(matrices) != len(numbers):
             message = f"{len(numbers)} indices, {len(matrices)} placements"
-            raise MeshFileError("count-mismatch", message)
+            raise Refused("count-mismatch", message)
         mask = instancer.ComputeMaskAtTime(time) or [True] * len(numbers)
         return [
             (index, roots[number], matrices[index])
@@ -159,7 +159,7 @@ class Walk:
     def _prototype(self, path: Any) -> Any:
         prim = self._stage.GetPrimAtPath(path)
         if not prim or prim.IsAbstract():
-            raise MeshFileError("missing-resource", f"there is no prototype {path}")
+            raise Refused("missing-resource", f"there is no prototype {path}")
         return prim
 
 

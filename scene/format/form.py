@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from msgspec import UNSET, Struct, ValidationError, convert, inspect
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -95,14 +95,14 @@ class Problems:
             self.add(Wrong(error.message, *keys, *error.keys, code=error.code))
 
     def raise_any(self) -> None:
-        """Raises SceneFileError if there are problems: the first in the file, with the rest as
+        """Raises Refused if there are problems: the first in the file, with the rest as
         `others`."""
         if not self._found:
             return
         path, shown = self._parsed.path, self._found[:MOST]
         lines = self._parsed.lines([wrong.keys for wrong in shown])
         errors = [
-            SceneFileError(
+            Refused(
                 wrong.code,
                 f"{dotted(wrong.keys)}: {wrong.message}" if wrong.keys else wrong.message,
                 file=path,
@@ -112,8 +112,8 @@ class Problems:
         ]
         errors.sort(key=lambda error: error.line or 0)
         if left := len(self._found[MOST:]):
-            errors.append(SceneFileError("bad-scene", f"{left} more errors", file=path))
-        raise SceneFileError.combined(errors)
+            errors.append(Refused("bad-scene", f"{left} more errors", file=path))
+        raise Refused.combined(errors)
 
 
 def dotted(keys: Keys) -> str:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck.scene.bodies import Body, Unreadable
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
@@ -67,7 +67,7 @@ class JoinedScenes:
     def rules(
         self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
     ) -> tuple[Rule, ...]:
-        """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError if a
+        """everybody: all bodies of the check. scales: as for motions. Raises Refused if a
         rule has to be expanded into too many pairs."""
         placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
         bare = [body for body in everybody if body.id not in placed]
@@ -160,7 +160,7 @@ def _own_rules(
                 f"{rule.name}: beside the other inputs this rule has to be written out for "
                 f"{len(a) * len(b)} pairs; check this scene alone, or select fewer bodies"
             )
-            raise SceneFileError("too-large", message, file=scene.path)
+            raise Refused("too-large", message, file=scene.path)
         else:
             yield from _written_out(rule, a, b)
 

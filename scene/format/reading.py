@@ -12,7 +12,7 @@ from typing import Any
 from msgspec import UNSET, UnsetType
 
 from satcheck.core.shapes import HalfSpace
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.format import document, simple
 from satcheck.scene.format.document import RULES_FILE_KEYS, SCENE_1
 from satcheck.scene.format.entries import (
@@ -42,7 +42,7 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     """Reads and checks a scene file. One with rules and without bodies is a file of rules.
 
     path: for messages; location: where it lies. permitted: where the meshes of a scene of the form
-    satcheck.scene/1 may lie. Raises SceneFileError.
+    satcheck.scene/1 may lie. Raises Refused.
     """
     parsed = parse(path, location)
     schema = _schema_of(parsed)
@@ -57,7 +57,7 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
 
 def read_rules_file(path: str, location: Path) -> SceneFile:
     """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
-    bodies; `schema` may be left out. path, location: as above. Raises SceneFileError."""
+    bodies; `schema` may be left out. path, location: as above. Raises Refused."""
     parsed = parse(path, location)
     schema = _schema_of(parsed)
     if not isinstance(parsed.document, dict) or schema not in (None, SCENE_1):
@@ -69,10 +69,10 @@ def _schema_of(parsed: Parsed) -> object:
     return parsed.document.get("schema") if isinstance(parsed.document, dict) else None
 
 
-def _not_a_scene(path: str, schema: object) -> SceneFileError:
+def _not_a_scene(path: str, schema: object) -> Refused:
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
-    return SceneFileError("bad-scene", message, file=path)
+    return Refused("bad-scene", message, file=path)
 
 
 def _has_only_rules(values: Any) -> bool:
@@ -99,7 +99,7 @@ def _read(
 ) -> SceneFile:
     """The inner tables are read one by one, so that an error in one does not hide those of others.
 
-    values: of the document. Raises SceneFileError with all errors.
+    values: of the document. Raises Refused with all errors.
     """
     path, units = parsed.path, values.get("units")
     units = units if isinstance(units, str) else None

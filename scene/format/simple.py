@@ -64,7 +64,7 @@ ExplainedPair = Annotated[tuple[Text, Text, Any], _PAIR]
 
 
 def read_scene(parsed: Parsed) -> SceneFile:
-    """Raises SceneFileError with all errors of the file."""
+    """Raises Refused with all errors of the file."""
     path, values, problems = parsed.path, parsed.document, Problems(parsed)
     inner = {k: v for k in ("bodies", "allowed_pairs") if isinstance(v := values.get(k), list)}
     if "bodies" not in values:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.limits import MAX_DEPTH
 from satcheck.scene.opening import read_whole
 from satcheck.scene.words import why_unreadable
@@ -59,16 +59,16 @@ def is_toml(location: Path) -> bool:
 
 
 def read_text(path: str, location: Path) -> str:
-    """Raises SceneFileError. path: for messages."""
-    data = read_whole(path, location, _MAX_BYTES, SceneFileError)
+    """Raises Refused. path: for messages."""
+    data = read_whole(path, location, _MAX_BYTES)
     try:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
-        raise SceneFileError("bad-encoding", "the scene file is not UTF-8", file=path) from None
+        raise Refused("bad-encoding", "the scene file is not UTF-8", file=path) from None
 
 
 def parse(path: str, location: Path) -> Parsed:
-    """Raises SceneFileError if the file is not well-formed TOML or JSON."""
+    """Raises Refused if the file is not well-formed TOML or JSON."""
     text = read_text(path, location)
     if is_toml(location):
         return Parsed(path, location, text, _toml(path, text), False)
@@ -95,10 +95,10 @@ def _toml(path: str, text: str) -> Any:
         reason, line = match.groups() if match else (str(error), None)
         line = int(line or len(text.splitlines()))
         message = f"not well-formed TOML: {reason}"
-        raise SceneFileError("bad-scene", message, file=path, line=line) from None
+        raise Refused("bad-scene", message, file=path, line=line) from None
     except (RecursionError, ValueError) as error:
         message = f"not readable TOML: {why_unreadable(error)}"
-        raise SceneFileError("bad-scene", message, file=path) from None
+        raise Refused("bad-scene", message, file=path) from None
 
 
 def _json(path: str, text: str) -> tuple[Any, bool]:
@@ -118,8 +118,8 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
         document = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
     except json.JSONDecodeError as error:
         message = f"not well-formed JSON: {error.msg}"
-        raise SceneFileError("bad-scene", message, file=path, line=error.lineno) from None
+        raise Refused("bad-scene", message, file=path, line=error.lineno) from None
     except (RecursionError, ValueError) as error:
         message = f"not readable JSON: {why_unreadable(error)}"
-        raise SceneFileError("bad-scene", message, file=path) from None
+        raise Refused("bad-scene", message, file=path) from None
     return document, repeated

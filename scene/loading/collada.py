@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.collada_vocabulary import look_at
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
@@ -61,13 +61,13 @@ _AXES = (["X", "Y", "Z"], ["", "", ""])
 
 def read_collada(file: File) -> RawScene:
     """Return the visual scene of a COLLADA file; one mesh without a placement if it has one node.
-    Raises MeshFileError without a file name.
+    Raises Refused without a file name.
 
     The precision is that of float32, because the programs that write COLLADA store coordinates so.
     """
     root = read_elements(file.data)
     if root.tag != "COLLADA":
-        raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
+        raise Refused("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
     scene = _Document(root).read()
     return scene if len(scene.nodes) > 1 else alone(flattened(scene))
 
@@ -95,7 +95,7 @@ class _Document:
             kind="node",
         )
         if not nodes:
-            raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
+            raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
         read = raw_scene(
             [Instance(self._geometries_of(node.key), node.matrix, node.path) for node in nodes],
             lambda geometries: _name(geometries[0]),
@@ -138,7 +138,7 @@ class _Document:
         scene = self._root.find("scene")
         references = scene.all("instance_visual_scene") if scene else []
         if not references:
-            raise MeshFileError("empty-mesh", "empty mesh: the file instantiates no visual scene")
+            raise Refused("empty-mesh", "empty mesh: the file instantiates no visual scene")
         if len(references) > 1:
             references[1].refuse("a second visual scene is not read", "unsupported-feature")
         return self._target(references[0], "visual_scene")

@@ -66,7 +66,7 @@ ATTRIBUTES = {
 
 
 def look_at(element: Element, unknown: UnknownNames, *, is_root: bool) -> None:
-    """Gather what nobody reads of an element. Raises MeshFileError for a name that is misspelt."""
+    """Gather what nobody reads of an element. Raises Refused for a name that is misspelt."""
     place = f"line {element.line}: <{element.tag}>"
     tags = [child.tag for child in element.children]
     for table, names in ((CHILDREN, tags), (ATTRIBUTES, element.attributes)):

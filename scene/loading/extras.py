@@ -6,7 +6,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 
 
 def imported(module: str, extra: str, kind: str) -> Any:
@@ -18,4 +18,4 @@ def imported(module: str, extra: str, kind: str) -> Any:
             raise
         library = module.partition(".")[0]
         message = f"{kind} need {library}: pip install 'satcheck[{extra}]'"
-        raise MeshFileError("missing-extra", message) from None
+        raise Refused("missing-extra", message) from None

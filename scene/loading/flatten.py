@@ -7,7 +7,7 @@ from operator import mul
 
 from satcheck.core import Mesh, largest_stretch
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import BLOCKING
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import (
@@ -26,7 +26,7 @@ _SPLIT = "check its nodes as bodies of their own (--split nodes), or split the f
 def flattened(scene: RawScene) -> RawMesh:
     """Return one mesh of all nodes.
 
-    A mesh of lines or points only adds a warning. Raises MeshFileError if another mesh cannot be
+    A mesh of lines or points only adds a warning. Raises Refused if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
     if scene.nodes == (RawNode(None, 0),) and not scene.warnings:
@@ -40,13 +40,13 @@ def flattened(scene: RawScene) -> RawMesh:
         if isinstance(mesh, RawMesh):
             placed.append((mesh, node.matrix))
         elif not isinstance(mesh, Refusal):
-            raise MeshFileError("unsupported-feature", _SHAPES)
+            raise Refused("unsupported-feature", _SHAPES)
         elif mesh.code == NO_SURFACE and len(scene.nodes) > 1:
             said.append(("ignored-geometry", mesh.message))
         else:
-            raise MeshFileError(mesh.code, mesh.message)
+            raise Refused(mesh.code, mesh.message)
     if not placed:
-        raise MeshFileError("empty-mesh", "empty mesh: no node has a surface")
+        raise Refused("empty-mesh", "empty mesh: no node has a surface")
     meshes = [mesh for mesh, _ in placed]
     for most, what, count in (
         (limits.MAX_TRIANGLES, "triangles", sum(len(mesh.triangles) // 12 for mesh in meshes)),
@@ -54,7 +54,7 @@ def flattened(scene: RawScene) -> RawMesh:
     ):
         if count > most:
             message = f"{count} {what} in all instances exceed {most}: {_SPLIT}"
-            raise MeshFileError("too-large", message)
+            raise Refused("too-large", message)
     vertices, triangles = concatenate(
         [(mesh.vertices, mesh.triangles, matrix) for mesh, matrix in placed]
     )
@@ -94,7 +94,7 @@ def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple
             mesh = mesh if matrix is None else mesh.transformed(matrix)
         except (OverflowError, ValueError) as error:
             code = "out-of-range" if isinstance(error, OverflowError) else "singular-transform"
-            raise MeshFileError(code, f"a part cannot be placed: {error}") from None
+            raise Refused(code, f"a part cannot be placed: {error}") from None
         vertices.append(mesh.vertices)
         triangles.append(mesh.triangles + np.uint32(before))
         before += mesh.vertex_count

@@ -16,7 +16,7 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import (
@@ -56,7 +56,7 @@ def read_gltf(file: File) -> RawScene:
     """Return the default scene of a glTF or GLB file: its meshes, and the nodes that have one; for
     the geometry `collision` its colliders, and the nodes that have one.
 
-    Raises MeshFileError without a file name, and NeedsChild if the data need an isolated process
+    Raises Refused without a file name, and NeedsChild if the data need an isolated process
     and this one is not.
     """
     geometry = file.options.geometry
@@ -101,16 +101,16 @@ def read_gltf(file: File) -> RawScene:
 def _check_extensions(document: dict[str, Any]) -> None:
     for name in _names(document, "extensionsRequired"):
         if not EXTENSIONS.knows(name):
-            raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
+            raise Refused("unsupported-feature", f"the file requires extension {name!r}")
     for name in _names(document, "extensionsUsed"):
         if name in _MOVING:
-            raise MeshFileError("unsupported-feature", f"extension {name!r} is not read")
+            raise Refused("unsupported-feature", f"extension {name!r} is not read")
 
 
 def _names(document: dict[str, Any], key: str) -> list[str]:
     names = items(document, key)
     if not all(isinstance(name, str) for name in names):
-        raise MeshFileError("bad-record", f"glTF: {key} should be a list of texts")
+        raise Refused("bad-record", f"glTF: {key} should be a list of texts")
     return names
 
 
@@ -145,7 +145,7 @@ class _Scene:
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
         solid = [one for one in placed if not _without_surface(meshes[one.key])]
         if not solid:
-            raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
+            raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
         scene = raw_scene(solid, lambda shape: self._mesh_name(shape.mesh), meshes.__getitem__)
         bare = [one.path for one in placed if _without_surface(meshes[one.key])]
         if not bare:
@@ -157,7 +157,7 @@ class _Scene:
         """The colliders of the nodes. Those of one rigid body may touch each other."""
         placed = self._graph.placed(colliders.has)
         if not placed:
-            raise MeshFileError("empty-mesh", "no node of the scene has a collider")
+            raise Refused("empty-mesh", "no node of the scene has a collider")
         parts, nodes = [], []
         for number, one in enumerate(placed):
             collider = colliders.of(one.key)
@@ -193,7 +193,7 @@ class _Scene:
                 matrix = multiply(matrix, UPRIGHT)
                 refuse_skew(shape, matrix)
             return shape, matrix
-        except MeshFileError as error:
+        except Refused as error:
             return Refusal(error.code, error.message), matrix
         except (OverflowError, ValueError) as error:
             return Refusal("bad-record", f"convex hull: {error}"), matrix
@@ -208,7 +208,7 @@ class _Scene:
         try:
             skin = None if shape.skin is None else self._skin(shape.skin)
             return self._meshes.read(shape, skin)
-        except MeshFileError as error:
+        except Refused as error:
             return Refusal(error.code, error.message)
 
     def _copies(self, node: Instance[int]) -> list[tuple[str, Transform | None]]:
@@ -220,7 +220,7 @@ class _Scene:
             return [(node.path, node.matrix)]
         attributes = instancing.get("attributes")
         if not isinstance(attributes, dict):
-            raise MeshFileError("bad-record", f"node {node.key}: instances without attributes")
+            raise Refused("bad-record", f"node {node.key}: instances without attributes")
         columns = self._accessors.columns(attributes)
         translations = columns("TRANSLATION", "VEC3")
         rotations = columns("ROTATION", "VEC4")
@@ -228,12 +228,12 @@ class _Scene:
         given = ((translations, 3), (rotations, 4), (scales, 3))
         counts = {len(rows) // width for rows, width in given if rows is not None}
         if len(counts) != 1 or 0 in counts:
-            raise MeshFileError("count-mismatch", f"node {node.key}: unclear count of instances")
+            raise Refused("count-mismatch", f"node {node.key}: unclear count of instances")
         (count,) = counts
         self._copied += count
         if self._copied > limits.MAX_PLACEMENTS:
             message = f"more than {limits.MAX_PLACEMENTS} instances: split the file"
-            raise MeshFileError("too-large", message)
+            raise Refused("too-large", message)
         copies = []
         for i in range(count):
             parts = (
@@ -249,7 +249,7 @@ class _Scene:
         if "inverseBindMatrices" in skin:
             bound = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
             if len(bound) < 16 * len(joints):
-                raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
+                raise Refused("count-mismatch", f"skin {number}: a joint lacks its matrix")
         return Skin(tuple(self._graph.world(joint) or IDENTITY for joint in joints), bound)
 
     def _mesh_name(self, number: int) -> str:

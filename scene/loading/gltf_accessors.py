@@ -10,7 +10,7 @@ from array import array
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_buffers import (
     BufferViews,
@@ -42,7 +42,7 @@ class Accessors:
     def positions(self, index: int) -> array[float]:
         """x, y, z of each vertex, all finite."""
         if self._type(member(self._accessors, index, "accessor")) == "I":
-            raise MeshFileError("bad-record", f"accessor {index}: positions of type uint32")
+            raise Refused("bad-record", f"accessor {index}: positions of type uint32")
         return self.numbers(index, "VEC3", "coordinates")
 
     def numbers(self, index: int, kind: str, what: str = "numbers") -> array[float]:
@@ -50,14 +50,14 @@ class Accessors:
         values = self._read(index, kind)
         # A sum of float32 numbers does not overflow, and a term that is not finite stays in it.
         if not math.isfinite(sum(values)):
-            raise MeshFileError("non-finite", f"accessor {index}: non-finite {what}")
+            raise Refused("non-finite", f"accessor {index}: non-finite {what}")
         return normalized(values, self.largest_integer(index))
 
     def indices(self, index: int) -> array[int]:
         """Vertex numbers."""
         values = self._read(index, "SCALAR")
         if values.typecode not in _UNSIGNED:
-            raise MeshFileError("bad-record", f"accessor {index}: indices are not unsigned")
+            raise Refused("bad-record", f"accessor {index}: indices are not unsigned")
         return array("I", values)
 
     def columns(self, attributes: dict[str, Any]) -> Columns:
@@ -115,13 +115,13 @@ class Accessors:
         accessor = member(self._accessors, index, "accessor")
         code = self._type(accessor)
         if not code or accessor.get("type") != kind:
-            raise MeshFileError("bad-record", f"accessor {index}: {kind} expected")
+            raise Refused("bad-record", f"accessor {index}: {kind} expected")
         count, columns = integer(accessor, "count", 0), _COLUMNS[kind]
         self._work.spend(count * columns)
         if "bufferView" in accessor:
             values = self._rows(accessor, f"accessor {index}", count, columns, code)
         elif count > limits.MAX_ZEROS:
-            raise MeshFileError(
+            raise Refused(
                 "too-large",
                 f"accessor {index}: {count} elements without data, more "
                 f"than {limits.MAX_ZEROS}: write them out",
@@ -151,7 +151,7 @@ class Accessors:
         start = integer(owner, "byteOffset", 0)
         needed = start + (count - 1) * stride + row if count else start
         if needed > len(view):
-            raise MeshFileError(
+            raise Refused(
                 "index-out-of-range",
                 f"{what} exceeds its buffer view {number}: "
                 f"{count} elements need {needed} bytes, it has {len(view)}",
@@ -169,13 +169,11 @@ class Accessors:
         places, rows = (member([given.get(key)], 0, where) for key in ("indices", "values"))
         code = self._type(places)
         if code not in _UNSIGNED:
-            raise MeshFileError("bad-record", f"{where}: indices are not unsigned")
+            raise Refused("bad-record", f"{where}: indices are not unsigned")
         count = integer(sparse, "count", 0)
         elements = self._rows(places, where, count, 1, code)
         if count and max(elements) * columns >= len(values):
-            raise MeshFileError(
-                "index-out-of-range", f"{where}: element {max(elements)} does not exist"
-            )
+            raise Refused("index-out-of-range", f"{where}: element {max(elements)} does not exist")
         replaced = self._rows(rows, where, count, columns, values.typecode)
         for k, element in enumerate(elements):
             start = element * columns

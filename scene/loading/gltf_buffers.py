@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from satcheck._native.readers import ReadError, unpack_meshopt
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_vocabulary import MESHOPT
@@ -48,7 +48,7 @@ def items(owner: Any, key: str) -> list[Any]:
     """The list `owner[key]`; empty where it is missing."""
     value = owner.get(key, []) if isinstance(owner, dict) else None
     if not isinstance(value, list):
-        raise MeshFileError("bad-record", f"glTF: {key} should be a list in an object")
+        raise Refused("bad-record", f"glTF: {key} should be a list in an object")
     return value
 
 
@@ -56,43 +56,41 @@ def integer(owner: Any, key: str, default: int) -> int:
     """The non-negative integer `owner[key]`."""
     value = owner.get(key, default) if isinstance(owner, dict) else None
     if type(value) is not int or (value < 0 and value != default):
-        raise MeshFileError("bad-record", f"glTF: {key} should be a non-negative integer")
+        raise Refused("bad-record", f"glTF: {key} should be a non-negative integer")
     return value
 
 
 def member(values: list[Any], index: int, what: str) -> dict[str, Any]:
     """The object `values[index]`."""
     if not 0 <= index < len(values):
-        raise MeshFileError(
+        raise Refused(
             "index-out-of-range", f"glTF: {what} {index} does not exist, there are {len(values)}"
         )
     value = values[index]
     if not isinstance(value, dict):
-        raise MeshFileError("bad-record", f"glTF: {what} {index} is not an object")
+        raise Refused("bad-record", f"glTF: {what} {index} is not an object")
     return value
 
 
 def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
     """(JSON text, binary chunk or None) of a GLB file."""
     if len(data) < _GLB_HEADER or bytes(data[:4]) != b"glTF":
-        raise MeshFileError("not-this-format", "not a GLB file: it does not start with glTF")
+        raise Refused("not-this-format", "not a GLB file: it does not start with glTF")
     version, length = _two_numbers(data, 4)
     if version != 2:
-        raise MeshFileError("unsupported-feature", f"GLB version {version}: 2 is read")
+        raise Refused("unsupported-feature", f"GLB version {version}: 2 is read")
     if length != len(data):
         code = "truncated" if length > len(data) else "trailing-data"
-        raise MeshFileError(
-            code, f"the header promises {length} bytes, the file has {len(data)} bytes"
-        )
+        raise Refused(code, f"the header promises {length} bytes, the file has {len(data)} bytes")
     chunks: list[tuple[int, memoryview]] = []
     offset = _GLB_HEADER
     while offset < length:
         if length - offset < _CHUNK_HEADER:
-            raise MeshFileError("truncated", f"byte {offset}: a chunk header is cut off")
+            raise Refused("truncated", f"byte {offset}: a chunk header is cut off")
         size, kind = _two_numbers(data, offset)
         offset += _CHUNK_HEADER
         if size > length - offset:
-            raise MeshFileError(
+            raise Refused(
                 "truncated",
                 f"byte {offset - _CHUNK_HEADER}: chunk length {size} exceeds the file, "
                 f"which has {length - offset} bytes left",
@@ -100,7 +98,7 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
         chunks.append((kind, data[offset : offset + size]))
         offset += size
     if not chunks or chunks[0][0] != _JSON_CHUNK:
-        raise MeshFileError("bad-record", "the first chunk of the GLB file is not JSON")
+        raise Refused("bad-record", "the first chunk of the GLB file is not JSON")
     has_binary = len(chunks) > 1 and chunks[1][0] == _BIN_CHUNK
     return chunks[0][1], chunks[1][1] if has_binary else None
 
@@ -163,7 +161,7 @@ class BufferViews:
         """Bytes from one element of the view to the next; row: those of an element."""
         stride = integer(member(self._views, number, "buffer view"), "byteStride", row)
         if stride < row:
-            raise MeshFileError("bad-record", f"buffer view {number}: elements overlap")
+            raise Refused("bad-record", f"buffer view {number}: elements overlap")
         return stride
 
     def _range(self, view: dict[str, Any], what: str) -> memoryview:
@@ -172,7 +170,7 @@ class BufferViews:
         start = integer(view, "byteOffset", 0)
         end = start + integer(view, "byteLength", 0)
         if end > len(buffer):
-            raise MeshFileError(
+            raise Refused(
                 "index-out-of-range",
                 f"{what} ends at byte {end}, beyond buffer {buffer_number} of {len(buffer)} bytes",
             )
@@ -183,18 +181,18 @@ class BufferViews:
         count, stride = integer(packed, "count", 0), integer(packed, "byteStride", 0)
         mode, filter_ = packed.get("mode"), packed.get("filter", "NONE")
         if mode not in _MODES or filter_ not in _FILTERS or count * stride == 0:
-            raise MeshFileError(
+            raise Refused(
                 "bad-record",
                 f"buffer view {number}: meshopt data of mode {mode!r} and filter {filter_!r}",
             )
         if count * stride != integer(view, "byteLength", 0):
-            raise MeshFileError(
+            raise Refused(
                 "count-mismatch",
                 f"buffer view {number}: {count} elements of {stride} bytes are not its length",
             )
         self._unpacked_bytes += count * stride
         if self._unpacked_bytes > limits.MAX_UNPACKED_BYTES:
-            raise MeshFileError(
+            raise Refused(
                 "too-large",
                 f"meshopt data unpacks to {self._unpacked_bytes} bytes and more, beyond "
                 f"{limits.MAX_UNPACKED_BYTES}: unpack it before, or split the file",
@@ -203,7 +201,7 @@ class BufferViews:
         stream = bytes(self._range(packed, f"buffer view {number}"))
         elements = unpack_meshopt(stream, mode, count, stride, filter_)
         if isinstance(elements, ReadError):
-            raise MeshFileError(elements.code, f"buffer view {number}: {elements.message}")
+            raise Refused(elements.code, f"buffer view {number}: {elements.message}")
         return elements
 
     def _buffer(self, number: int) -> memoryview:
@@ -212,7 +210,7 @@ class BufferViews:
             size = integer(info, "byteLength", 0)
             data = self._fetch(info, number, size)
             if len(data) < size:
-                raise MeshFileError(
+                raise Refused(
                     "truncated", f"buffer {number} should have {size} bytes, it has {len(data)}"
                 )
             self._buffers[number] = data[:size]
@@ -222,10 +220,10 @@ class BufferViews:
         uri = info.get("uri")
         if uri is None:
             if number != 0 or self._chunk is None:
-                raise MeshFileError("missing-resource", f"buffer {number} has no data")
+                raise Refused("missing-resource", f"buffer {number} has no data")
             return self._chunk
         if not isinstance(uri, str):
-            raise MeshFileError("bad-record", f"buffer {number}: the URI is not a text")
+            raise Refused("bad-record", f"buffer {number}: the URI is not a text")
         if uri.startswith("data:"):
             import base64
             import binascii
@@ -236,7 +234,7 @@ class BufferViews:
                     raise ValueError("base64 expected")
                 return memoryview(base64.b64decode(text, validate=True))
             except (ValueError, binascii.Error) as error:
-                raise MeshFileError("bad-record", f"buffer {number}: data URI: {error}") from None
+                raise Refused("bad-record", f"buffer {number}: data URI: {error}") from None
         return memoryview(self._fetch_file(uri, size))
 
     def _fetch_file(self, uri: str, size: int) -> bytes:
@@ -245,21 +243,21 @@ class BufferViews:
         name = unquote(uri)
         root = followed(Path(self._directory))
         if ":" in uri or "\\" in name or "\0" in name:
-            raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
+            raise Refused("outside-path", f"buffer {name!r} is not a relative path: refused")
         note(Path(self._directory) / name)
         path = followed(root / name)
         if not self._permitted.has(path, root):
             where = self._permitted.beyond("the file's directory")
             message = f"buffer {name!r} lies {where}: refused (allow it with --allow-outside)"
-            raise MeshFileError("outside-path", message)
+            raise Refused("outside-path", message)
         if not is_file(path):
-            raise MeshFileError("missing-resource", f"missing buffer file {name!r}")
+            raise Refused("missing-resource", f"missing buffer file {name!r}")
         try:
             size = min(size, path.stat().st_size)
             self._work.spend_bytes(size)
             with path.open("rb") as file:
                 return file.read(size)
         except OSError as error:
-            raise MeshFileError(
+            raise Refused(
                 "unreadable-file", f"buffer file {name!r} cannot be read: {error.strerror}"
             ) from None

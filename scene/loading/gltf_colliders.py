@@ -14,7 +14,7 @@ from msgspec import Struct
 from satcheck.core.curved.placed import curved_shape
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
 from satcheck.scene.loading.gltf_vocabulary import KHR_BODIES, KHR_SHAPES, OMI_BODIES, OMI_SHAPES
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -60,7 +60,7 @@ class Collider(Struct, frozen=True):
 
 
 class Colliders:
-    """The colliders of a document. Raises MeshFileError for a misspelt name."""
+    """The colliders of a document. Raises Refused for a misspelt name."""
 
     def __init__(self, document: dict[str, Any], unknown: UnknownNames) -> None:
         self._document = document
@@ -86,7 +86,7 @@ class Colliders:
                 (name, body) for name, body in self._bodies(number) if "collider" in body
             ]
             if others:
-                raise MeshFileError("unsupported-feature", f"{where}: two colliders")
+                raise Refused("unsupported-feature", f"{where}: two colliders")
             self._unknown.look(PLACES["rigid body"], body.keys(), name, where)
             collider = member([body["collider"]], 0, "collider")
             self._unknown.look(PLACES["collider"], collider.keys(), "collider", where)
@@ -102,7 +102,7 @@ class Colliders:
                 mesh = integer(member(self._nodes, node, "node"), "mesh", -1)
                 return Collider(mesh, hull, node)
             return Collider(integer(geometry, "mesh", -1), hull)
-        except MeshFileError as error:
+        except Refused as error:
             return Collider(Refusal(error.code, f"{where}: {error.message}"))
 
     def _bodies(self, number: int) -> list[tuple[str, dict[str, Any]]]:
@@ -117,7 +117,7 @@ class Colliders:
         self._unknown.look(PLACES["shape"], shape.keys(), "shape", f"shape {number}")
         sizes = shape.get(kind, {}) if isinstance(kind, str) else {}
         if not isinstance(sizes, dict):
-            raise MeshFileError("bad-record", f"the sizes of shape {number} are no object")
+            raise Refused("bad-record", f"the sizes of shape {number} are no object")
         self._unknown.look(PLACES["sizes"], sizes.keys(), "sizes", f"shape {number}")
         try:
             match kind:
@@ -131,8 +131,8 @@ class Colliders:
                 case "convex" | "trimesh":
                     return Collider(integer(sizes, "mesh", -1), kind == "convex")
         except (TypeError, ValueError) as error:
-            raise MeshFileError("bad-record", f"shape {number}: {error}") from None
-        raise MeshFileError("unsupported-feature", f"a collider of type {kind!r} is not read")
+            raise Refused("bad-record", f"shape {number}: {error}") from None
+        raise Refused("unsupported-feature", f"a collider of type {kind!r} is not read")
 
 
 def _size(sizes: dict[str, Any], key: str, default: float) -> float:
@@ -141,23 +141,23 @@ def _size(sizes: dict[str, Any], key: str, default: float) -> float:
 
 def _round(kind: str, sizes: dict[str, Any]) -> Primitive:
     if "radius" in sizes:  # of an early OMI_physics_shape, where the height has another meaning
-        raise MeshFileError("unsupported-feature", f"a {kind} with `radius` is not read")
+        raise Refused("unsupported-feature", f"a {kind} with `radius` is not read")
     bottom, top = _size(sizes, "radiusBottom", 0.5), _size(sizes, "radiusTop", 0.5)
     if "height" not in sizes:  # the two vocabularies have different defaults
-        raise MeshFileError("unsupported-feature", f"a {kind} without a height is not read")
+        raise Refused("unsupported-feature", f"a {kind} without a height is not read")
     height = _size(sizes, "height", 0.0)
     if bottom == top:
         return Capsule(bottom, height) if kind == "capsule" else Cylinder(bottom, height)
     if kind == "cylinder" and top == 0.0:
         return Cone(bottom, height)
-    raise MeshFileError("unsupported-feature", f"a {kind} of two radii is not read")
+    raise Refused("unsupported-feature", f"a {kind} of two radii is not read")
 
 
 def refuse_skew(shape: Primitive, matrix: Transform | None) -> None:
-    """Raise MeshFileError if the placement makes another shape of it."""
+    """Raise Refused if the placement makes another shape of it."""
     if isinstance(shape, Box):
         return
     try:
         curved_shape(shape, matrix)
     except ValueError as error:
-        raise MeshFileError("unsupported-feature", f"its collider: {error}") from None
+        raise Refused("unsupported-feature", f"its collider: {error}") from None

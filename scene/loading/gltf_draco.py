@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.gltf_accessors import Accessors, normalized
 from satcheck.scene.loading.gltf_buffers import integer
 from satcheck.scene.resolution import FLOAT32_STEP
@@ -27,7 +27,7 @@ _BLOCK = 1 << 20  # bytes that are searched at once
 class Unpacked:
     """packed: the data of the extension. attributes: accessors of the primitive by name.
 
-    Raises MeshFileError. triangles: vertex numbers, three each.
+    Raises Refused. triangles: vertex numbers, three each.
     """
 
     def __init__(
@@ -36,7 +36,7 @@ class Unpacked:
         try:
             import DracoPy
         except ImportError:
-            raise MeshFileError(
+            raise Refused(
                 "unsupported-feature", "Draco data is read by DracoPy: pip install DracoPy"
             ) from None
         self._accessors = accessors
@@ -47,13 +47,13 @@ class Unpacked:
         try:
             self._mesh: Any = DracoPy.decode(data)
         except (DracoPy.FileTypeException, ValueError, MemoryError) as error:
-            raise MeshFileError("bad-record", f"Draco data: {error}") from None
+            raise Refused("bad-record", f"Draco data: {error}") from None
         if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(ids, dict):
-            raise MeshFileError("bad-record", "Draco data: no mesh")
+            raise Refused("bad-record", "Draco data: no mesh")
         self._ids: dict[str, Any] = ids
         faces, count = self._mesh.faces, len(self._mesh.points)
         if len(faces) and int(faces.max()) >= count:
-            raise MeshFileError(
+            raise Refused(
                 "index-out-of-range",
                 f"Draco data: index out of range: {faces.max()} of {count} vertices",
             )
@@ -62,9 +62,9 @@ class Unpacked:
     def positions(self) -> array[float]:
         positions = self._columns("POSITION", 3)
         if positions is None:
-            raise MeshFileError("bad-record", "Draco data: no positions")
+            raise Refused("bad-record", "Draco data: no positions")
         if not all(map(math.isfinite, positions)):
-            raise MeshFileError("non-finite", "Draco data: non-finite coordinates")
+            raise Refused("non-finite", "Draco data: non-finite coordinates")
         return positions
 
     def rounding(self, positions: array[float]) -> float:
@@ -93,7 +93,7 @@ class Unpacked:
         attribute = self._mesh.get_attribute_by_unique_id(id_) if type(id_) is int else None
         data = None if attribute is None else attribute["data"]
         if data is None or data.ndim != 2 or data.shape[1] != count:
-            raise MeshFileError("bad-record", f"Draco data: no attribute {id_!r} for {name}")
+            raise Refused("bad-record", f"Draco data: no attribute {id_!r} for {name}")
         largest = None if data.dtype.kind == "f" else self._largest(name)
         return normalized(data.ravel().tolist(), largest)
 

@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import Work, extension, integer, items, member
@@ -59,13 +59,13 @@ class Meshes:
         values = items(node if "weights" in node else mesh, "weights")
         self._work.spend(len(values))
         if not all(type(value) in (int, float) for value in values):
-            raise MeshFileError("bad-record", f"mesh {number}: weights should be numbers")
+            raise Refused("bad-record", f"mesh {number}: weights should be numbers")
         return tuple(map(float, values)) if any(values) else ()
 
     def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
         """All primitives with triangles, as one mesh.
 
-        skin: of the shape. Raises MeshFileError; its code is `NO_SURFACE` if there are no
+        skin: of the shape. Raises Refused; its code is `NO_SURFACE` if there are no
         triangles.
         """
         warnings: dict[str, str] = {}
@@ -79,7 +79,7 @@ class Meshes:
                 rounding = max(rounding, part[2])
         vertices, triangles = concatenate(parts)
         if not triangles:
-            raise MeshFileError(NO_SURFACE, f"{where} has no triangles, only lines or points")
+            raise Refused(NO_SURFACE, f"{where} has no triangles, only lines or points")
         return RawMesh(
             vertices=vertices,
             triangles=triangles,
@@ -105,7 +105,7 @@ class Meshes:
             return None
         attributes = primitive.get("attributes")
         if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
-            raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
+            raise Refused("bad-record", f"{where}: a primitive without positions or mode")
         packed = self._packed(primitive, attributes)
         if packed is not None:
             if not self._work.isolated:
@@ -151,7 +151,7 @@ class Meshes:
         """Refuses accessors without data. Their values would all be 0, and the geometry is most
         likely in an extension that is not read."""
         if not all(map(self._accessors.has_data, _needed(primitive, attributes))):
-            raise MeshFileError(
+            raise Refused(
                 "unsupported-feature", f"{where}: the positions or indices are not in the file"
             )
 
@@ -164,7 +164,7 @@ class Meshes:
         corners = self._accessors.indices(integer(primitive, "indices", -1))
         largest = max(corners, default=0)
         if corners and largest >= count:
-            raise MeshFileError(
+            raise Refused(
                 "index-out-of-range",
                 f"{where}: index out of range: {largest} of {count} vertices",
             )
@@ -174,7 +174,7 @@ class Meshes:
     def _targets(targets: list[Any], weights: Sequence[float]) -> list[tuple[float, int]]:
         """(weight, number of the accessor of the displacements) of each target that counts."""
         if len(targets) != len(weights):
-            raise MeshFileError("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
+            raise Refused("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
         return [
             (weight, integer(target, "POSITION", -1))
             for weight, target in zip(weights, targets, strict=True)
@@ -202,6 +202,6 @@ def _as_list(corners: array[int], mode: int, where: str) -> array[int]:
     """The corners of strips and fans, three a triangle."""
     if mode == _TRIANGLES:
         if len(corners) % 3:
-            raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
+            raise Refused("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
         return corners
     return array("I", fan_triangles(corners) if mode == _FAN else strip_triangles(corners))

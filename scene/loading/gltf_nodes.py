@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.gltf_buffers import Work, integer, items, member
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
 from satcheck.scene.words import listed, why_unreadable
@@ -19,49 +19,49 @@ _VERSION = "2.0"
 
 
 def parse_document(data: memoryview) -> dict[str, Any]:
-    """The JSON of a glTF file. Raises MeshFileError."""
+    """The JSON of a glTF file. Raises Refused."""
     try:
         text = str(data, "utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError:
-        raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
+        raise Refused("bad-encoding", "the JSON is not UTF-8") from None
     document = _json(text)
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
-        raise MeshFileError("not-this-format", "not a glTF file: no asset object")
+        raise Refused("not-this-format", "not a glTF file: no asset object")
     version = document["asset"].get("version")
     if not isinstance(version, str) or not version.startswith("2."):
-        raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
+        raise Refused("unsupported-feature", f"glTF version {version!r}: 2.x is read")
     least = document["asset"].get("minVersion", _VERSION)
     if least != _VERSION:
         message = f"the file needs glTF version {least!r}: {_VERSION} is read"
-        raise MeshFileError("unsupported-feature", message)
+        raise Refused("unsupported-feature", message)
     return document
 
 
 def _json(text: str) -> Any:
     def refuse(token: str) -> NoReturn:
-        raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
+        raise Refused("bad-record", f"JSON: {token} is not a number of glTF")
 
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         values = dict(pairs)
         if len(values) < len(pairs):
             twice = next(key for key, count in Counter(k for k, _ in pairs).items() if count > 1)
-            raise MeshFileError("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
+            raise Refused("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
         return values
 
     try:
         return json.loads(text, parse_constant=refuse, object_pairs_hook=once)
     except json.JSONDecodeError as error:
-        raise MeshFileError(
+        raise Refused(
             "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"
         ) from None
     except RecursionError:
-        raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
+        raise Refused("bad-record", "the JSON is nested too deeply") from None
     except ValueError as error:
-        raise MeshFileError("bad-record", f"JSON: {why_unreadable(error)}") from None
+        raise Refused("bad-record", f"JSON: {why_unreadable(error)}") from None
 
 
 class NodeGraph:
-    """The nodes of the default scene of a document. Its methods raise MeshFileError."""
+    """The nodes of the default scene of a document. Its methods raise Refused."""
 
     def __init__(self, document: dict[str, Any], work: Work) -> None:
         self._document = document
@@ -107,7 +107,7 @@ class NodeGraph:
         seen = {node}
         while (parent := self._parents.get(node)) is not None:
             if parent in seen:
-                raise MeshFileError("reference-cycle", f"node {parent} contains itself: a cycle")
+                raise Refused("reference-cycle", f"node {parent} contains itself: a cycle")
             seen.add(parent)
             yield parent
             node = parent
@@ -145,13 +145,13 @@ class NodeGraph:
         placed = {child for node in range(len(self._nodes)) for child, _ in self.children(node)}
         roots = [node for node in range(len(self._nodes)) if node not in placed]
         if self._nodes and not roots:
-            raise MeshFileError("reference-cycle", "every node is a child of another: a cycle")
+            raise Refused("reference-cycle", "every node is a child of another: a cycle")
         return roots
 
     def number(self, number: object) -> int:
         """The number of a node that exists."""
         if type(number) is not int:
-            raise MeshFileError("bad-record", f"node {number!r} is not a number")
+            raise Refused("bad-record", f"node {number!r} is not a number")
         member(self._nodes, number, "node")
         return number
 
@@ -196,13 +196,13 @@ def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[fl
         type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values
     )
     if not good:
-        raise MeshFileError("bad-record", f"node {number}: {key} needs {count} finite numbers")
+        raise Refused("bad-record", f"node {number}: {key} needs {count} finite numbers")
     return [float(value) for value in values]
 
 
 def _from_columns(columns: Sequence[float], where: str) -> Transform:
     if tuple(columns[3:16:4]) != (0.0, 0.0, 0.0, 1.0):
-        raise MeshFileError("bad-record", f"{where}: the matrix is not affine")
+        raise Refused("bad-record", f"{where}: the matrix is not affine")
     return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
 
 
@@ -226,6 +226,6 @@ def trs_placement(
 
 def _rotation(quaternion: Sequence[float]) -> Transform:
     if not any(quaternion):
-        raise MeshFileError("bad-record", "a rotation quaternion is zero")
+        raise Refused("bad-record", "a rotation quaternion is zero")
     x, y, z, w = quaternion
     return placed(quaternion_matrix(x, y, z, w), (0.0, 0.0, 0.0))

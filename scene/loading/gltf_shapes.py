@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.gltf_accessors import Columns
 
 
@@ -19,7 +19,7 @@ def morphed(positions: array[float], moves: Sequence[tuple[float, array[float]]]
     moved = np.array(positions)
     for weight, move in moves:
         if len(move) != len(moved):
-            raise MeshFileError("count-mismatch", "a morph target has another number of vertices")
+            raise Refused("count-mismatch", "a morph target has another number of vertices")
         moved += weight * np.array(move)
     return _finite(moved)
 
@@ -49,11 +49,11 @@ def skinned(
     while (indices := columns(f"JOINTS_{number}", "VEC4")) is not None:
         shares = columns(f"WEIGHTS_{number}", "VEC4")
         if shares is None or not len(indices) == len(shares) == 4 * len(points):
-            raise MeshFileError("count-mismatch", f"{where}: joints and weights are not one each")
+            raise Refused("count-mismatch", f"{where}: joints and weights are not one each")
         numbers = np.array(indices).astype(np.int64).reshape(-1, 4)
         weights = np.array(shares).reshape(-1, 4)
         if numbers.size and numbers.max() >= len(matrices):
-            raise MeshFileError(
+            raise Refused(
                 "index-out-of-range", f"{where}: joint {numbers.max()} of {len(matrices)}"
             )
         used[numbers[weights != 0]] = True
@@ -62,12 +62,12 @@ def skinned(
         number += 1
     placed = np.einsum("nij,nj->ni", blended[:, :, :3], points) + blended[:, :, 3]
     if not (placed[:, 3] > 0).all():
-        raise MeshFileError("bad-record", f"{where}: a vertex of the skin has no joint")
+        raise Refused("bad-record", f"{where}: a vertex of the skin has no joint")
     stretch = np.linalg.norm(matrices[used, :3, :3], 2, axis=(1, 2)).max(initial=0.0)
     return _finite(placed[:, :3] / placed[:, 3:]), float(stretch)
 
 
 def _finite(points: NDArray[np.float64]) -> array[float]:
     if not np.isfinite(points).all():
-        raise MeshFileError("non-finite", "the pose makes non-finite coordinates")
+        raise Refused("non-finite", "the pose makes non-finite coordinates")
     return array("d", points.tobytes())

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.vocabulary import Names
 
@@ -166,7 +166,7 @@ _LISTS = {
 
 
 def look_at(document: dict[str, Any], unknown: UnknownNames) -> None:
-    """Gather the names of a document that nobody knows. Raises MeshFileError for a misspelt one."""
+    """Gather the names of a document that nobody knows. Raises Refused for a misspelt one."""
     _Look(unknown).at_file(document)
 
 
@@ -224,7 +224,7 @@ class _Look:
             names, given = EXTENSIONS_OF.get(kind, _NO_EXTENSIONS), owner["extensions"]
             values = [given, *given.values()] if isinstance(given, dict) else [given]
             if not all(isinstance(value, dict) for value in values):
-                raise MeshFileError("bad-record", f"{place}: extensions should be objects")
+                raise Refused("bad-record", f"{place}: extensions should be objects")
             self._look(given, names, f"extension of {kind}", place)
 
     def _names(self, owner: Any, kind: str, place: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck._native import readers
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
@@ -22,10 +22,10 @@ _READERS = {
 
 def read_native(file: File) -> RawScene:
     """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
-    MeshFileError with line or byte."""
+    Refused with line or byte."""
     outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
-        raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}")
+        raise Refused(outcome.code, f"{_place(outcome)}{outcome.message}")
     whole = RawMesh(
         vertices=outcome.vertices,
         triangles=outcome.triangles,
@@ -42,7 +42,7 @@ def read_native(file: File) -> RawScene:
 def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
     if len(objects) > limits.MAX_PLACEMENTS:
         message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
-        raise MeshFileError("too-large", message)
+        raise Refused("too-large", message)
     names = UniqueNames()
     parts = []
     for number, (name, mesh) in enumerate(objects, 1):
@@ -58,7 +58,7 @@ def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:
         with file.location.open("rb", buffering=0) as opened:
             return readers.read_binary_stl(opened.fileno(), file.size)
     except OSError as error:
-        raise MeshFileError("unreadable-file", f"cannot be read: {error.strerror}") from None
+        raise Refused("unreadable-file", f"cannot be read: {error.strerror}") from None
 
 
 def _place(error: readers.ReadError) -> str:

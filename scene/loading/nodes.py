@@ -14,7 +14,7 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.health import CRACK_WIDTH
 from satcheck.scene.inspect import errors_of, mesh_file, resolution_of, shape_file
 from satcheck.scene.issue import Issue, issue
@@ -36,7 +36,7 @@ from satcheck.scene.rules import Rule, Selector
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]
-Marked = list[tuple[str, MeshFile | MeshFileError]]  # (the end of the path of a node, its mesh)
+Marked = list[tuple[str, MeshFile | Refused]]  # (the end of the path of a node, its mesh)
 
 _ONLY_DEGENERATE = "only-degenerate"
 CORNER = Mesh.from_bytes(
@@ -54,7 +54,7 @@ class Node(Struct, frozen=True):
     """
 
     path: str | None
-    file: MeshFile | MeshFileError
+    file: MeshFile | Refused
     transform: Transform | None = None
     shape: Shape | None = None
     title: str | None = None
@@ -80,7 +80,7 @@ def nodes_of(file: File, scene: RawScene, split: Split) -> Nodes:
     """Return the bodies of a file.
 
     Components are edge-connected, after cracks are closed. They are numbered by their lowest
-    corners, so that the order of the triangles in the file does not matter. Raises MeshFileError if
+    corners, so that the order of the triangles in the file does not matter. Raises Refused if
     nothing can be used.
     """
     if split == "none":
@@ -97,7 +97,7 @@ def nodes_of(file: File, scene: RawScene, split: Split) -> Nodes:
         for mark, mesh in meshes[node.part]
         for path in [f"{node.path or ''}{mark}" or None]
     }
-    errors = [node.file for node in nodes.values() if isinstance(node.file, MeshFileError)]
+    errors = [node.file for node in nodes.values() if isinstance(node.file, Refused)]
     if len(errors) == len(nodes):
         raise errors[0]
     issues = tuple(issue(code, message, file=file.path) for code, message in said)
@@ -107,12 +107,12 @@ def nodes_of(file: File, scene: RawScene, split: Split) -> Nodes:
 def _refuse_too_many(bodies: int) -> None:
     if bodies > limits.MAX_PLACEMENTS:
         message = f"{bodies} bodies exceed {limits.MAX_PLACEMENTS}: split the file"
-        raise MeshFileError("too-large", message)
+        raise Refused("too-large", message)
 
 
 def _placed(
     path: str | None,
-    file: MeshFile | MeshFileError,
+    file: MeshFile | Refused,
     raw: RawNode,
     mesh: RawMesh | Primitive | Refusal,
 ) -> Node:
@@ -120,7 +120,7 @@ def _placed(
         try:
             CORNER.transformed(raw.matrix)
         except ValueError as error:
-            file = MeshFileError("singular-transform", f"{path}: {error}", file=file.path)
+            file = Refused("singular-transform", f"{path}: {error}", file=file.path)
         except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
     shape = None if isinstance(mesh, RawMesh | Refusal) else mesh
@@ -135,7 +135,7 @@ def _meshes_of(
     raw = part.mesh
     where = f"mesh {part.name!r}: " if part.name else ""
     if isinstance(raw, Refusal):
-        return [("", MeshFileError(raw.code, where + raw.message, file=file.path))]
+        return [("", Refused(raw.code, where + raw.message, file=file.path))]
     try:
         with errors_of(file.path):
             if not isinstance(raw, RawMesh):
@@ -145,10 +145,10 @@ def _meshes_of(
             if not bodies:
                 whole = mesh_file(file, raw, mesh, part.name or None, placed=bool(part.name))
                 return [("", whole)]
-    except MeshFileError as error:
-        return [("", MeshFileError(error.code, where + error.message, file=file.path))]
+    except Refused as error:
+        return [("", Refused(error.code, where + error.message, file=file.path))]
     said += [(code, where + message) for code, message in raw.warnings]
-    if flat := sum(isinstance(body, MeshFileError) for _, body in bodies):
+    if flat := sum(isinstance(body, Refused) for _, body in bodies):
         message = f"{where}{flat} loose pieces of area 0 are left out"
         said.append(("degenerate-triangles", message))
     return [body for body in bodies if isinstance(body[1], MeshFile)]
@@ -169,7 +169,7 @@ def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
         name = f"{part.name}{mark}"
         try:
             bodies.append((mark, mesh_file(file, raw, piece, name, placed=bool(part.name))))
-        except MeshFileError as error:
+        except Refused as error:
             if error.code != _ONLY_DEGENERATE:
                 raise
             flat.append(("", error))

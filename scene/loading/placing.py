@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 from msgspec import Struct
 
 from satcheck.core.transform import Transform, compose
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
@@ -40,7 +40,7 @@ def instances(
     """Every part under the roots that has a mesh, once for each path that leads to it.
 
     children: the parts placed inside a part; kind: the noun for a part in messages. Depth first, in
-    file order. Raises MeshFileError for a cycle, and for more parts than the limit.
+    file order. Raises Refused for a cycle, and for more parts than the limit.
     """
     refuse_explosion(
         [root for root, _ in roots],
@@ -93,7 +93,7 @@ def refuse_explosion(
     """Counts the elements that references expand to, before any is created.
 
     Visits each element once. within: the direct children of an element, and how often each occurs.
-    size: its own count, without children. Raises MeshFileError if an element contains itself, is
+    size: its own count, without children. Raises Refused if an element contains itself, is
     nested too deeply, or expands to too many elements.
     """
     totals: dict[Key, int] = {}
@@ -110,7 +110,7 @@ def refuse_explosion(
             totals[key] = min(total, limits.MAX_PLACEMENTS + 1)  # 2^100 needs no more digits
             depths[key] = 1 + max((depths[child] for child, _ in held), default=0)
         elif key in open_:
-            raise MeshFileError("reference-cycle", f"{describe(key)} contains itself: a cycle")
+            raise Refused("reference-cycle", f"{describe(key)} contains itself: a cycle")
         elif key not in totals:
             open_.add(key)
             stack.append((key, True))
@@ -118,11 +118,9 @@ def refuse_explosion(
     total = sum(totals[root] for root in roots)
     if total > limits.MAX_PLACEMENTS:
         message = f"its references expand to more than {limits.MAX_PLACEMENTS} elements: split it"
-        raise MeshFileError("too-large", message)
+        raise Refused("too-large", message)
     if max((depths[root] for root in roots), default=0) > most_depth:
-        raise MeshFileError(
-            "too-large", f"elements are nested deeper than {most_depth}: flatten it"
-        )
+        raise Refused("too-large", f"elements are nested deeper than {most_depth}: flatten it")
 
 
 def raw_scene(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from satcheck._native.readers import ReadError, cut_polygons
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 
 
 def triangles_of(
@@ -17,7 +17,7 @@ def triangles_of(
     """Return the triangles of polygons, (n, 3): numbers of points.
 
     points: (m, 3). corners: of all polygons, one after the other. lengths: the number of corners of
-    each. Raises MeshFileError.
+    each. Raises Refused.
     """
     cut = cut_polygons(
         points.astype("<f8").tobytes(),
@@ -25,5 +25,5 @@ def triangles_of(
         np.asarray(lengths, "<u4").tobytes(),
     )
     if isinstance(cut, ReadError):
-        raise MeshFileError(cut.code, cut.message)
+        raise Refused(cut.code, cut.message)
     return np.frombuffer(cut, "<u4").astype(np.int64).reshape(-1, 3)

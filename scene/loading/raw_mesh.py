@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 
 NumberFormat = Literal["written-digits", "float16", "float32", "float64"]
 RuleSeverity = Literal["error", "warning", "note"]
@@ -45,7 +45,7 @@ class RawMesh(Struct, frozen=True, tag=True):
 
 
 class Refusal(Struct, frozen=True, tag=True):
-    """Why a mesh or a file cannot be used: the code and the message of a MeshFileError."""
+    """Why a mesh or a file cannot be used: the code and the message of a Refused."""
 
     code: str
     message: str
@@ -123,13 +123,13 @@ class RawScene(Struct, frozen=True, tag=True):
 
     def check(self) -> None:
         """Refuse what no reader may return, as a reader of another package may. Raises
-        MeshFileError. Coordinates and corners are checked where meshes are inspected."""
+        Refused. Coordinates and corners are checked where meshes are inspected."""
         if not self.nodes:
-            raise MeshFileError("empty-mesh", "empty mesh: the file has no body")
+            raise Refused("empty-mesh", "empty mesh: the file has no body")
         if len(self.nodes) > 1 and len({node.path for node in self.nodes}) < len(self.nodes):
-            raise MeshFileError("reader-failed", "its reader gives two bodies one path")
+            raise Refused("reader-failed", "its reader gives two bodies one path")
         if not all(0 <= node.part < len(self.parts) for node in self.nodes):
-            raise MeshFileError("reader-failed", "its reader places a mesh that is not there")
+            raise Refused("reader-failed", "its reader places a mesh that is not there")
 
 
 def alone(mesh: RawMesh) -> RawScene:

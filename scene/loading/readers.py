@@ -94,7 +94,7 @@ class Reader(Struct, frozen=True):
 
     name: in reports. title: for people. endings: of the names of its files, in small letters.
     read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
-    MeshFileError without a file name. kind: "mesh": the meshes of a file are one body, or a body
+    Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
     reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
     may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
@@ -120,7 +120,7 @@ class Reader(Struct, frozen=True):
     complete: bool = True
 
     def scene(self, file: File) -> RawScene:
-        """Return the meshes of a file and their placements. Raises MeshFileError and NeedsChild."""
+        """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
         scene = cast("RawScene", function_at(self.read)(file))
         scene.check()
         if self.complete:
@@ -151,7 +151,7 @@ class RobotReader(Struct, frozen=True):
 
     name, title, endings: as of a `Reader`. roots: tags of the outermost element. read: "module:
     function". The function takes this element and a `RobotFile`, and returns the robot and issues;
-    it raises SceneFileError. marks: files of its endings in a folder are robots if they hold one of
+    it raises Refused. marks: files of its endings in a folder are robots if they hold one of
     these, or one of the roots; None: all of them are.
     """
 
@@ -270,7 +270,7 @@ def reader_named(name: str) -> Reader | None:
 
 
 def read(file: File) -> RawScene:
-    """Return the meshes of a file, in this process. Raises MeshFileError and NeedsChild."""
+    """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
     # A child process has not looked for the readers of other packages.
     reader = reader_named(file.format) or reader_of(file.location.suffix)
     assert reader is not None  # it has been opened for its reader

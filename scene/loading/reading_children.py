@@ -24,7 +24,7 @@ from satcheck.core.worker_errors import (
     WorkerOutOfMemory,
     WorkerTimeout,
 )
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -121,7 +121,7 @@ def read_in_child(
     file: File, read: str, kind: type[Content], children: ReadingChildren, allowed: ReadLimits
 ) -> Content:
     """Return what a function, "module:name", makes of a file in a child process: an object of this
-    kind. Raises MeshFileError."""
+    kind. Raises Refused."""
     request = Request.about(file, read)
     try:
         sent = msgspec.msgpack.encode(request)
@@ -132,13 +132,13 @@ def read_in_child(
         raise _lost(error, file, allowed.megabytes) from error
     except msgspec.DecodeError:
         message = "the reader's answer is damaged"
-        raise MeshFileError("reader-failed", message, file=file.path) from None
+        raise Refused("reader-failed", message, file=file.path) from None
     for name in answer.files:
         note(_as_given(Path(os.fsdecode(name)), os.fsdecode(request.directory), file.directory))
     content: Content | Refusal = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
-        raise MeshFileError(code, content.message, file=file.path)
+        raise Refused(code, content.message, file=file.path)
     return content
 
 
@@ -147,7 +147,7 @@ def _as_given(file: Path, directory: str, folder: str) -> Path:
     return Path(folder) / file.relative_to(directory) if file.is_relative_to(directory) else file
 
 
-def _lost(error: WorkerError, file: File, megabytes: int) -> MeshFileError:
+def _lost(error: WorkerError, file: File, megabytes: int) -> Refused:
     """The error for a child that was stopped or died while it read a file."""
     kind, code = file.format.upper(), "reader-failed"
     if isinstance(error, WorkerTimeout):
@@ -161,7 +161,7 @@ def _lost(error: WorkerError, file: File, megabytes: int) -> MeshFileError:
         said = _one_line(f"the {kind} reader failed: {what}")
     else:
         said = _one_line(f"the {kind} reader died: {error.message}")
-    return MeshFileError(code, said, file=file.path)
+    return Refused(code, said, file=file.path)
 
 
 def _one_line(text: str) -> str:

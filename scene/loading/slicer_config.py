@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from msgspec import Struct
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.xml_tree import Element
 
 PRUSA, BAMBU = "metadata/slic3r_pe_model.config", "metadata/model_settings.config"
@@ -34,7 +34,7 @@ class Volume(Struct, frozen=True):
 
 
 def volumes(config: Element) -> list[Volume]:
-    """Return the volumes that are no material. Raises MeshFileError for an unknown kind."""
+    """Return the volumes that are no material. Raises Refused for an unknown kind."""
     return [
         volume
         for owner in config.all("object")
@@ -49,7 +49,7 @@ def _volume(owner: Element, element: Element) -> Volume | None:
         return None
     if kind not in _NEGATIVE | _SETTINGS:
         message = f"line {element.line}: a volume of the kind {kind!r} is not known"
-        raise MeshFileError("unsupported-feature", f"config of a slicer: {message}")
+        raise Refused("unsupported-feature", f"config of a slicer: {message}")
     id_ = owner.attribute("id")
     if element.tag == "part":
         return Volume(id_, None, element.attribute("id"), kind in _NEGATIVE)

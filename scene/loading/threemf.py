@@ -19,7 +19,7 @@ from typing import IO
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.readers import File
@@ -63,7 +63,7 @@ _OTHER_GEOMETRY = frozenset(
 
 
 def read_3mf(file: File) -> RawScene:
-    """Return the objects that the build of a 3MF package places. Raises MeshFileError without a
+    """Return the objects that the build of a 3MF package places. Raises Refused without a
     file name."""
     with opened_zip(memoryview(file.data), "a 3MF file") as package:
         return _Package(package).read()
@@ -83,7 +83,7 @@ class _Package:
         root = self._model(start)
         self._apply_config(root)
         if not root.items:
-            raise MeshFileError("empty-mesh", "empty mesh: the build has no items")
+            raise Refused("empty-mesh", "empty mesh: the build has no items")
         nodes = instances(
             [((item.part, item.id), item.matrix) for item in root.items],
             children=lambda key: [
@@ -95,7 +95,7 @@ class _Package:
             kind="object",
         )
         if not nodes:
-            raise MeshFileError("empty-mesh", "empty mesh: the build has no triangles")
+            raise Refused("empty-mesh", "empty mesh: the build has no triangles")
         scene = raw_scene(
             nodes,
             lambda key: self._object(*key).name,
@@ -132,8 +132,8 @@ class _Package:
                     what = "has a negative volume" if volume.negative else "has a modifier"
                     message = f"object {volume.owner!r} {what}, which is not read"
                     if object_ is None:
-                        raise MeshFileError("unsupported-feature", message)
-                    object_.refusal = MeshFileError("unsupported-feature", message)
+                        raise Refused("unsupported-feature", message)
+                    object_.refusal = Refused("unsupported-feature", message)
                     object_.references.clear()
                 else:
                     self._settings.append(f"a volume of object {volume.owner!r}")
@@ -157,7 +157,7 @@ class _Package:
     def _open(self, part: str) -> IO[bytes]:
         name = self._names.get(part.lower())
         if name is None:
-            raise MeshFileError("missing-resource", f"the package has no part {part!r}")
+            raise Refused("missing-resource", f"the package has no part {part!r}")
         return open_part(self._package, name)
 
     def _model(self, part: str) -> Model:
@@ -176,7 +176,7 @@ class _Package:
         self._used.add((part, id_))
         object_ = self._model(part).objects.get(id_)
         if object_ is None:
-            raise MeshFileError("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
+            raise Refused("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
         return object_
 
 
@@ -190,7 +190,7 @@ class Object:
     references: list[Reference] = field(default_factory=list)
     decimals: int = 0
     significant: int = 0
-    refusal: MeshFileError | None = None
+    refusal: Refused | None = None
 
     @property
     def is_empty(self) -> bool:
@@ -249,7 +249,7 @@ def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = Fals
 
     part: its name in the package. undeclared_prefixes: accept XML prefixes without a declaration,
     which some programs write for their own data; within an object they are refused. Raises
-    MeshFileError. An error in the mesh of one object is stored in this object.
+    Refused. An error in the mesh of one object is stored in this object.
     """
     return _ModelReader(part, undeclared_prefixes).read(stream)
 
@@ -291,19 +291,19 @@ class _ModelReader:
         self._model.unread = self._unknown.warnings()
         for id_, object_ in self._model.objects.items():
             if object_.is_empty:
-                object_.refusal = MeshFileError("empty-mesh", f"object {id_!r} has no triangles")
+                object_.refusal = Refused("empty-mesh", f"object {id_!r} has no triangles")
             count = len(object_.vertices) // 3
             if object_.refusal is None and max(object_.triangles, default=-1) >= count:
-                object_.refusal = MeshFileError(
+                object_.refusal = Refused(
                     "index-out-of-range",
                     f"object {id_!r}: face index out of range: "
                     f"{max(object_.triangles)} of {count} vertices",
                 )
         return self._model
 
-    def _fail(self, code: str, message: str) -> MeshFileError:
+    def _fail(self, code: str, message: str) -> Refused:
         line = self._parser.CurrentLineNumber
-        return MeshFileError(code, f"{self._part}, line {line}: {message}")
+        return Refused(code, f"{self._part}, line {line}: {message}")
 
     def _on_namespace(self, prefix: str | None, uri: str) -> None:
         self._prefixes[prefix] = uri
@@ -312,14 +312,14 @@ class _ModelReader:
         namespace, local = split_name(name)
         self._look(short(name), attributes)
         if local == "mesh" and namespace in CORE and self._object and self._object.vertices:
-            self._object.refusal = MeshFileError("bad-record", "an object with two <mesh>")
+            self._object.refusal = Refused("bad-record", "an object with two <mesh>")
         handler = self._handlers.get(local) if namespace in CORE else None
         if handler is None:
             self._on_other(namespace, local)
             return
         try:
             self._handle(handler, local, attributes)
-        except MeshFileError as error:
+        except Refused as error:
             if self._object is None or local not in _MESH:
                 raise
             self._object.refusal = self._object.refusal or error

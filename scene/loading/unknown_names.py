@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.vocabulary import Names
 
 
@@ -18,7 +18,7 @@ class UnknownNames:
 
     def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
         """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
-        Raises MeshFileError for a misspelt name."""
+        Raises Refused for a misspelt name."""
         if names.read.issuperset(found):
             return
         for name in found:
@@ -30,7 +30,7 @@ class UnknownNames:
                 for unread in names.unread([name], place):
                     self.note(key, unread.message)
             except SatcheckError as error:
-                raise MeshFileError(error.code, error.message) from None
+                raise Refused(error.code, error.message) from None
 
     def note(self, key: tuple[str, str], message: str) -> None:
         """Take something that blocks a pass and is no single name. key: what is named once."""

@@ -12,7 +12,7 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.limits import MAX_DEPTH
 
 _NAMESPACE_SEPARATOR = " "
@@ -27,14 +27,14 @@ def guarded_parser(
 
     allowed_encodings: lower-case names of encodings that are accepted; None: all that expat knows.
     namespaces: False reports names as written, "prefix:local-name", even if the prefix is not
-    declared. Parsing raises MeshFileError.
+    declared. Parsing raises Refused.
     """
     separator = _NAMESPACE_SEPARATOR if namespaces else None
     parser = expat.ParserCreate(namespace_separator=separator)
     parser.buffer_text = True
 
     def refuse_entity(*_: object) -> NoReturn:
-        raise MeshFileError(
+        raise Refused(
             "entity-declaration",
             f"line {parser.CurrentLineNumber}: entity declarations are refused",
         )
@@ -42,9 +42,7 @@ def guarded_parser(
     def check_encoding(_version: str, encoding: str | None, _standalone: int) -> None:
         if allowed_encodings and encoding and encoding.lower() not in allowed_encodings:
             expected = " or ".join(sorted(allowed_encodings))
-            raise MeshFileError(
-                "bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected"
-            )
+            raise Refused("bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected")
 
     parser.EntityDeclHandler = refuse_entity
     parser.ExternalEntityRefHandler = refuse_entity
@@ -52,12 +50,12 @@ def guarded_parser(
     return parser
 
 
-class UnboundPrefix(MeshFileError):
+class UnboundPrefix(Refused):
     """A prefix is used but not declared."""
 
 
 def parse_xml(parse: Callable[[], object]) -> None:
-    """Runs a parser and turns an error of expat into a MeshFileError."""
+    """Runs a parser and turns an error of expat into a Refused."""
     try:
         parse()
     except expat.ExpatError as error:
@@ -67,12 +65,10 @@ def parse_xml(parse: Callable[[], object]) -> None:
             raise UnboundPrefix("bad-record", message) from None
         if "encoding" in reason or (error.lineno == 1 and error.offset < len(_DECLARATION)):
             message = f"invalid XML encoding, or not XML: {reason}"
-            raise MeshFileError("bad-encoding", message) from None
-        raise MeshFileError(
-            "bad-record", f"line {error.lineno}: not well-formed XML: {reason}"
-        ) from None
+            raise Refused("bad-encoding", message) from None
+        raise Refused("bad-record", f"line {error.lineno}: not well-formed XML: {reason}") from None
     except (LookupError, UnicodeError) as error:
-        raise MeshFileError("bad-encoding", f"invalid XML encoding: {error}") from None
+        raise Refused("bad-encoding", f"invalid XML encoding: {error}") from None
 
 
 def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
@@ -206,7 +202,7 @@ class Element:
             self.refuse(str(error))
 
     def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
-        raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")
+        raise Refused(code, f"line {self.line}: <{self.tag}>: {message}")
 
 
 E = TypeVar("E", bound=Element)
@@ -217,7 +213,7 @@ def read_elements(
     *,
     encodings: frozenset[str] | None = None,
 ) -> Element:
-    """The outermost element. encodings: as in `guarded_parser`. Raises MeshFileError."""
+    """The outermost element. encodings: as in `guarded_parser`. Raises Refused."""
     stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
     return parse_elements(guarded_parser(encodings), stream, Element)
 
@@ -238,7 +234,7 @@ def parse_elements(
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
             )
-            raise MeshFileError("too-large", message)
+            raise Refused("too-large", message)
         (around[-1].children if around else outermost).append(element)
         around.append(element)
 
@@ -247,9 +243,9 @@ def parse_elements(
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
     try:
         parse_stream(parser, stream)
-    except MeshFileError as error:
+    except Refused as error:
         if not around:
             raise
         still = f"<{around[-1].tag}> of line {around[-1].line} was still open"
-        raise MeshFileError(error.code, f"{error.message}; {still}") from None
+        raise Refused(error.code, f"{error.message}; {still}") from None
     return outermost[0]

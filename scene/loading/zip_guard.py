@@ -9,33 +9,33 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import IO
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 
 
 @contextmanager
 def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]:
-    """kind: such as "a 3MF file", for messages. Raises MeshFileError for any error in the archive,
+    """kind: such as "a 3MF file", for messages. Raises Refused for any error in the archive,
     also while the `with` block reads its parts."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             yield archive
     except zipfile.BadZipFile as error:
-        raise MeshFileError("not-this-format", f"not {kind}: {error}") from None
+        raise Refused("not-this-format", f"not {kind}: {error}") from None
     except (zlib.error, EOFError, ValueError) as error:  # ValueError: an offset before its start
-        raise MeshFileError("bad-record", f"damaged zip data: {error}") from None
+        raise Refused("bad-record", f"damaged zip data: {error}") from None
     except (RuntimeError, NotImplementedError) as error:  # encrypted, or an unknown compression
-        raise MeshFileError("unsupported-feature", f"zip: {error}") from None
+        raise Refused("unsupported-feature", f"zip: {error}") from None
 
 
 def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
-    """A part of the archive. Raises MeshFileError if it unpacks to too much."""
+    """A part of the archive. Raises Refused if it unpacks to too much."""
     entry = archive.getinfo(name)
     inflation = entry.file_size / max(entry.compress_size, 1)
     if entry.file_size > limits.MAX_PART_BYTES or (
         entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
     ):
-        raise MeshFileError(
+        raise Refused(
             "too-large",
             f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes, like an attack: "
             "unpack it, and check what is in it",

@@ -16,7 +16,7 @@ from satcheck.core.half_space import plane_of
 from satcheck.core.shape_mesh import mesh_of, sag_of
 from satcheck.core.shapes import Curved, is_curved
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
@@ -64,7 +64,7 @@ def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene
     for body in scene.bodies:
         try:
             placed.append((body, _region(body, plane, allow_open=allow_open)))
-        except MeshFileError as error:
+        except Refused as error:
             lost.append(_lost(body, error))
     heights = _heights([region for _, region in placed])
     bodies = [
@@ -81,21 +81,21 @@ def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene
 
 
 def _region(body: Body, plane: Plane, *, allow_open: bool) -> Region:
-    """Raises MeshFileError for a body without an outline, with an open outline, or beyond the range
+    """Raises Refused for a body without an outline, with an open outline, or beyond the range
     of exact arithmetic."""
     try:
         region = _outline(body, plane)
     except OverflowError as error:
-        raise MeshFileError("out-of-range", str(error)) from None
+        raise Refused("out-of-range", str(error)) from None
     except ValueError as error:
-        raise MeshFileError("singular-transform", str(error)) from None
+        raise Refused("singular-transform", str(error)) from None
     if not len(region.triangles):
-        raise MeshFileError("no-outline", f"no outline in the plane {plane}: it is seen edge on")
+        raise Refused("no-outline", f"no outline in the plane {plane}: it is seen edge on")
     if np.ptp(region.points, axis=0).max() > _WIDEST:
-        raise MeshFileError("out-of-range", f"wider than {_WIDEST:g} in the plane {plane}")
+        raise Refused("out-of-range", f"wider than {_WIDEST:g} in the plane {plane}")
     if body.file.health.holes and not allow_open and not _covers_fills(body, region, plane):
         message = f"what fills its holes decides its outline in the plane {plane}"
-        raise MeshFileError("open-outline", message)
+        raise Refused("open-outline", message)
     return region
 
 
@@ -112,7 +112,7 @@ def _covers_fills(body: Body, region: Region, plane: Plane) -> bool:
 
 def _outline(body: Body, plane: Plane) -> Region:
     if is_half_space(body) and not _stands_on(body, plane):
-        raise MeshFileError("no-outline", f"a half space that is no half plane in {plane}")
+        raise Refused("no-outline", f"a half space that is no half plane in {plane}")
     if is_curved(body.shape):
         fine = replace(body.file, mesh=_fine_mesh(body.shape))
         return convex_region(replace(body, file=fine).world_mesh(), plane)
@@ -142,7 +142,7 @@ def _deviation(body: Body, region: Region) -> float:
     )
 
 
-def _lost(body: Body, error: MeshFileError) -> Unreadable:
+def _lost(body: Body, error: Refused) -> Unreadable:
     reason = issue(error.code, error.message, body=body.id, file=body.file.path)
     return Unreadable(body.id, body.file.path, reason, body.groups, body.path, body.static)
 

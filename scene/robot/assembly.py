@@ -13,15 +13,15 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Scene
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.plain_ids import HULL_MARK
 from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import (
     Collision,
     Link,
     MeshReference,
-    RefusedShape,
     Robot,
     State,
 )
@@ -42,7 +42,7 @@ class Part(Struct, frozen=True):
     id: str
     link: str
     offset: Transform
-    source: Path | Primitive | MeshFileError
+    source: Path | Primitive | Refused
     file: str
     line: int
     static: bool = False
@@ -114,7 +114,7 @@ def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
     ]
     lost: dict[tuple[str, str], list[Collision]] = {}
     for _, collision, _, source in collisions:
-        if isinstance(source, MeshFileError):
+        if isinstance(source, Refused):
             lost.setdefault((source.code, source.message), []).append(collision)
     return [
         Part(
@@ -122,7 +122,7 @@ def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
             link=link.name,
             offset=_offset(collision),
             source=_placed(source, lost[source.code, source.message])
-            if isinstance(source, MeshFileError)
+            if isinstance(source, Refused)
             else source,
             file=collision.file or robot.file,
             line=collision.line,
@@ -134,14 +134,14 @@ def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
     ]
 
 
-def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
+def _placed(cause: Refused, lost: Sequence[Collision]) -> Refused:
     """The cause, with the number of bodies that it affects, and its first place in the file."""
     first, number = lost[0], len(lost)
     place = f"line {first.line}"
     if isinstance(first.geometry, MeshReference):
         place += f": {first.geometry.uri!r}" if number == 1 else f" ({first.geometry.uri})"
     start = place if number == 1 else f"{number} bodies, the first in {place}"
-    return MeshFileError(cause.code, f"{start}: {cause.message}")
+    return Refused(cause.code, f"{start}: {cause.message}")
 
 
 def bare_links(robot: Robot) -> list[Issue]:
@@ -162,7 +162,7 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     """Each robot with its SRDF: the SRDF with its name, or the only SRDF if there is only one
     robot.
 
-    Raises SceneFileError if an SRDF has no robot, or if a robot has two SRDFs.
+    Raises Refused if an SRDF has no robot, or if a robot has two SRDFs.
     """
     matched = list(robots)
     for srdf in srdfs:
@@ -172,11 +172,11 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
         if not named:
             names = ", ".join(robot.robot.name for robot in matched) or "no URDF is given"
             message = f"about robot {srdf.robot!r}, which is not given ({names})"
-            raise SceneFileError("bad-robot", message, file=srdf.file)
+            raise Refused("bad-robot", message, file=srdf.file)
         for k in named:
             if matched[k].srdf is not None:
                 message = f"a second SRDF about robot {matched[k].robot.name!r}"
-                raise SceneFileError("bad-robot", message, file=srdf.file)
+                raise Refused("bad-robot", message, file=srdf.file)
             matched[k] = replace(matched[k], srdf=srdf)
     return matched
 
@@ -245,13 +245,13 @@ def _piece(collision: Collision) -> str | None:
     return None
 
 
-def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | MeshFileError:
+def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | Refused:
     match collision.geometry:
         case MeshReference(uri):
             try:
                 return places.locate(uri)
-            except MeshFileError as error:
+            except Refused as error:
                 return error
-        case RefusedShape(code, reason):
-            return MeshFileError(code, reason)
+        case Refusal(code, reason):
+            return Refused(code, reason)
     return collision.geometry

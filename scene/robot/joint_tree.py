@@ -14,7 +14,7 @@ def in_order(
 ) -> tuple[str, tuple[Joint, ...]]:
     """(the root link, the joints, each after the joint of its parent link).
 
-    Raises SceneFileError for missing links, two parents, a cycle, several roots, and for a joint
+    Raises Refused for missing links, two parents, a cycle, several roots, and for a joint
     that mimics itself or a joint that it cannot mimic.
     """
     carriers: dict[str, Joint] = {}
@@ -69,7 +69,7 @@ def _circle(link: str, carriers: Mapping[str, Joint]) -> str:
 
 
 def check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
-    """Raises SceneFileError for a joint that mimics itself or a joint that it cannot mimic."""
+    """Raises Refused for a joint that mimics itself or a joint that it cannot mimic."""
     by_name = {joint.name: joint for joint, _ in joints}
     for joint, element in joints:
         chain = [joint]

@@ -15,6 +15,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import GeometryKind
 
 UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
@@ -41,15 +42,7 @@ class MeshReference(Struct, frozen=True):
     hull: bool = False
 
 
-class RefusedShape(Struct, frozen=True):
-    """Geometry that cannot be used. code: of `issue.CODES`. reason: without the line, so that one
-    message can cover all bodies with this reason."""
-
-    code: str
-    reason: str
-
-
-Geometry = MeshReference | Primitive | RefusedShape
+Geometry = MeshReference | Primitive | Refusal
 
 
 class Collision(Struct, frozen=True):

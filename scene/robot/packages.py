@@ -18,7 +18,7 @@ from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.opening import read_whole
@@ -65,14 +65,14 @@ class MeshPlaces:
         """The path of an existing file, relative if the path of the URDF is relative. models: or of
         the folder of a Gazebo model.
 
-        Raises MeshFileError. Its message names the cause and not the file, so that files with the
+        Raises Refused. Its message names the cause and not the file, so that files with the
         same cause share one message.
         """
         if "\0" in uri:
-            raise MeshFileError("bad-record", "the path holds a NUL character")
+            raise Refused("bad-record", "the path holds a NUL character")
         if _SUBSTITUTION.search(uri):
             message = "$(...) is a macro that xacro replaces: expand the file first"
-            raise MeshFileError("xacro", message)
+            raise Refused("xacro", message)
         match = _SCHEME.fullmatch(uri)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", uri)
         if scheme in _PACKAGE_SCHEMES:
@@ -82,19 +82,19 @@ class MeshPlaces:
             if named := self._named(rest, models):
                 return named
             hint = f"--package {rest.partition('/')[0]}=DIR says where the files of this server lie"
-            raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
+            raise Refused("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
         if models and not scheme and (named := self._named(rest, models)):
             return named
         try:
             place = self._plain(rest, models, quoted=scheme == "file")
-        except MeshFileError:
+        except Refused:
             if models and not scheme and "/" not in rest:
                 return self._in_package(rest, models)  # a bare name of a model
             raise
         if _is_from_environment(place):
             return place
         if not self._may_open(place):
-            raise MeshFileError(
+            raise Refused(
                 "outside-path",
                 f"it lies {self._outside()}: allow it with --allow-outside, or with a package.xml "
                 "in the folder that holds both",
@@ -106,12 +106,12 @@ class MeshPlaces:
         above the file: many write file://models/NAME, from the root of their repository."""
         try:
             return _existing(self._folder, rest, models, quoted=quoted)
-        except MeshFileError:
+        except Refused:
             from_root = quoted and not rest.startswith("/")
             count = len(self._folder.absolute().parents) if from_root else 0
             above = (self._upwards(steps) for steps in range(1, count + 1))
             for root in (*folders_of_environment(), *above):
-                with suppress(MeshFileError):
+                with suppress(Refused):
                     return _existing(root, rest, models, quoted=quoted)
             raise
 
@@ -126,7 +126,7 @@ class MeshPlaces:
             folders.append(folder)
             try:
                 place = _existing(folder, inner, models, quoted=True)
-            except MeshFileError as error:
+            except Refused as error:
                 reasons.append(error)
                 continue
             if self._may_open(place) or _is_from_environment(place):
@@ -136,13 +136,13 @@ class MeshPlaces:
             message = (
                 f"package {name!r} lies {self._outside()}: allow it: --package {name}={folders[0]}"
             )
-            raise MeshFileError("outside-path", message)
+            raise Refused("outside-path", message)
         if reasons:
             hint = f"--package {name}=DIR names another package"
-            raise MeshFileError(reasons[0].code, f"{reasons[0].message}: {hint}")
+            raise Refused(reasons[0].code, f"{reasons[0].message}: {hint}")
         likely = self._own if _is_file(self._root / inner) else "DIR"
         message = f"package {name!r} is not found: --package {name}={likely} says where it lies"
-        raise MeshFileError("missing-resource", message)
+        raise Refused("missing-resource", message)
 
     def _named(self, rest: str, models: bool) -> Path | None:
         """Resolves by the packages that the user named. Files in their folders are trusted."""
@@ -152,7 +152,7 @@ class MeshPlaces:
             if folder is not None:
                 inside = "/".join(parts[length:])
                 if not self._permitted.has(folder / inside, followed(folder)):
-                    raise MeshFileError("outside-path", f"the path leaves {folder}: refused")
+                    raise Refused("outside-path", f"the path leaves {folder}: refused")
                 return _existing(folder, inside, models, quoted=True)
         return None
 
@@ -232,8 +232,8 @@ def _name_in_manifest(folder: Path) -> str | None:
     note(folder / _PACKAGE_XML)
     try:
         place = folder / _PACKAGE_XML
-        root = read_elements(read_whole(str(place), place, _MAX_BYTES, MeshFileError))
-    except MeshFileError:
+        root = read_elements(read_whole(str(place), place, _MAX_BYTES))
+    except Refused:
         return None
     name = root.find("name") if root.tag == "package" else None
     return name.text or None if name else None
@@ -252,11 +252,11 @@ def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path:
         if _is_file(place) or (models and _is_model(place)):
             return place
     if models and any(map(_is_folder, places)):
-        raise MeshFileError("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
+        raise Refused("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
     above = places[-1].parent
     where = f"{above.as_posix().rstrip('/')}/"
     what = f"no such file in {where}" if _is_folder(above) else f"there is no folder {above}"
-    raise MeshFileError("missing-resource", what)
+    raise Refused("missing-resource", what)
 
 
 def _is_model(folder: Path) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import RobotFile, robot_reader, robots
 from satcheck.scene.robot.model import Robot
@@ -12,7 +11,7 @@ from satcheck.scene.robot.xml_tree import read_tree, refuse_root
 
 
 def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and issues. Raises SceneFileError with the file, the line and the element.
+    """Return the robot, and issues. Raises Refused with the file, the line and the element.
 
     path: of the file, for messages; location: where it lies. No mesh is opened.
     """
@@ -20,10 +19,7 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
     reader = robot_reader(root.tag)
     if reader is None:
         refuse_root(root, robots())
-    try:
-        robot, issues = reader.function()(root, file)
-    except MeshFileError as error:
-        raise SceneFileError(error.code, error.message, file=error.file) from error.__cause__
+    robot, issues = reader.function()(root, file)
     if file.geometry == "visual":
         message = "visual geometry is checked, not collision geometry"
         issues = (*issues, issue("visual-geometry", message, file=path))

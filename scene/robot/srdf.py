@@ -72,7 +72,7 @@ class Srdf(Struct, frozen=True):
 
 
 def read_srdf(path: str, location: Path) -> Srdf:
-    """Raises SceneFileError with the file, the line and the element."""
+    """Raises Refused with the file, the line and the element."""
     root = read_tree(path, location, "robot")
     slips = Slips()
     slips.look(root, ROBOT)

@@ -17,6 +17,7 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import RobotFile
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
@@ -31,7 +32,6 @@ from satcheck.scene.robot.model import (
     Link,
     MeshReference,
     Mimic,
-    RefusedShape,
     Robot,
     UrdfJointKind,
 )
@@ -52,7 +52,7 @@ _SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
 
 
 def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and warnings. Raises SceneFileError with the file, the line and the
+    """Return the robot, and warnings. Raises Refused with the file, the line and the
     element. root: the outermost element. No mesh is opened."""
     return _Reader(root.file, file.geometry).read(root)
 
@@ -128,7 +128,7 @@ class _Reader:
                 origin = compose(origin, _facing(shape))
             return Collision(name, origin, geometry, element.line)
         except RefusedElement as error:
-            return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
+            return Collision(name, IDENTITY, Refusal(error.code, error.reason), error.at)
 
     def _joint(self, element: Element, names: Sequence[str]) -> Joint:
         self._slips.look(element, JOINT)

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn, Self
 
-from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import xml_tree
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
 from satcheck.scene.opening import read_whole
@@ -35,7 +35,7 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-class RefusedElement(SceneFileError):
+class RefusedElement(Refused):
     """at: the line of the element; reason: what is wrong with it."""
 
     def __init__(self, code: str, at: int, reason: str, file: str) -> None:
@@ -118,9 +118,9 @@ class Element(xml_tree.Element):
 def read_tree(path: str, location: Path, *roots: str) -> Element:
     """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
-    Text between elements is ignored. Raises SceneFileError, with the line.
+    Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
+    document = _parse(path, read_whole(path, location, _MAX_BYTES))
     if roots and document.tag not in roots:
         refuse_root(document, roots)
     _refuse_macros(document)
@@ -162,7 +162,7 @@ def first_tags(head: bytes, count: int) -> list[str]:
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
-    with suppress(MeshFileError):  # the reader reports the error
+    with suppress(Refused):  # the reader reports the error
         parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
     return tags[:count]
 
@@ -175,13 +175,13 @@ def _with_declaration_first(data: bytes) -> bytes:
 
 def _parse(path: str, data: bytes) -> Element:
     try:
-        with suppress(MeshFileError):
+        with suppress(Refused):
             return _parsed(path, data)
         return _parsed(path, _AMPERSAND.sub(b"&amp;", _without_comments(data)))
-    except MeshFileError as error:
+    except Refused as error:
         if _ERB in data:
-            raise SceneFileError("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
-        raise SceneFileError(error.code, error.message, file=path) from None
+            raise Refused("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
+        raise Refused(error.code, error.message, file=path) from None
 
 
 def _parsed(path: str, data: bytes) -> Element:

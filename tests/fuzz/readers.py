@@ -17,7 +17,7 @@ from satcheck.cli.report_file import read_report
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
-from satcheck.scene import MeshFileError, Scene, SceneFileError, load_scene
+from satcheck.scene import Refused, Scene, load_scene
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import RawScene, Refusal
 from satcheck.scene.loading.readers import File
@@ -56,7 +56,7 @@ def read_in_this_process(path: Path) -> None:
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
     if isinstance(content, Refusal):
-        raise MeshFileError(content.code, content.message)
+        raise Refused(content.code, content.message)
     flattened(content)
 
 
@@ -73,7 +73,7 @@ def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
         _MODELS.robot(str(path), path, FilePlaces(str(path)), {}, "collision")
-    except SceneFileError as error:
+    except Refused as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error
         raise

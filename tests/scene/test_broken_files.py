@@ -368,14 +368,14 @@ def test_a_path_to_no_file_says_what_is_there(tmp_path):
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in this file system")
 def test_a_pipe_is_refused_without_waiting_for_a_writer(tmp_path):
-    from satcheck.scene import SceneFileError, load_scene
+    from satcheck.scene import Refused, load_scene
 
     for name in ("pipe.stl", "pipe.json"):
         os.mkfifo(tmp_path / name)
     (issue,) = load_scene([tmp_path / "pipe.stl"]).issues
     assert issue.code == "not-a-file"
     assert "is a pipe" in issue.message
-    with pytest.raises(SceneFileError, match="is a pipe"):
+    with pytest.raises(Refused, match="is a pipe"):
         load_scene([tmp_path / "pipe.json"])
 
 

@@ -9,7 +9,7 @@ import struct
 
 import pytest
 
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from tests.scene import files
 from tests.scene.loading import loaded, refusal, warnings
 
@@ -101,7 +101,7 @@ def test_scenes_and_robots(tmp_path, name):
 @pytest.mark.parametrize("name", ["cell.json", "cell.toml"])
 def test_a_scene_in_utf_16_is_refused(tmp_path, name):
     (tmp_path / name).write_bytes(marked(PLACED[name].encode(), "utf-16-le"))
-    with pytest.raises(SceneFileError, match="not UTF-8"):
+    with pytest.raises(Refused, match="not UTF-8"):
         load_scene([tmp_path / name])
 
 

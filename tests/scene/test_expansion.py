@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.limits import MAX_DEPTH, MAX_PLACEMENTS
 from satcheck.scene.loading.placing import refuse_explosion
 
@@ -16,7 +16,7 @@ Held = dict[str, list[tuple[str, int]]]
 def refused(held: Held, size: int = 1) -> str | None:
     try:
         refuse_explosion(["root"], lambda key: held.get(key, []), lambda _: size, str, MAX_DEPTH)
-    except MeshFileError as error:
+    except Refused as error:
         return f"{error.code}: {error.message}"
     return None
 

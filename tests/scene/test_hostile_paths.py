@@ -8,7 +8,7 @@ import os
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import SceneFileError, load_scene, opening
+from satcheck.scene import Refused, load_scene, opening
 from satcheck.scene.loading import limits
 from tests.scene import files
 from tests.scene.hostile import issues, needs_links, needs_pipes, write
@@ -59,7 +59,7 @@ def scene_with(mesh):
 
 def scene_error(folder, mesh):
     (folder / "a.json").write_text(scene_with(mesh))
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load_scene([folder / "a.json"])
     return caught.value
 

@@ -7,7 +7,7 @@ from threading import Thread
 
 import pytest
 
-from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files, opening
+from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files, opening
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.readers import ReadLimits
@@ -39,7 +39,7 @@ def test_a_part_is_the_node_where_the_file_places_it(wheel):
 
 def test_a_part_that_is_not_there_is_an_error_with_a_suggestion(wheel):
     found = MeshFiles().node("wheel.glb", wheel, "tire").file
-    assert isinstance(found, MeshFileError)
+    assert isinstance(found, Refused)
     assert found.code == "unknown-part"
     assert "did you mean 'tyre'?" in found.message
 
@@ -51,8 +51,8 @@ def test_a_component_is_a_part_of_any_format(tmp_path):
     found = read.node("two.obj", path, "#2")
     assert isinstance(found.file, MeshFile)
     assert found.file.mesh.bounds == ((3, 0, 0), (4, 1, 1))
-    assert isinstance(read.node("two.obj", path, "#3").file, MeshFileError)
-    assert isinstance(read.node("two.obj", path, "two").file, MeshFileError)
+    assert isinstance(read.node("two.obj", path, "#3").file, Refused)
+    assert isinstance(read.node("two.obj", path, "two").file, Refused)
 
 
 def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
@@ -68,7 +68,7 @@ def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
 def test_what_cannot_be_read_stays_so(tmp_path):
     read = MeshFiles()
     missing = read.node("gone.glb", tmp_path / "gone.glb", "a").file
-    assert isinstance(missing, MeshFileError)
+    assert isinstance(missing, Refused)
     assert missing.code == "file-not-found"
     assert read.node("gone.glb", tmp_path / "gone.glb", "b").file is missing
 
@@ -86,7 +86,7 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     path.parent.mkdir()
     path.write_bytes(graphs.gltf(document))
     refused = MeshFiles().node("level.gltf", path, None).file
-    assert isinstance(refused, MeshFileError)
+    assert isinstance(refused, Refused)
     assert refused.code == "outside-path"
     allowed = ReadLimits(permitted=ANYWHERE)
     assert isinstance(MeshFiles(allowed).node("level.gltf", path, None).file, MeshFile)
@@ -127,8 +127,8 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
         assert pieces.mesh.to_bytes() == whole.mesh.to_bytes()
         assert (pieces.health, pieces.resolution) == (whole.health, whole.resolution)
     else:
-        assert isinstance(pieces, MeshFileError)
-        assert isinstance(whole, MeshFileError)
+        assert isinstance(pieces, Refused)
+        assert isinstance(whole, Refused)
         assert (pieces.code, str(pieces)) == (whole.code, str(whole))
 
 
@@ -139,10 +139,10 @@ def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, mon
     file = open_file("fan.stl", path, ReadLimits(1, 100, hashed=False))
     assert file.in_pieces
     path.write_bytes(stl_of(300)[:1000])
-    with pytest.raises(MeshFileError, match="byte 1000: truncated while it was read"):
+    with pytest.raises(Refused, match="byte 1000: truncated while it was read"):
         read_native(file)
     path.unlink()
-    with pytest.raises(MeshFileError, match="cannot be read: No such file"):
+    with pytest.raises(Refused, match="cannot be read: No such file"):
         read_native(file)
 
 
@@ -169,6 +169,6 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
             assert found.mesh.to_bytes() == expected.mesh.to_bytes()
             assert found.health == expected.health
         else:
-            assert isinstance(found, MeshFileError)
+            assert isinstance(found, Refused)
             assert (found.code, str(found)) == (expected.code, str(expected))
-    assert isinstance(ahead.node("bad.obj", places["bad.obj"], None).file, MeshFileError)
+    assert isinstance(ahead.node("bad.obj", places["bad.obj"], None).file, Refused)

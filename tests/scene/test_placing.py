@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from satcheck.scene import MeshFileError
+from satcheck.scene import Refused
 from satcheck.scene.loading.placing import instances, multiply, tidy_name
 
 UNIT_ROUNDOFF = Fraction(1, 2**53)
@@ -69,7 +69,7 @@ def test_instances_come_depth_first_in_the_order_given():
 
 @pytest.mark.parametrize("graph", [{"a": ["a"]}, {"a": ["b"], "b": ["c"], "c": ["b"]}])
 def test_a_circle_is_refused(graph):
-    with pytest.raises(MeshFileError, match="contains itself") as caught:
+    with pytest.raises(Refused, match="contains itself") as caught:
         names_of(graph, ["a"])
     assert caught.value.code == "reference-cycle"
 

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from satcheck.audit.batch.check_options import CheckOptions
 from satcheck.audit.batch.key import terms_of
 from satcheck.scene import load_scene
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading.readers import readers, stated_options
 from satcheck.scene.read_options import ReadOptions, as_stated
 from tests.plugin_marks import needs
@@ -50,5 +50,5 @@ def test_a_scene_states_what_is_not_given(tmp_path: Path) -> None:
         (tmp_path / f"{name}.toml").write_text(text)
     assert load_scene([tmp_path / "a.toml"]).reading.time == 1
     assert load_scene([tmp_path / "a.toml"], reading=ReadOptions(time=5)).reading.time == 5
-    with pytest.raises(SceneFileError, match="differs"):
+    with pytest.raises(Refused, match="differs"):
         load_scene([tmp_path / "a.toml", tmp_path / "b.toml"])

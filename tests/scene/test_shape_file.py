@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Primitive, Sphere
-from satcheck.scene import MeshFileError
+from satcheck.scene import Refused
 from satcheck.scene.inspect import shape_file
 
 
@@ -36,7 +36,7 @@ def test_the_hash_is_that_of_the_sizes():
     ],
 )
 def test_sizes_out_of_range_are_refused(shape: Primitive) -> None:
-    with pytest.raises(MeshFileError, match="out of range") as caught:
+    with pytest.raises(Refused, match="out of range") as caught:
         shape_file(shape, "cell.toml")
     assert (caught.value.code, caught.value.file) == ("out-of-range", "cell.toml")
 

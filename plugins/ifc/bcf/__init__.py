@@ -1,6 +1,6 @@
 """Findings as topics for coordination programs: BCF 3.0 (buildingSMART, BCF-XML), with bcf-client.
 
-One topic for each group of findings, with a view of each pair. Its import raises MeshFileError
+One topic for each group of findings, with a view of each pair. Its import raises Refused
 (`missing-extra`) without the library.
 """
 

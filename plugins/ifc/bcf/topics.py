@@ -20,7 +20,7 @@ from satcheck.cli.formats.ci.problems import kind_of, measured
 from satcheck.cli.formats.order import is_listed, worst_first
 from satcheck.cli.formats.words import counted
 from satcheck.plugins.ifc.model import unpacked
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -194,6 +194,6 @@ def _project_of(file: str) -> str | None:
     project."""
     try:
         match = _PROJECT.search(unpacked(memoryview(Path(file).read_bytes())))
-    except (OSError, MeshFileError):
+    except (OSError, Refused):
         return None
     return match[1].decode("ascii", "replace") if match else None

@@ -10,7 +10,7 @@ import pytest
 
 from satcheck.plugins.ifc.reader import read_ifc
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.errors import MeshFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.readers import File
 from tests.plugins.ifc.models import METRES, MILLIMETRES, Model
@@ -224,7 +224,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "import_module", missing)
-    with pytest.raises(MeshFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read_ifc(File("ifc", "", "a.ifc", good().encode(), 0))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[ifc]'" in caught.value.message

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.plugins.mjcf.child import model as read_model
-from satcheck.scene import MeshFile, MeshFileError, SceneFileError, load_scene
+from satcheck.scene import MeshFile, Refused, load_scene
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.readers import File
 from satcheck.scene.mesh_files import MeshFiles
@@ -270,14 +270,14 @@ def test_an_included_file_may_not_declare_entities(tmp_path: Path) -> None:
     write(tmp_path, '<!DOCTYPE m [<!ENTITY e "x">]>\n<mujoco/>', "part.xml")
     text = f'<mujoco><include file="part.xml"/>{model(body("b", geom("g"))).partition(">")[2]}'
     path = write(tmp_path, text)
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load_scene([path])
     assert caught.value.code == "entity-declaration"
 
 
 def test_a_file_of_another_ending_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path, model(body("b", geom("g"))), "m.txt")
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load_scene([path])
     assert caught.value.code == "unsupported-format"
 
@@ -287,6 +287,6 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "import_module", missing)
-    with pytest.raises(MeshFileError, match=r"pip install 'satcheck\[mjcf\]'") as caught:
+    with pytest.raises(Refused, match=r"pip install 'satcheck\[mjcf\]'") as caught:
         read_model(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
     assert caught.value.code == "missing-extra"

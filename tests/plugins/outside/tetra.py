@@ -10,7 +10,7 @@ import click
 
 from satcheck.cli.commands import Plugin
 from satcheck.cli.formats.registry import Format, Reports
-from satcheck.scene import MeshFileError
+from satcheck.scene import Refused
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
 from satcheck.scene.loading.readers import File, Reader
 
@@ -27,7 +27,7 @@ def read(file: File) -> RawScene:
         corners = [float(word) for word in bytes(file.data).split()]
         points = struct.pack("<12d", *corners)
     except (ValueError, struct.error) as error:
-        raise MeshFileError("bad-record", f"not four corners: {error}") from error
+        raise Refused("bad-record", f"not four corners: {error}") from error
     triangles = struct.pack("<12I", *_FACES)
     return alone(RawMesh(points, triangles, "written-digits", units="mm"))
 

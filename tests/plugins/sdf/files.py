@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.transform import Transform
-from satcheck.scene import Issue, SceneFileError, load_scene
+from satcheck.scene import Issue, Refused, load_scene
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import Robot
 from satcheck.scene.robot.kinematics import link_poses
@@ -77,7 +77,7 @@ def codes(folder: Path, text: str) -> list[str]:
 def refusal(folder: Path, text: str) -> tuple[str, str]:
     """(code, message) of a file that must be refused, its name in front."""
     path = write(folder, text)
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read_robot(path, "w.sdf")
     assert str(caught.value).startswith("w.sdf: line ")
     return caught.value.code, caught.value.message

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from satcheck.scene.files_read import files_read
 from tests.plugins.sdf.files import (
     include,
@@ -190,7 +190,7 @@ def test_merging_into_the_world(tmp_path: Path) -> None:
     scene = load_scene([write(tmp_path, world(merged))])
     assert scene.order == ("x::a", "y::a")
     assert scene.rules == ()
-    with pytest.raises(SceneFileError, match="merged into the world"):
+    with pytest.raises(Refused, match="merged into the world"):
         load_scene([write(tmp_path, world(merged.replace("two", "one")))])
 
 

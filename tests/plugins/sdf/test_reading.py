@@ -14,7 +14,8 @@ from satcheck.audit.check import check
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot.model import MeshReference, RefusedShape
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.robot.model import MeshReference
 from tests.plugins.sdf.files import (
     BOX,
     axis,
@@ -116,7 +117,7 @@ def test_a_plane_without_a_normal_faces_up(tmp_path: Path) -> None:
 )
 def test_geometry_that_is_not_read_refuses_its_body(tmp_path: Path, inside: str, code: str) -> None:
     found = geometry(tmp_path, inside)
-    assert isinstance(found, RefusedShape)
+    assert isinstance(found, Refusal)
     assert found.code == code
 
 
@@ -282,7 +283,7 @@ def test_a_misspelt_name_in_a_collision_refuses_its_body(tmp_path: Path) -> None
         part = BOX.replace("<geometry>", f"{inside}<geometry>")
         robot, _ = read(tmp_path, sdf(model("m", link("a", inside=part))))
         (collision,) = robot.links["m::a"].collisions
-        assert isinstance(collision.geometry, RefusedShape)
+        assert isinstance(collision.geometry, Refusal)
         assert collision.geometry.code == "misspelt"
 
 
@@ -393,7 +394,7 @@ def test_a_placeholder_beside_a_uri(tmp_path: Path) -> None:
     mesh = "<mesh><uri>m.stl</uri><uri>__default__</uri></mesh>"
     assert geometry(tmp_path, mesh) == MeshReference("m.stl", (1.0, 1.0, 1.0))
     found = geometry(tmp_path, "<mesh><uri>m.stl</uri><uri>n.stl</uri></mesh>")
-    assert isinstance(found, RefusedShape)
+    assert isinstance(found, Refusal)
 
 
 def test_nothing_excuses_a_body_that_is_not_read(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from satcheck.audit import Settings, check
 from satcheck.plugins.step.assembly import read_step
 from satcheck.plugins.step.exchange import read_exchange
 from satcheck.plugins.step.readers import CHORD
-from satcheck.scene import MeshFile, MeshFileError, Scene, load_scene
+from satcheck.scene import MeshFile, Refused, Scene, load_scene
 from satcheck.scene.loading.readers import File
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify import verify
@@ -240,7 +240,7 @@ def test_numbers_that_are_not_finite_end_no_child(tmp_path: Path) -> None:
 
 def test_the_package_to_install_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cascadio", None)
-    with pytest.raises(MeshFileError, match="pip install 'satcheck\\[step\\]'") as caught:
+    with pytest.raises(Refused, match="pip install 'satcheck\\[step\\]'") as caught:
         read_step(File("step", "", "a.step", GOOD.encode(), 0))
     assert caught.value.code == "missing-extra"
 

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from satcheck.plugins.tail.reader import read_tail
-from satcheck.scene import MeshFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from satcheck.scene.loading.readers import File
 from tests.cli.process import satcheck
 from tests.scene import files
@@ -142,13 +142,13 @@ def test_what_trimesh_warns_of_is_an_error() -> None:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(trimesh, "load_scene", load)
-        with pytest.raises(MeshFileError, match="reads a part of it: node left out"):
+        with pytest.raises(Refused, match="reads a part of it: node left out"):
             read_tail(File("zae", "", "a.zae", zae(), 0))
 
 
 def test_the_packages_to_install_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(trimesh, "available_formats", lambda: {"obj"})
-    with pytest.raises(MeshFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read_tail(File("3dxml", "", "a.3dxml", threedxml(), 0))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[tail]'" in caught.value.message

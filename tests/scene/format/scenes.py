@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.errors import SceneFileError
+from satcheck.scene.errors import Refused
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.format.reading import read_scene_file
 from tests.scene import files
@@ -104,6 +104,6 @@ def errors(folder: Path, document: Any, form: str = "json") -> list[SatcheckErro
     """What a scene is refused for; none where it is read."""
     try:
         read(folder, document, form)
-    except SceneFileError as error:
+    except Refused as error:
         return [error, *error.others]
     return []

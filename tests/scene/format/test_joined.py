@@ -6,7 +6,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import check
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from satcheck.scene.format import joined
 from satcheck.scene.rules import Rule
 from tests.scene.format.scenes import BOX, scene_of, write
@@ -96,5 +96,5 @@ def test_groups_of_two_files_are_two_groups(tmp_path):
 
 def test_too_many_pairs_are_refused_with_the_rule(tmp_path, monkeypatch):
     monkeypatch.setattr(joined, "MOST_PAIRS", 3)
-    with pytest.raises(SceneFileError, match=r"two.json:\d+: beside the other inputs"):
+    with pytest.raises(Refused, match=r"two.json:\d+: beside the other inputs"):
         load_scene(scenes(tmp_path, {"a": "*", "b": "*", "clearance": 1}))

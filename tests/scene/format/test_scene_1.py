@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.shapes import Box, Capsule
-from satcheck.scene import SceneFileError
+from satcheck.scene import Refused
 from satcheck.scene.format import form
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
@@ -472,7 +472,7 @@ def test_nothing_of_a_file_outside_is_told(tmp_path):
 
 
 def test_the_error_is_one_of_the_scene(tmp_path):
-    with pytest.raises(SceneFileError):
+    with pytest.raises(Refused):
         read(tmp_path, scene_of(3))
 
 

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from satcheck.scene.rules import Selector
 from tests.scene import files
 from tests.scene.format.scenes import read
@@ -117,11 +117,11 @@ def test_a_typo_at_the_top_is_a_warning(folder, name):
 
 def test_a_typo_in_a_body_is_refused_with_the_key_meant(folder):
     typo = {"id": "b", "mesh": "../meshes/cube.obj", "transfrom": SHIFT}
-    with pytest.raises(SceneFileError, match=r"bodies\[1\].transfrom: .*mean 'transform'\?"):
+    with pytest.raises(Refused, match=r"bodies\[1\].transfrom: .*mean 'transform'\?"):
         load(folder, scene_of(body("a"), typo))
-    with pytest.raises(SceneFileError, match=r"bodies\[0\].ide: .*mean 'id'\?"):
+    with pytest.raises(Refused, match=r"bodies\[0\].ide: .*mean 'id'\?"):
         load(folder, scene_of({"ide": "b", "mesh": "../meshes/cube.obj"}))
-    with pytest.raises(SceneFileError, match=r"\"bodies\" is missing .*'bodys'"):
+    with pytest.raises(Refused, match=r"\"bodies\" is missing .*'bodys'"):
         load(folder, {"schema": "satcheck-scene-1", "bodys": []})
 
 
@@ -159,7 +159,7 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_refused(folder, name):
     document, code, culprit = REFUSED[name]
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load(folder, document)
     assert caught.value.code == code
     assert "test.json" in str(caught.value)
@@ -169,11 +169,11 @@ def test_refused(folder, name):
 
 
 def test_a_missing_scene_file_and_a_wrong_encoding(folder):
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load_scene([folder / "gone.json"])
     assert caught.value.code == "file-not-found"
     (folder / "latin.json").write_bytes(b'{"schema": "\xe9"}')
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         load_scene([folder / "latin.json"])
     assert caught.value.code == "bad-encoding"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import Issue, SceneFileError
+from satcheck.scene import Issue, Refused
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import FilePlaces, Robot
@@ -51,7 +51,7 @@ def read_with_issues(folder: Path, text: str) -> tuple[Robot, tuple[Issue, ...]]
 
 def refusal(folder: Path, text: str) -> tuple[str, str]:
     """(code, message) of a URDF that must be refused, its file named."""
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read(folder, text)
     assert str(caught.value).startswith("r.urdf: ")
     assert "\n" not in str(caught.value)

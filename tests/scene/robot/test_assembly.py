@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene, SceneFileError, load_scene
+from satcheck.scene import Refused, Scene, load_scene
 from satcheck.scene.robot import joint_samples, pose_of_states, posed
 from tests.scene.files import obj
 from tests.scene.robot.robots import BOX, SAMPLES, joint, link, robot_of
@@ -155,11 +155,11 @@ def test_an_srdf_belongs_to_the_robot_of_its_name_or_to_the_only_one(tmp_path: P
     scene = load(tmp_path, link("a"), srdf=other)
     assert codes(scene) == ["other-robot", "unknown-body"]
     srdf = tmp_path / "r.srdf"
-    with pytest.raises(SceneFileError, match="about robot 'other', which is not given"):
+    with pytest.raises(Refused, match="about robot 'other', which is not given"):
         load_scene([ARM[0], tmp_path / "r.urdf", srdf])
-    with pytest.raises(SceneFileError, match="no URDF is given"):
+    with pytest.raises(Refused, match="no URDF is given"):
         load_scene([srdf])
-    with pytest.raises(SceneFileError, match="a second SRDF about robot 'arm'"):
+    with pytest.raises(Refused, match="a second SRDF about robot 'arm'"):
         load_scene([*ARM, ARM[1]])
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import MeshFileError
+from satcheck.scene import Refused
 from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.robot import MeshPlaces
 
@@ -24,7 +24,7 @@ def file(path: Path) -> Path:
 
 
 def refusal(places: MeshPlaces, uri: str) -> tuple[str, str]:
-    with pytest.raises(MeshFileError) as caught:
+    with pytest.raises(Refused) as caught:
         places.locate(uri)
     return caught.value.code, caught.value.message
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene import Refused, load_scene
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 from tests.scene.robot.robots import SAMPLES, joint, link, robot_of
 
@@ -68,7 +68,7 @@ def test_pairs_without_a_reason_and_links_that_are_silent_by_default(tmp_path: P
     ],
 )
 def test_what_is_wrong_is_refused_with_its_line(tmp_path: Path, element: str, said: str) -> None:
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read(tmp_path, element)
     assert str(caught.value).startswith(("r.srdf: line 2: <", "r.srdf: line 2: attribute of <"))
     assert said in caught.value.message

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Sphere
-from satcheck.scene.robot.model import Limits, MeshReference, Mimic, RefusedShape
+from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.robot.model import Limits, MeshReference, Mimic
 from tests.scene.robot.robots import (
     BOX,
     SAMPLES,
@@ -76,19 +77,19 @@ def test_a_plane_is_a_half_space_along_its_normal(tmp_path: Path) -> None:
     path = tmp_path / "drawn.urdf"
     path.write_text(robot_of(link("floor", plane.replace("collision>", "visual>"))))
     drawn, _ = read_robot(path, geometry="visual")
-    assert isinstance(drawn.links["floor"].collisions[0].geometry, RefusedShape)
+    assert isinstance(drawn.links["floor"].collisions[0].geometry, Refusal)
     for wrong in ('normal="0 0 0"', ""):
         text = robot_of(link("floor", plane.replace('normal="0 -3 0"', wrong)))
         (part,) = read(tmp_path, text).links["floor"].collisions
-        assert isinstance(part.geometry, RefusedShape)
+        assert isinstance(part.geometry, Refusal)
 
 
 def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Path) -> None:
     robot = read(tmp_path, robot_of(geometry("<torus/>")))
     shape = robot.links["a"].collisions[0].geometry
-    assert isinstance(shape, RefusedShape)
+    assert isinstance(shape, Refusal)
     assert shape.code == "unsupported-feature"
-    assert shape.reason.startswith("<torus>: ")
+    assert shape.message.startswith("<torus>: ")
     assert robot.links["a"].collisions[0].line == 2
 
 
@@ -117,9 +118,9 @@ def test_a_wrong_shape_costs_its_body_only(tmp_path: Path, shape: str, said: str
     robot = read(tmp_path, robot_of("", geometry(shape), link("b"), joint("j", "a", "b")))
     assert isinstance(robot.links["b"].collisions[0].geometry, Box)
     found = robot.links["a"].collisions[0].geometry
-    assert isinstance(found, RefusedShape)
+    assert isinstance(found, Refusal)
     assert robot.links["a"].collisions[0].line == 3
-    assert said in found.reason
+    assert said in found.message
 
 
 @pytest.mark.parametrize(
@@ -145,13 +146,13 @@ def test_what_has_no_extent_has_no_body(tmp_path: Path, collision: str, said: st
 def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
     text = robot_of(link("a", '<collision><geometri><box size="1 1 1"/></geometri></collision>'))
     found = read(tmp_path, text).links["a"].collisions[0].geometry
-    assert isinstance(found, RefusedShape)
-    assert "unknown geometri (did you mean geometry?)" in found.reason
+    assert isinstance(found, Refusal)
+    assert "unknown geometri (did you mean geometry?)" in found.message
     text = robot_of(link("a", '<collision><shape><box size="1 1 1"/></shape></collision>'))
     robot, issues = read_with_issues(tmp_path, text)
     found = robot.links["a"].collisions[0].geometry
-    assert isinstance(found, RefusedShape)
-    assert "<geometry> is missing" in found.reason
+    assert isinstance(found, Refusal)
+    assert "<geometry> is missing" in found.message
     assert [issue.code for issue in issues] == ["unread"]
 
 
@@ -169,8 +170,8 @@ def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
 def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
     text = robot_of(geometry('<box size="1 1 1"/>', origin))
     found = read(tmp_path, text).links["a"].collisions[0].geometry
-    assert isinstance(found, RefusedShape)
-    assert said in found.reason
+    assert isinstance(found, Refusal)
+    assert said in found.message
     text = robot_of(link("a"), link("b"), joint("j", "a", "b", inside=origin))
     assert said.replace("collision", "joint") in refusal(tmp_path, text)[1]
 
@@ -391,9 +392,9 @@ def test_xacro_has_to_be_expanded(tmp_path: Path, text: str) -> None:
 def test_xacro_inside_of_a_collision_costs_its_body(tmp_path: Path, size: str) -> None:
     robot = read(tmp_path, robot_of(geometry(f'<box size="{size}"/>')))
     found = robot.links["a"].collisions[0].geometry
-    assert isinstance(found, RefusedShape)
+    assert isinstance(found, Refusal)
     assert found.code == "xacro"
-    assert "expand it first" in found.reason
+    assert "expand it first" in found.message
 
 
 def test_xacro_that_makes_no_geometry_does_not_matter(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import SceneFileError
+from satcheck.scene import Refused
 from satcheck.scene.robot.xml_tree import read_tree
 from tests.scene.robot.robots import SAMPLES, refusal
 
@@ -50,7 +50,7 @@ def test_an_ampersand_that_begins_no_reference_stands_for_itself(tmp_path: Path)
 
 @pytest.mark.parametrize(("name", "code"), [("gone", "file-not-found"), ("", "not-a-file")])
 def test_what_is_no_file(tmp_path: Path, name: str, code: str) -> None:
-    with pytest.raises(SceneFileError) as caught:
+    with pytest.raises(Refused) as caught:
         read_tree("r.urdf", tmp_path / name, "robot")
     assert caught.value.code == code
     assert caught.value.file == "r.urdf"
