@@ -25,7 +25,7 @@ class _Head(msgspec.Struct, frozen=True):
 def read_baseline(path: Path) -> Baseline:
     """Raises SatcheckError: `bad-baseline`, or a code about the file."""
     try:
-        text = read_whole(str(path), path, MOST_BYTES, SatcheckError)
+        text = read_whole(str(path), path, MOST_BYTES)
         schema = msgspec.json.decode(text, type=_Head).schema
         if schema != SCHEMA and schema.startswith(SCHEMA.rstrip("1")):
             reason = "of another version of satcheck: write it again"

@@ -222,7 +222,7 @@ def text_of(path: Path) -> bytes:
     from satcheck.scene.opening import read_whole
 
     try:
-        return read_whole(str(path), path, MOST_BYTES, SatcheckError)
+        return read_whole(str(path), path, MOST_BYTES)
     except SatcheckError as error:
         raise bad_config(str(error)) from None
 

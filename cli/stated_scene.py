@@ -96,7 +96,7 @@ def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
 def read_report(path: Path) -> Report | AssetsReport:
     """Raises SatcheckError: `bad-report`, or a code about the file."""
     try:
-        data = read_whole(str(path), path, MOST_BYTES, SatcheckError)
+        data = read_whole(str(path), path, MOST_BYTES)
         head = msgspec.json.decode(data)
         if isinstance(head, dict) and "assets" in head:
             return msgspec.convert(head, AssetsReport)

@@ -1,4 +1,4 @@
-"""Why a file cannot be used. Codes are those of `issue.CODES`."""
+"""Why an input, or a part of it, cannot be used. Codes are those of `issue.CODES`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,10 @@ from satcheck.core.errors import SatcheckError
 
 
 class Refused(SatcheckError):
-    """A mesh file cannot be used. Other files are not affected."""
+    """A file, a mesh of it or an element of it is refused. What is beside it is not affected,
+    unless it has no meaning without it, as the bodies of a scene file.
 
-
-class Refused(SatcheckError):
-    """A scene file is refused as a whole.
-
-    line: the line of the file at fault; None: no single line.
+    line: the line of the file at fault; None: no single line, or the message states it.
     """
 
     def __init__(

@@ -183,8 +183,8 @@ class MeshFiles:
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
     ) -> tuple[Robot, tuple[Issue, ...]]:
-        """Return the robot that a file describes, and issues. Raises Refused, and
-        Refused if reading it has ended the process before."""
+        """Return the robot that a file describes, and issues. Raises Refused, also if reading it
+        has ended the process before."""
         from satcheck.scene.robot import read_robot
 
         with _reading(path, location):

@@ -8,10 +8,9 @@ import codecs
 import hashlib
 import stat
 from pathlib import Path
-from typing import TypeVar
 
 from satcheck._native.readers import read_file
-from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.readers import (
     KINDS,
@@ -26,7 +25,6 @@ from satcheck.scene.plugins import failures
 
 STANDARD_INPUT = "-"
 _ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
-E = TypeVar("E", bound=SatcheckError)
 
 # Opening one of these may block, or reading it may never end.
 _SPECIAL = (
@@ -84,30 +82,29 @@ _BINARY_PLY = b"\nformat binary"
 
 
 def size_of(location: Path) -> int:
-    """Size of a regular file in bytes. Raises SatcheckError, without a file name, for anything
-    else."""
+    """Size of a regular file in bytes. Raises Refused, without a file name, for anything else."""
     if str(location) == STANDARD_INPUT:
-        raise SatcheckError("not-a-file", "standard input is not read: give the path of a file")
+        raise Refused("not-a-file", "standard input is not read: give the path of a file")
     note(location)
     try:
         status = location.stat()
     except (FileNotFoundError, NotADirectoryError):
-        raise SatcheckError("file-not-found", "no such file") from None
+        raise Refused("file-not-found", "no such file") from None
     except OSError as error:
         raise _unreadable(error) from None
     except ValueError as error:  # a path with a NUL character
-        raise SatcheckError("unreadable-file", f"cannot be read: {error}") from None
+        raise Refused("unreadable-file", f"cannot be read: {error}") from None
     if stat.S_ISDIR(status.st_mode):
-        raise SatcheckError("not-a-file", "is a directory, not a file")
+        raise Refused("not-a-file", "is a directory, not a file")
     if not stat.S_ISREG(status.st_mode):
         kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
-        raise SatcheckError("not-a-file", f"is {kind}, not a file: not read")
+        raise Refused("not-a-file", f"is {kind}, not a file: not read")
     return status.st_size
 
 
-def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
-    """The bytes of a text file, without padding. Raises an error of this kind, with the path, if it
-    is not a regular file, has more than `most` bytes, or cannot be read."""
+def read_whole(path: str, location: Path, most: int) -> bytes:
+    """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
+    regular file, has more than `most` bytes, or cannot be read."""
     try:
         if size_of(location) > most:
             raise _too_large(most)
@@ -116,11 +113,10 @@ def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
         if len(data) > most:
             raise _too_large(most)
         return without_padding(data)
-    except SatcheckError as error:
-        raise kind(error.code, error.message, file=path) from None
+    except Refused as error:
+        raise Refused(error.code, error.message, file=path) from None
     except OSError as error:
-        reason = _unreadable(error)
-        raise kind(reason.code, reason.message, file=path) from None
+        raise Refused("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None
 
 
 def without_padding(data: bytes) -> bytes:
@@ -133,16 +129,16 @@ def without_padding(data: bytes) -> bytes:
     return data[:end] if is_text else data
 
 
-def _unreadable(error: OSError) -> SatcheckError:
-    return SatcheckError("unreadable-file", f"cannot be read: {error.strerror}")
+def _unreadable(error: OSError) -> Refused:
+    return Refused("unreadable-file", f"cannot be read: {error.strerror}")
 
 
-def _too_large(most: int) -> SatcheckError:
-    return SatcheckError("too-large", f"larger than {most >> 20} MiB, the most for such a file")
+def _too_large(most: int) -> Refused:
+    return Refused("too-large", f"larger than {most >> 20} MiB, the most for such a file")
 
 
 def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
-    """Return a mesh file as its reader takes it. Raises SatcheckError, without a file name.
+    """Return a mesh file as its reader takes it. Raises Refused, without a file name.
 
     path: its name in messages and reports. location: on disk. Only a file whose suffix is that of a
     reader is opened. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
@@ -156,7 +152,7 @@ def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
         hint = _CONVERTIBLE.get(location.suffix.lower(), known)
         failed = failures("readers", KINDS)
         message = f"unsupported format {location.suffix!r}: {hint}{failed}"
-        raise SatcheckError("unsupported-format", message)
+        raise Refused("unsupported-format", message)
     _refuse_large(size, most)
     try:
         in_pieces = reader.name == "stl" and not allowed.hashed
@@ -174,7 +170,7 @@ def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
     content = _other_content(reader, size, data)
     if content is not None:
         message = f"not of format {reader.title}: its content is {content}"
-        raise SatcheckError("format-mismatch", message)
+        raise Refused("format-mismatch", message)
     return File(
         reader.name,
         str(location.parent),
@@ -194,7 +190,7 @@ def _refuse_large(size: int, most: int) -> None:
             f"{size} bytes exceed the limit of {most} bytes, a quarter of the memory for one file "
             "(raise it with --megabytes-per-file)"
         )
-        raise SatcheckError("too-large", message)
+        raise Refused("too-large", message)
 
 
 def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
@@ -224,7 +220,7 @@ def _without_mark(data: bytes) -> bytes:
             except UnicodeError:
                 name = encoding[: len("utf-16")].upper()
                 message = f"the byte order mark is that of {name}, the text is not"
-                raise SatcheckError("bad-encoding", message) from None
+                raise Refused("bad-encoding", message) from None
     return data
 
 

@@ -81,7 +81,7 @@ def command(
 
 def _read(report: Path) -> Any:
     try:
-        text = read_whole(str(report), report, MOST_BYTES, SatcheckError).decode()
+        text = read_whole(str(report), report, MOST_BYTES).decode()
     except UnicodeDecodeError:
         raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
     try:

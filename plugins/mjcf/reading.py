@@ -21,7 +21,6 @@ from satcheck.scene.robot.model import (
     Geometry,
     Link,
     MeshReference,
-    Refusal,
     Robot,
     State,
 )
@@ -119,8 +118,6 @@ class _Reader:
 
     def _shape(self, geom: Geom) -> Geometry:
         match geom.shape:
-            case Refusal(code, message):
-                return Refusal(code, message)
             case OwnMesh(part):
                 own = Path(self._path).name
                 return MeshReference(own, (1.0, 1.0, 1.0), part=part, hull=self._hulls)

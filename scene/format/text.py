@@ -50,7 +50,7 @@ def is_toml(location: Path) -> bool:
 
 def read_text(path: str, location: Path) -> str:
     """Raises Refused. path: for messages."""
-    data = read_whole(path, location, _MAX_BYTES, Refused)
+    data = read_whole(path, location, _MAX_BYTES)
     try:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:

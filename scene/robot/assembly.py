@@ -16,13 +16,13 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.plain_ids import HULL_MARK
 from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import (
     Collision,
     Link,
     MeshReference,
-    Refusal,
     Robot,
     State,
 )

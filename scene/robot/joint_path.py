@@ -127,7 +127,7 @@ def _times(poses: Sequence[Pose], is_joint: bool) -> tuple[list[Pose], Numbers]:
 
 def _read_table(file: str) -> list[Pose]:
     try:
-        text = read_whole(file, Path(file), _MAX_BYTES, SatcheckError).decode("utf-8-sig")
+        text = read_whole(file, Path(file), _MAX_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the table of poses is not UTF-8", file=file) from None
     head = text.partition("\n")[0]

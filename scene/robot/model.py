@@ -15,6 +15,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.read_options import GeometryKind
 
 UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
@@ -39,14 +40,6 @@ class MeshReference(Struct, frozen=True):
     start: Transform = IDENTITY
     part: str | None = None
     hull: bool = False
-
-
-class Refusal(Struct, frozen=True):
-    """Geometry that cannot be used. code: of `issue.CODES`. reason: without the line, so that one
-    message can cover all bodies with this reason."""
-
-    code: str
-    reason: str
 
 
 Geometry = MeshReference | Primitive | Refusal

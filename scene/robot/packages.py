@@ -203,7 +203,7 @@ def _name_in_manifest(folder: Path) -> str | None:
     note(folder / _PACKAGE_XML)
     try:
         place = folder / _PACKAGE_XML
-        root = read_elements(read_whole(str(place), place, _MAX_BYTES, Refused))
+        root = read_elements(read_whole(str(place), place, _MAX_BYTES))
     except Refused:
         return None
     name = root.find("name") if root.tag == "package" else None

@@ -146,7 +146,7 @@ def _movable(robots: Sequence[Robot]) -> dict[str, Joint]:
 
 def _text(path: str) -> str:
     try:
-        return read_whole(path, Path(path), _MAX_BYTES, SatcheckError).decode("utf-8-sig")
+        return read_whole(path, Path(path), _MAX_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
     except SatcheckError as error:

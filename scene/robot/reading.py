@@ -48,10 +48,7 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
     reader = robot_reader(root.tag)
     if reader is None:
         _refuse_root(root, robots())
-    try:
-        robot, issues = reader.function()(root, file)
-    except Refused as error:
-        raise Refused(error.code, error.message, file=error.file) from error.__cause__
+    robot, issues = reader.function()(root, file)
     if file.geometry == "visual":
         message = "visual geometry is checked, not collision geometry"
         issues = (*issues, issue("visual-geometry", message, file=path))
@@ -63,7 +60,7 @@ def read_tree(path: str, location: Path, *roots: str) -> Element:
 
     Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, _MAX_BYTES, Refused))
+    document = _parse(path, read_whole(path, location, _MAX_BYTES))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)

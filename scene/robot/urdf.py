@@ -17,6 +17,7 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Primitive, S
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
+from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import RobotFile
 from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
@@ -32,7 +33,6 @@ from satcheck.scene.robot.model import (
     Link,
     MeshReference,
     Mimic,
-    Refusal,
     Robot,
     UrdfJointKind,
 )

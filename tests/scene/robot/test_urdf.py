@@ -88,7 +88,7 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
     shape = robot.links["a"].collisions[0].geometry
     assert isinstance(shape, Refusal)
     assert shape.code == "unsupported-feature"
-    assert shape.reason.startswith("<torus>: ")
+    assert shape.message.startswith("<torus>: ")
     assert robot.links["a"].collisions[0].line == 2
 
 
@@ -119,7 +119,7 @@ def test_a_wrong_shape_costs_its_body_only(tmp_path: Path, shape: str, said: str
     found = robot.links["a"].collisions[0].geometry
     assert isinstance(found, Refusal)
     assert robot.links["a"].collisions[0].line == 3
-    assert said in found.reason
+    assert said in found.message
 
 
 @pytest.mark.parametrize(
@@ -400,7 +400,7 @@ def test_xacro_inside_of_a_collision_costs_its_body(tmp_path: Path, size: str) -
     found = robot.links["a"].collisions[0].geometry
     assert isinstance(found, Refusal)
     assert found.code == "xacro"
-    assert "expand it first" in found.reason
+    assert "expand it first" in found.message
 
 
 def test_xacro_that_makes_no_geometry_does_not_matter(tmp_path: Path) -> None:
