@@ -146,12 +146,12 @@ def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
     text = robot_of(link("a", '<collision><geometri><box size="1 1 1"/></geometri></collision>'))
     found = read(tmp_path, text).links["a"].collisions[0].geometry
     assert isinstance(found, Refusal)
-    assert "unknown geometri (did you mean geometry?)" in found.reason
+    assert "unknown geometri (did you mean geometry?)" in found.message
     text = robot_of(link("a", '<collision><shape><box size="1 1 1"/></shape></collision>'))
     robot, issues = read_with_issues(tmp_path, text)
     found = robot.links["a"].collisions[0].geometry
     assert isinstance(found, Refusal)
-    assert "<geometry> is missing" in found.reason
+    assert "<geometry> is missing" in found.message
     assert [issue.code for issue in issues] == ["unread"]
 
 
@@ -170,7 +170,7 @@ def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
     text = robot_of(geometry('<box size="1 1 1"/>', origin))
     found = read(tmp_path, text).links["a"].collisions[0].geometry
     assert isinstance(found, Refusal)
-    assert said in found.reason
+    assert said in found.message
     text = robot_of(link("a"), link("b"), joint("j", "a", "b", inside=origin))
     assert said.replace("collision", "joint") in refusal(tmp_path, text)[1]
 
