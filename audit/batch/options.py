@@ -1,4 +1,4 @@
-"""How worlds are read: the options of `load_scene` that a call gives for all its worlds."""
+"""The options of a call for all its worlds: how they are read and checked, and their limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a table says about the support of bodies: those that fail first, and what holds them."""
+"""Lines below a table: the support of bodies, overlaps by component, and bodies in regions."""
 
 from __future__ import annotations
 
