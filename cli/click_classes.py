@@ -1,5 +1,5 @@
-"""The classes of commands: how a command shows its help, and tells a wrong value of a config
-file."""
+"""The commands as click has them: how each shows its help and tells a wrong value of a config file,
+and the group of them all, whose first word is a path unless it names a command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures beside a report: `--png` and `--glb`."""
+"""Pictures beside a report, `--png` and `--glb`, and options that contradict each other."""
 
 from __future__ import annotations
 

@@ -23,57 +23,44 @@ WARNINGS = 5
 
 
 class Delivery(Struct, frozen=True):
-    """Where the report goes, and in which form; how the exit code is made; how many assets a table
-    lists at most."""
+    """Where the report goes, in which form, and how the exit code is made. timings: state times.
+    top: how many rows a table lists at most. explain: the steps of each pair. cache: a picture may
+    read and write the cache of convex parts."""
 
     form: str
     output: Path | None
     quiet: bool
     exit_zero: bool
-    top: int | None
-
-
-class Shown(Struct, frozen=True):
-    """The content of a table: the steps of each pair (explain), times, the worst rows only (top).
-
-    cache: a picture may read and write the cache of convex parts.
-    """
-
-    explain: bool
     timings: bool
     top: int | None
-    cache: bool
+    explain: bool = False
+    cache: bool = True
 
 
 def rendered(
-    result: Report | Samples, scene: Scene, form: str, page: Page, shown: Shown
+    result: Report | Samples, scene: Scene, to: Delivery, page: Page
 ) -> str | bytes | Iterable[str]:
-    """Formats are imported here, as they are needed: a table brings rich."""
+    """Return the document. Formats are imported here, as they are needed: a table brings rich."""
     if isinstance(result, Samples):
-        return _samples(result, form, page, shown)
-    if form == "table":
-        result = in_one_line_each(with_titles(result))
-    if form == "json":
-        return render_json(result, timings=shown.timings)
-    kind = kind_of(form)
+        if to.form == "json":
+            return json_document(result.to_dict(to.timings))
+        from satcheck.cli.formats.samples import render as render_samples
+
+        return render_samples(result, page, top=to.top)
+    if to.form == "json":
+        return render_json(result, timings=to.timings)
+    kind = kind_of(to.form)
     if kind == "reports":
-        return pieces({"satcheck": result}, form)
+        return pieces({"satcheck": result}, to.form)
     if kind == "picture":
         from satcheck.cli.formats.picture import render as render_picture
 
         parts = result.settings.accuracy == "parts"
-        return render_picture(form, result, scene, split=parts, cache=shown.cache)
+        return render_picture(to.form, result, scene, split=parts, cache=to.cache)
     from satcheck.cli.formats.table import render as render_table
 
-    return render_table(result, page, explain=shown.explain, timings=shown.timings, top=shown.top)
-
-
-def _samples(result: Samples, form: str, page: Page, shown: Shown) -> str | list[str]:
-    if form == "json":
-        return json_document(result.to_dict(shown.timings))
-    from satcheck.cli.formats.samples import render as render_samples
-
-    return render_samples(result, page, top=shown.top)
+    shown = in_one_line_each(with_titles(result))
+    return render_table(shown, page, explain=to.explain, timings=to.timings, top=to.top)
 
 
 def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -> None:

@@ -1,4 +1,4 @@
-"""The bodies of a report, read again from their files."""
+"""A JSON report of a check or of many assets as a file, and its bodies, read again."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def check_worlds(
     empty = _nothing_compared(assets) if compares else ()
     least: AssetVerdict = "incomplete" if interrupted or empty else "pass"
     seen = overview(assets, interrupted or (*empty, *unused), least=least, top=delivery.top)
-    _deliver(document, seen, assets, delivery, timings=options["timings"])
+    _deliver(document, seen, assets, delivery)
     _tell(seen, assets, None if delivery.quiet else delivery.output)
     if interrupted:
         talk(f"satcheck: {interrupted[0].message}")
@@ -158,23 +158,16 @@ def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:
     return (Issue(INTERRUPTED, "warning", None, None, message),)
 
 
-def _deliver(
-    document: Document,
-    seen: Overview,
-    assets: Sequence[Asset],
-    delivery: Delivery,
-    *,
-    timings: bool,
-) -> None:
-    if delivery.output is None and delivery.quiet:
+def _deliver(document: Document, seen: Overview, assets: Sequence[Asset], to: Delivery) -> None:
+    if to.output is None and to.quiet:
         return
-    if delivery.output is None and delivery.form == "table" and not assets:
+    if to.output is None and to.form == "table" and not assets:
         return  # no asset changed, and stderr says so
     made = AssetReports(lambda: assets, len(assets))
     document.deliver(
-        lambda page: written(seen, made, delivery.form, page, timings=timings),
-        delivery.output,
-        utf8=delivery.form != "table",
+        lambda page: written(seen, made, to.form, page, timings=to.timings),
+        to.output,
+        utf8=to.form != "table",
     )
 
 

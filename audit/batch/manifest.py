@@ -1,4 +1,4 @@
-"""The scenes of a batch as a file names them."""
+"""The scenes of a batch: as a file names them, and in shards that know nothing of each other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a call asks of each of its worlds."""
+"""The options of a call for all its worlds: how they are read and checked, and their limits."""
 
 from __future__ import annotations
 

@@ -101,8 +101,8 @@ class Movers:
 
 
 class SweptBoxes:
-    """A body as it moves. bounds: of the body as placed. The boxes are kept, because many pairs
-    have the same moving body."""
+    """The world boxes of a body over parts of its motion. bounds: of the body as placed. The boxes
+    are kept, because many pairs have the same moving body."""
 
     def __init__(self, bounds: Box, track: Track = STANDS) -> None:
         self.placed = bounds
@@ -120,7 +120,11 @@ class SweptBoxes:
 
 
 def may_meet(a: SweptBoxes, b: SweptBoxes, limit: float) -> bool:
-    """Whether the boxes are as close as the limit, as placed or over some part of the motion."""
+    """Return whether the boxes are as close as the limit, at rest or over some part of the motion.
+
+    Two bodies whose boxes over the whole motion overlap are mostly never close at the same time. So
+    the motion is halved, again and again, until the boxes over each part are apart.
+    """
     if core.box_gap(a.placed, b.placed) <= limit:
         return True
     parts = [(0.0, 1.0)]

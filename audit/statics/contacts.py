@@ -251,7 +251,9 @@ def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
 def ball_on_mesh(
     centre: Floats, radius: float, mesh: Features, tolerance: float, rounding: float
 ) -> Points:
-    """The contacts of a ball (A) with a mesh (B), whose surface the centre is outside of."""
+    """Return the contacts of a ball (A) with a mesh (B), whose surface the centre is outside of:
+    one for each nearest point of it. That needs no tolerance of place, because the normal is the
+    line to the centre."""
     corners = mesh.corners
     reach = radius + tolerance
     low, high = corners.min(axis=1), corners.max(axis=1)

@@ -113,7 +113,12 @@ def _centre_of_shape(curved: CurvedShape) -> Floats:
 
 
 def volume_and_centre(points: Floats, triangles: Indices) -> tuple[float, Floats]:
-    """Of the region that the surface winds around once. The volume may be 0 or less."""
+    """Return those of the region that the surface winds around once. The volume may be 0 or less.
+
+    B. Mirtich, "Fast and Accurate Computation of Polyhedral Mass Properties" (1996): by tetrahedra
+    between each triangle and one point, which is taken inside the box of the body, so that little
+    cancels. The weights only set up the problem; the checker of certificates weighs again, exactly.
+    """
     used = points[triangles]
     middle = 0.5 * (used.min(axis=(0, 1)) + used.max(axis=(0, 1)))
     corners = used - middle
@@ -151,7 +156,8 @@ def centre_above_origin(shape: Primitive) -> float:
 
 
 class Terms(Struct, frozen=True):
-    """gravity: unit. stated: which of these the scene states."""
+    """Gravity, friction and tolerance of a check. gravity: unit. stated: which of these the scene
+    states; the others are assumed."""
 
     gravity: Vector
     friction: float

@@ -150,9 +150,14 @@ def rounding_of(one: Subject, other: Subject, tolerance: float) -> float:
 def may_be_through(
     points: Points, a: Features | Ball | None, b: Features | Ball | None, tolerance: float
 ) -> bool:
-    """Whether a contact may be on the far side. There, the overlap is the thickness of both less
-    the real overlap, and both overlaps are up to the tolerance. Walls may be thinner than their
-    body: then contacts at one place have opposed normals. So may contacts too many to compare."""
+    """Return whether a contact may be on the far side of a body that is too thin for the tolerance.
+
+    A tile that hangs under a thin plate has its bottom within the tolerance of the plate's top. So
+    it seems to lie on the plate, and a force of the wrong sign seems to hold it. There, the overlap
+    is the thickness of both less the real overlap, and both overlaps are up to the tolerance. Walls
+    may be thinner than their body: then contacts at one place have opposed normals. So may contacts
+    too many to compare.
+    """
     if a is None or b is None or not len(points):
         return False
     normals = np.unique(np.round(points.normals, 7), axis=0)

@@ -37,7 +37,7 @@ from satcheck.cli.pictures import (
     write_pictures,
 )
 from satcheck.cli.progress import Bar
-from satcheck.cli.rendering import Delivery, Shown, rendered, tell
+from satcheck.cli.rendering import Delivery, rendered, tell
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene
 from satcheck.scene.loading.readers import readers, robots
@@ -290,7 +290,8 @@ def command(
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     config = stated_config(click.get_current_context())
-    delivery = Delivery(form, output, quiet, exit_zero, top)
+    timings, cache = options["timings"], options["cache"]
+    delivery = Delivery(form, output, quiet, exit_zero, timings, top, explain, cache)
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
         from satcheck.cli.worlds import check_worlds
@@ -318,8 +319,7 @@ def command(
         result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
-    shown = Shown(explain=explain, timings=options["timings"], top=top, cache=options["cache"])
-    _deliver(document, result, scene, delivery, shown, pictures)
+    _deliver(document, result, scene, delivery, pictures)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
 
@@ -329,13 +329,12 @@ def _deliver(
     result: Report | Samples,
     scene: Scene,
     to: Delivery,
-    shown: Shown,
     pictures: Pictures,
 ) -> None:
     """The report, the pictures beside it, and what stderr says."""
     if to.output is not None or not to.quiet:
         document.deliver(
-            lambda page: rendered(result, scene, to.form, page, shown),
+            lambda page: rendered(result, scene, to, page),
             to.output,
             utf8=to.form != "table",
         )

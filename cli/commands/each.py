@@ -100,7 +100,7 @@ def command(
         inputs,
         options,
         baseline,
-        Delivery(form, output, quiet, exit_zero, top),
+        Delivery(form, output, quiet, exit_zero, options["timings"], top),
         config,
         Limits(scene_seconds, scene_megabytes),
         complete=changed_since is None,

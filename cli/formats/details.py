@@ -1,4 +1,4 @@
-"""What a table says about the support of bodies: those that fail first, and what holds them."""
+"""Lines below a table: the support of bodies, overlaps by component, and bodies in regions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from satcheck.cli.formats.numbers import at_most, bounds, number, vector
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.cli.formats.words import NEGLIGIBLE, counted, with_unit
-from satcheck.report.verdict import is_unmet
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -28,7 +27,6 @@ _STYLES = {"no": BOLD_RED, "open": YELLOW, "yes": ""}
 
 # Of each pair; JSON has them all.
 MOST_COMPONENTS = 8
-MOST_BODIES = 40  # JSON has them all
 
 
 def support_lines(report: Report, page: Page) -> list[str]:
@@ -50,24 +48,6 @@ def support_lines(report: Report, page: Page) -> list[str]:
             fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page) if rest > 0 else []
         )
     return lines
-
-
-def held(statics: Statics) -> str:
-    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
-    many have none, which a severity makes no failure."""
-    free = {body.id for body in statics.bodies if body.fixed is None}
-    yes = {f.body for f in statics.findings if f.answer == "yes"} & free
-    no = {f.body for f in statics.findings if f.answer == "no"}
-    said = f"contact forces exist that hold {counted(len(yes - no), 'body', 'bodies')}"
-    if not no:
-        return said
-    missing = f"not supported: {counted(len(no), 'body', 'bodies')}"
-    return f"{said}, {missing}" if yes - no else missing
-
-
-def warned(statics: Statics) -> int:
-    """The number of answers that are yes, with a warning."""
-    return sum(f.answer == "yes" and f.severity == "warning" for f in statics.findings)
 
 
 def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:
@@ -164,27 +144,6 @@ def facts(item: Component, finding: Finding) -> Iterator[str]:
         yield f"{finding.a} passes through {finding.b}"
     if item.passes in ("b-through-a", "both"):
         yield f"{finding.b} passes through {finding.a}"
-
-
-def unmet(report: Report) -> list[str]:
-    """`top is not stable: no contact forces hold it`, of each failing body once."""
-    said: dict[str, str] = {}
-    for answer in report.answers:
-        if is_unmet(answer, report.settings.fail_on):
-            sentence = f"{answer.body} is not {answer.question}: {answer.reason}"
-            said.setdefault(answer.body, sentence)
-    return list(said.values())
-
-
-def undecided(report: Report) -> list[str]:
-    """`the support of 2 bodies is open`."""
-    held = report.support.findings if report.support else ()
-    lying = report.regions.findings if report.regions else ()
-    counts = {
-        "the support of {} is open": len({f.body for f in held if f.answer == "open"}),
-        "the region of {} is open": len({f.body for f in lying if f.answer == "open"}),
-    }
-    return [said.format(counted(n, "body", "bodies")) for said, n in counts.items() if n]
 
 
 def region_lines(report: Report, page: Page) -> list[str]:

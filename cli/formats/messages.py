@@ -25,14 +25,15 @@ from satcheck.cli.formats.words import (
     with_unit,
 )
 from satcheck.report.report import INTERNAL_ERROR, OVERLAPS
-from satcheck.report.verdict import is_failure, unlisted_indeterminate
+from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.report.report import Finding, Report
+    from satcheck.report.report import BodyAnswer, Finding, Report
+    from satcheck.report.statics import Statics
 
 # Failing pairs that are named, the worst first.
 NAMED = 3
@@ -80,10 +81,10 @@ def _passed(report: Report) -> str:
     warnings = sum(severity(finding) == "warning" for finding in report.findings)
     said = _no_collision(report)
     if report.support is not None:
-        from satcheck.cli.formats.details import held, warned
-
         said += f", {held(report.support)}"
-        warnings += warned(report.support)
+        warnings += sum(
+            f.answer == "yes" and f.severity == "warning" for f in report.support.findings
+        )
     if report.regions:
         lying = sum(answer.answer == "yes" for answer in report.regions.findings)
         said += f", {counted(lying, 'body', 'bodies')} inside the region"
@@ -125,12 +126,22 @@ def _failed(report: Report) -> str:
 
 
 def _unmet(report: Report) -> list[str]:
-    from satcheck.cli.formats.details import unmet
-
-    failed = unmet(report)
-    more = len(failed) - NAMED
+    """Return a message about each of the first failing bodies."""
+    said: dict[str, str] = {}
+    for answer in report.answers:
+        if is_unmet(answer, report.settings.fail_on):
+            said.setdefault(answer.body, answer_message(answer))
+    failed, more = list(said.values()), len(said) - NAMED
     rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
     return failed[:NAMED] + rest
+
+
+def answer_message(answer: BodyAnswer) -> str:
+    """Return `top is not stable: no contact forces hold it`."""
+    if answer.answer == "open":
+        return f"whether {answer.body} is {answer.question} is open: {answer.reason}"
+    is_not = "is not" if answer.answer == "no" else "is"
+    return f"{answer.body} {is_not} {answer.question}: {answer.reason}"
 
 
 def finding_message(finding: Finding, report: Report) -> str:
@@ -249,10 +260,32 @@ def _left_open(report: Report) -> list[str]:
     if disputed := summary.disputed:
         said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
     if report.answers:
-        from satcheck.cli.formats.details import undecided as undecided_bodies
-
-        said += undecided_bodies(report)
+        said += _undecided_bodies(report)
     return said
+
+
+def _undecided_bodies(report: Report) -> list[str]:
+    """`the support of 2 bodies is open`."""
+    held = report.support.findings if report.support else ()
+    lying = report.regions.findings if report.regions else ()
+    counts = {
+        "the support of {} is open": len({f.body for f in held if f.answer == "open"}),
+        "the region of {} is open": len({f.body for f in lying if f.answer == "open"}),
+    }
+    return [said.format(counted(n, "body", "bodies")) for said, n in counts.items() if n]
+
+
+def held(statics: Statics) -> str:
+    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
+    many have none, which a severity makes no failure."""
+    free = {body.id for body in statics.bodies if body.fixed is None}
+    yes = {f.body for f in statics.findings if f.answer == "yes"} & free
+    no = {f.body for f in statics.findings if f.answer == "no"}
+    said = f"contact forces exist that hold {counted(len(yes - no), 'body', 'bodies')}"
+    if not no:
+        return said
+    missing = f"not supported: {counted(len(no), 'body', 'bodies')}"
+    return f"{said}, {missing}" if yes - no else missing
 
 
 def _of_pairs(count: int, singular: str, plural: str) -> str:

@@ -1,4 +1,5 @@
-"""What a report counts: bodies, pairs, relations, and the warnings that make it doubtful."""
+"""What a report counts: bodies, pairs, relations, findings beside a baseline, and the warnings that
+make it doubtful."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Words and cells about one thing: a count, an issue, a relation, a depth."""
+"""Words and cells about one thing: a count, an issue, a relation, a depth, a limit, an option; and
+a report with names that a terminal can show."""
 
 from __future__ import annotations
 

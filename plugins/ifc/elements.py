@@ -1,4 +1,4 @@
-"""Which products of an IFC file are bodies, and which are left out.
+"""The products of an IFC file: which are bodies, in which groups, and which are curved.
 
 Bodies are elements: what is built, installed or furnished. Spaces, openings, annotations, grids,
 ports, structural analysis and terrain are not.

@@ -1,4 +1,7 @@
-"""What the kernel could not make, and of which body it is missing."""
+"""The log of IfcOpenShell: what it could not parse or make, and of which body that is missing.
+
+It goes on after most errors, without the instance at fault. Only its log says so.
+"""
 
 from __future__ import annotations
 

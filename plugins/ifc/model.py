@@ -188,7 +188,9 @@ class _Attribute(Struct, frozen=True):
 
 
 def refuse_other_kinds(model: Any) -> None:
-    """Raises Refused (`bad-record`)."""
+    """Refuse instances whose attributes are of other kinds than the schema prescribes: the parser
+    keeps a number where a shape belongs, or a list where an element does. These attributes are the
+    ones that this package follows. Raises Refused (`bad-record`)."""
     known: dict[str, tuple[_Attribute, ...]] = {}
     for name in _READ:
         for instance in instances_of(model, name):

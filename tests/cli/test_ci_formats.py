@@ -18,7 +18,7 @@ from sarif_pydantic import Sarif
 from satcheck.cli.formats.ci.problems import problems, uri
 from satcheck.cli.formats.registry import formats, pieces
 from satcheck.report.report import BodyReport, Finding, Report
-from tests.cli.process import SAMPLES, satcheck
+from tests.cli.process import PUSHED, SAMPLES, satcheck
 from tests.cli.reports import (
     BLOCK,
     HIT,
@@ -366,3 +366,9 @@ def test_a_body_that_leaves_its_region_fails_in_every_format(tmp_path: Path) -> 
     scene.write_text(text.replace("1.75", "1.5"))
     passed = satcheck(str(scene))
     assert (passed.code, "1 body inside the region" in passed.out) == (0, True)
+
+
+@pytest.mark.parametrize("form", ["table", "github", "junit", "sarif", "markdown"])
+def test_every_format_prints_the_same_message(form: str) -> None:
+    said = satcheck(*PUSHED, "--format", form).out.replace("\\", "")
+    assert "box and box_pushed overlap (thickness 1, depth 1)" in said

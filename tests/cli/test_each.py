@@ -120,6 +120,17 @@ def test_such_files_are_accepted_or_excluded(
     assert satcheck("batch", str(foreign), "-o", results, *options).code == code
 
 
+def test_without_exclude_a_hint_says_how_to_leave_a_file_out(foreign: Path) -> None:
+    ran = satcheck("each", "props", "--format", "json", cwd=foreign.parent)
+    assert "--exclude chair.FBX, or accept it" in ran.out
+    assert "--exclude 'a b.blend', or accept it" in ran.out
+    assert "--exclude leaves out" not in ran.err
+    (foreign / "box.obj").unlink()
+    nothing = satcheck("each", "props", cwd=foreign.parent)
+    assert (nothing.code, "but 2 that no reader knows, as" in nothing.err) == (2, True)
+    assert "--exclude leaves out" not in nothing.err
+
+
 def test_what_is_excluded_is_counted(foreign: Path) -> None:
     ran = satcheck("each", str(foreign), "--exclude", "source", "--exclude", "chair.*")
     assert "satcheck: --exclude leaves out 2 files\n" in ran.err

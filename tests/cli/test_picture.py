@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.cli.formats.picture import parts_of
 from satcheck.cli.formats.picture.data import picture_data
 from satcheck.cli.formats.picture.html import render
 from satcheck.cli.formats.picture.packing import STEPS, simplified
+from satcheck.cli.formats.picture.parts import parts_of
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Sphere

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.cli.formats.messages import finding_message, kind_of, summary_line
+from satcheck.cli.formats.messages import answer_message, finding_message, kind_of, summary_line
 from satcheck.cli.formats.words import config_line, counted, issue_line
 from satcheck.cli.output import harmless
 from satcheck.report.regions import InsideFinding
@@ -81,12 +81,10 @@ def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
 
 
 def _judge_answer(case: ElementTree.Element, answer: BodyAnswer, report: Report) -> None:
+    text = answer_message(answer)
     if answer.answer == "open":
-        text = f"whether {answer.body} is {answer.question} is open: {answer.reason}"
         _say(case, "error", "undecided", text)
     elif is_unmet(answer, report.settings.fail_on):
-        is_not = "is not" if answer.answer == "no" else "is"
-        text = f"{answer.body} {is_not} {answer.question}: {answer.reason}"
         inside = isinstance(answer, InsideFinding)
         _say(case, "failure", OUTSIDE_REGION if inside else UNSUPPORTED, text)
 

@@ -4,16 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from satcheck.cli.formats.picture.data import listed
 from satcheck.cli.formats.registry import function_of
-from satcheck.cli.progress import Bar
-from satcheck.decompose import Cache, DecompositionError, decompose
 
 if TYPE_CHECKING:
-    from satcheck.cli.formats.picture.geometry import Parts
-    from satcheck.core import Mesh, Polytope
     from satcheck.report.report import Report
-    from satcheck.report.settings import StatedSettings
     from satcheck.scene import Scene
 
 
@@ -29,35 +23,7 @@ def render(
     scene = with_slabs(scene)
     draw = function_of(form)
     if split and form == "html":
+        from satcheck.cli.formats.picture.parts import parts_of
+
         return cast("str", draw(report, scene, parts_of(report, scene, cache=cache)))
     return cast("str | bytes", draw(report, scene))
-
-
-def parts_of(report: Report, scene: Scene, *, cache: bool) -> Parts:
-    """Split as the settings of the report say. A body that cannot be split has no parts."""
-    met = {id_ for finding in listed(report) for id_ in (finding.a, finding.b)}
-    bodies = [body for body in scene.bodies if body.id in met]
-    store = Cache() if cache else None
-    split: dict[int, tuple[Polytope, ...]] = {}
-    with Bar("bodies", "splitting") as bar:
-        for number, body in enumerate(bodies, 1):
-            mesh = body.file.mesh
-            if id(mesh) not in split:
-                split[id(mesh)] = _parts(mesh, report.settings, store)
-            if bar is not None:
-                bar(number, len(bodies))
-    return {body.id: parts for body in bodies if (parts := split[id(body.file.mesh)])}
-
-
-def _parts(mesh: Mesh, settings: StatedSettings, cache: Cache | None) -> tuple[Polytope, ...]:
-    try:
-        return decompose(
-            mesh,
-            threshold=settings.part_threshold,
-            seed=settings.part_seed,
-            seconds=settings.part_seconds,
-            megabytes=settings.part_megabytes,
-            cache=cache,
-        ).parts
-    except DecompositionError:
-        return ()

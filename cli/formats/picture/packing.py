@@ -1,4 +1,4 @@
-"""Arrays as short text: bytes of one weight stand together, deflated, in base64.
+"""Meshes and other arrays as short text: bytes of one weight stand together, deflated, in base64.
 
 Neighbours in a mesh have similar numbers, so their differences deflate better. The page undoes all
 that in `unpack.js`.
@@ -67,8 +67,14 @@ def frame_of(mesh: Mesh) -> npt.NDArray[np.float64]:
 
 
 def simplified(mesh: Mesh, cells: int) -> Mesh:
-    """cells: along the longest side of its box. No vertex moves farther than across a cell. A mesh
-    that would lose all triangles stays as it is."""
+    """Return a coarser mesh, for a body that only surrounds what collides. cells: along the longest
+    side of its box. No vertex moves farther than across a cell. A mesh that would lose all
+    triangles stays as it is.
+
+    J. Rossignac and P. Borrel, Multi-resolution 3D approximations for rendering complex scenes,
+    1993: the vertices in a cell of a grid become one. Here that is their mean, and the grid is one
+    of cubes.
+    """
     vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
     cell_of, count = _cells(vertices, cells)
     corners = _without_repeats(cell_of[triangles])

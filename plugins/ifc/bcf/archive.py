@@ -1,4 +1,7 @@
-"""The BCF file of a report: the same bytes for the same findings and date."""
+"""The BCF file of a report: the same bytes for the same findings and date.
+
+The camera and the picture of a pair show the same: a parallel projection of the pair.
+"""
 
 from __future__ import annotations
 

@@ -10,8 +10,7 @@ import pytest
 from docs import axes as growth_page
 from satcheck import core
 from satcheck.audit import Settings, check
-from satcheck.audit.axes import axes_of
-from satcheck.audit.axes.study import MOST_EDGE_PAIRS
+from satcheck.audit.axes import MOST_EDGE_PAIRS, axes_of
 from satcheck.core.errors import SatcheckError
 from satcheck.report.axes import AxesReport
 from satcheck.scene import Scene, load_scene

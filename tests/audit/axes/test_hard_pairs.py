@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.audit.axes.study import axes_shown, relation_shown
+from satcheck.audit.axes import axes_shown, relation_shown
 from satcheck.core.axes.candidates import candidates, edge_pairs, features_of
 from satcheck.core.axes.shadows import Points
 from tests.hard_cases.case import ConvexPair, Family, Vertices

@@ -6,17 +6,26 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.audit import tradeoff as study
 from satcheck.audit.studied_pair import two_of
-from satcheck.audit.tradeoff import RUNGS, Rung, study, tradeoff
-from satcheck.audit.tradeoff.runs import EXACT
-from satcheck.audit.tradeoff.study import error_of, is_right, with_front
+from satcheck.audit.tradeoff import (
+    EXACT,
+    RUNGS,
+    Rung,
+    error_of,
+    is_right,
+    last_rung,
+    tradeoff,
+    with_front,
+)
 from satcheck.core.errors import SatcheckError
+from satcheck.report.report import Finding, Stage
 from satcheck.report.tradeoff import Row, RungName, Times, TradeoffReport, Truth
 from satcheck.report.values import Relation
 from satcheck.scene import load_scene
 from tests.audit.shapes import open_box, unit_box, write
 
-SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
+SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
 # CoACD takes its seconds for each threshold.
 FEW = tuple(rung for rung in RUNGS if rung.threshold in (None, 0.05))
 
@@ -224,3 +233,24 @@ def test_what_is_slower_and_no_better_is_not_on_the_front(
     made: list[Row], expected: list[str]
 ) -> None:
     assert [row.rung for row in with_front(made) if row.pareto] == expected
+
+
+MEET = Stage("aabb", "meet", 1.0, "world boxes meet")
+UNTURNED = Stage("obb", "skipped", 1.0, "not turned")
+APART = Stage("hull", "separated", 1.0, "")
+TRIANGLES = Stage("triangles", "separated", 1.0, "")
+VERIFIED = Stage("verify", "separated", 1.0, "moved")
+
+
+def finding(*plan: Stage) -> Finding:
+    return Finding(id="f", a="a", b="b", severity="none", relation="separated", plan=plan)
+
+
+def test_the_last_rung_that_ran_ends_the_climb() -> None:
+    assert last_rung(finding(MEET, UNTURNED, APART, VERIFIED)) == "hull"
+    assert last_rung(finding(MEET, UNTURNED, TRIANGLES)) == "exact"
+
+
+def test_what_was_skipped_ended_nothing() -> None:
+    assert last_rung(finding(MEET, UNTURNED)) == "aabb"
+    assert last_rung(finding()) is None

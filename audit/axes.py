@@ -1,5 +1,5 @@
-"""The report about the candidate axes of two bodies of a scene: of their convex hulls in space, or
-of those of their outlines in a plane."""
+"""The separating axis theorem on one pair: the report about the candidate axes of two bodies of a
+scene, of their convex hulls in space, or of those of their outlines in a plane."""
 
 from __future__ import annotations
 
