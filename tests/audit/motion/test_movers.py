@@ -296,4 +296,4 @@ def test_a_sweep_is_not_certified(tmp_path: Path) -> None:
     assert finding.certificate is None
     verification = verify(json.loads(json.dumps(report.to_dict())), tmp_path)
     assert [one.outcome for one in verification.findings] == ["not certified"]
-    assert any("not certified" in fault for fault in verification.beyond)
+    assert any("not certified" in fault for fault in verification.not_certified)
