@@ -13,7 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import SCHEMA, Baseline
 from satcheck.scene.files_read import Signature, note, signature
 from satcheck.scene.opening import read_whole
-from satcheck.scene.path_kind import followed
+from satcheck.scene.paths import followed
 
 MOST_BYTES = 1 << 28
 

@@ -26,8 +26,7 @@ from satcheck.scene.loading.readers import (
     reader_of,
 )
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.path_kind import is_folder
-from satcheck.scene.permitted import ANYWHERE
+from satcheck.scene.paths import ANYWHERE, is_folder
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,
     GeometryKind,

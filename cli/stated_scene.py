@@ -18,7 +18,7 @@ from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.nodes import CORNER
 from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import as_stated
 

@@ -16,7 +16,7 @@ from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
 from satcheck.scene.loading.readers import mesh_reader, robots_of
 from satcheck.scene.opening import size_of
-from satcheck.scene.path_kind import exists, is_folder
+from satcheck.scene.paths import exists, is_folder
 
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.

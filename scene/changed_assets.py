@@ -17,7 +17,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.input_kind import SCENE_SUFFIXES, robot_endings
 from satcheck.scene.loading.readers import readers
-from satcheck.scene.path_kind import followed
+from satcheck.scene.paths import followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))

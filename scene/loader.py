@@ -22,7 +22,7 @@ from satcheck.scene.loading.readers import (
     ReadLimits,
 )
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import ANYWHERE, Permitted
+from satcheck.scene.paths import ANYWHERE, Permitted
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector

@@ -21,7 +21,7 @@ from satcheck.scene.format.text import is_toml
 from satcheck.scene.loading.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
-from satcheck.scene.path_kind import followed, is_file
+from satcheck.scene.paths import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
 from satcheck.scene.units import ratio, stated_unit, unit_in
 

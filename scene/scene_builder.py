@@ -53,8 +53,7 @@ class SceneBuilder:
         self._groups = UniqueNames()
         self._shared_groups: dict[str, str] = {}  # of documents
         self._inputs: list[Input] = []
-        self._scenes = JoinedScenes(self._groups)
-        self._has_scenes = False
+        self._scenes: JoinedScenes | None = None
         self._rule_files: set[str] = set()
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
@@ -105,7 +104,7 @@ class SceneBuilder:
                 return
             self._rule_files.add(place)
         self._begin("scene" if scene.bodies else "rules", scene.name, path, scene.units)
-        self._has_scenes = True
+        self._scenes = self._scenes or JoinedScenes(self._groups)
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
         self._scenes.add(scene, ids, groups)
@@ -267,39 +266,51 @@ class SceneBuilder:
         return with_reach(posed(scene, {}))
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
-        stated, scales = self._scenes, common.scales
         inputs = [each for each in self._inputs if each.kind != "rules"]
         bodies = [body for each in inputs for body in each.readable]
         everyone = [body for each in inputs for body in each.bodies]
         lost = [body for body in everyone if isinstance(body, Unreadable)]
-        everybody: list[Body | Unreadable] = [*bodies, *lost]
-        body_rules = stated.body_rules(everybody, scales)
-        spaces = (rule.permission for rule in body_rules if rule.region)
         issues = [
             *self._issues,
             *_of_lost(lost),
             *_issues_of_files(bodies),
             *common.issues,
         ]
-        return Scene(
+        scene = Scene(
             name=" ".join(each.name for each in inputs),
             units=common.label,
             bodies=common.bodies,
             unreadable=tuple(lost),
             order=tuple(body.id for body in everyone),
-            ignore_within_groups=frozenset(stated.ignored),
-            # Those of documents and of regions first, so that a rule of a scene can override them.
-            rules=(*self._document_rules, *spaces, *stated.rules(everybody, scales)),
-            body_rules=body_rules,
-            statics=stated.statics(scales),
-            check_static=stated.check_static or not self._has_scenes,
-            accept=stated.accepted(alone=len(inputs) == 1),
-            motions=stated.motions(scales),
+            rules=tuple(self._document_rules),
             entries=self._entries,
             reading=self._files.allowed.options,
             composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
+        if self._scenes is None:
+            return scene
+        return _as_stated(scene, self._scenes, common.scales, alone=len(inputs) == 1)
+
+
+def _as_stated(
+    scene: Scene, stated: JoinedScenes, scales: Mapping[str, float], *, alone: bool
+) -> Scene:
+    """The scene with what its scene files state of all bodies. alone: they are one input."""
+    everybody: list[Body | Unreadable] = [*scene.bodies, *scene.unreadable]
+    body_rules = stated.body_rules(everybody, scales)
+    spaces = (rule.permission for rule in body_rules if rule.region)
+    return replace(
+        scene,
+        ignore_within_groups=frozenset(stated.ignored),
+        # Those of documents and of regions first, so that a rule of a scene can override them.
+        rules=(*scene.rules, *spaces, *stated.rules(everybody, scales)),
+        body_rules=body_rules,
+        statics=stated.statics(scales),
+        check_static=stated.check_static,
+        accept=stated.accepted(alone=alone),
+        motions=stated.motions(scales),
+    )
 
 
 def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[Issue]:

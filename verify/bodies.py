@@ -20,7 +20,7 @@ from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions

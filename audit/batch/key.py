@@ -19,8 +19,7 @@ from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.report.batch import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
-from satcheck.scene.permitted import Permitted
-from satcheck.scene.search_path import search_path
+from satcheck.scene.paths import Permitted, search_path
 
 _MOST_DIGESTS = 5_000
 # Settings that change no answer.

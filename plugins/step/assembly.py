@@ -35,7 +35,7 @@ from satcheck.scene.loading.gltf_nodes import placement_of
 from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.readers import File
-from satcheck.scene.permitted import NOTHING_ELSE
+from satcheck.scene.paths import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 

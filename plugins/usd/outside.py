@@ -13,8 +13,7 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.path_kind import followed
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted, followed
 
 
 class Closed:

@@ -17,7 +17,7 @@ from satcheck.plugins.usd.outside import Closed
 from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 

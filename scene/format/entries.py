@@ -13,8 +13,7 @@ from satcheck.scene.files_read import note
 from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.readers import mesh_reader, readers
-from satcheck.scene.path_kind import followed, is_file
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted, followed, is_file
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
 

@@ -28,7 +28,7 @@ from satcheck.scene.format.form import Problems, Wrong, converted, shown
 from satcheck.scene.format.placement import motion_of, placement, selector
 from satcheck.scene.format.text import Parsed, is_toml, parse
 from satcheck.scene.motion import Motion
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
+from satcheck.scene.paths import NOTHING_ELSE, Permitted
 from satcheck.scene.rules import LENGTHS, Rule
 from satcheck.scene.statics import BodyRule, StaticsTerms
 from satcheck.scene.units import MICROMETRES, parse_length, unit_of

@@ -28,7 +28,7 @@ from satcheck.scene.format.form import Problems, Table, Wrong, converted
 from satcheck.scene.format.placement import matrix
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.permitted import ANYWHERE
+from satcheck.scene.paths import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.words import meant
 

@@ -11,8 +11,7 @@ from satcheck.scene.files_read import note
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_vocabulary import MESHOPT
 from satcheck.scene.loading.readers import NeedsChild
-from satcheck.scene.path_kind import followed, is_file
-from satcheck.scene.permitted import Permitted
+from satcheck.scene.paths import Permitted, followed, is_file
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
 _CHUNK_HEADER = 8  # length, type

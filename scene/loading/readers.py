@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Block, RawScene
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
+from satcheck.scene.paths import NOTHING_ELSE, Permitted
 from satcheck.scene.plugins import function_at, others, own
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 

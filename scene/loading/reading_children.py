@@ -29,7 +29,7 @@ from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.loading.readers import File, ReadLimits
-from satcheck.scene.permitted import ANYWHERE, NOTHING_ELSE, Permitted
+from satcheck.scene.paths import ANYWHERE, NOTHING_ELSE, Permitted
 from satcheck.scene.plugins import function_at
 
 if TYPE_CHECKING:

@@ -22,9 +22,14 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note, note_folders_in
 from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.opening import read_whole
-from satcheck.scene.path_kind import followed, is_file, is_folder
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
-from satcheck.scene.search_path import folders_of_environment
+from satcheck.scene.paths import (
+    NOTHING_ELSE,
+    Permitted,
+    folders_of_environment,
+    followed,
+    is_file,
+    is_folder,
+)
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")

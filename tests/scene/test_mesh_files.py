@@ -12,7 +12,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.opening import open_file
-from satcheck.scene.permitted import ANYWHERE
+from satcheck.scene.paths import ANYWHERE
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]

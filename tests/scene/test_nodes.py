@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from satcheck.core.worker import WorkerTimeout
 from satcheck.scene import load_scene
+from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
+from satcheck.scene.loading.flatten import concatenate
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
 from satcheck.scene.loading.reading_children import ReadingChildren
 from tests.scene import files, graphs
 
@@ -403,3 +407,28 @@ def test_a_node_of_collada_is_a_body_where_the_hierarchy_places_it(tmp_path):
     assert scene.units == "meters"
     (whole,) = scene_of(tmp_path, "a.dae", content, "none").bodies
     assert (whole.id, whole.path, whole.file.health.triangles) == ("a", None, 48)
+
+
+@pytest.mark.parametrize(
+    ("parts", "nodes", "said"),
+    [
+        (1, [("a", 0), ("a", 0)], "reader-failed"),
+        (1, [("a", 1)], "reader-failed"),
+        (1, [], "empty-mesh"),
+    ],
+)
+def test_what_no_reader_may_return_is_refused(parts, nodes, said):
+    """As one of another package may: a body would vanish without a word."""
+    mesh = RawPart("m", RawMesh(b"", b"", "float64"))
+    scene = RawScene((mesh,) * parts, tuple(RawNode(*node) for node in nodes))
+    with pytest.raises(Refused) as caught:
+        scene.check()
+    assert caught.value.code == said
+
+
+def test_a_corner_beyond_its_mesh_is_no_corner_of_the_next():
+    points = np.eye(3).tobytes()
+    triangles = np.array([0, 1, 2], "<u4").tobytes()
+    beyond = np.array([0, 1, 3], "<u4").tobytes()
+    with pytest.raises(ValueError, match="names vertex 3 of 3"):
+        concatenate([(points, beyond, None), (points, triangles, None)])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Refused
-from satcheck.scene.permitted import ANYWHERE
+from satcheck.scene.paths import ANYWHERE
 from satcheck.scene.robot import FilePlaces
 
 

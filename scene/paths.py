@@ -1,14 +1,52 @@
-"""Decides which files the files of a call may name."""
+"""Paths: what is there, which folders the environment names, and which files an input may name.
+
+`Path.is_dir` and its siblings raise OSError for a name that is too long, and for one in a folder
+that may not be searched. Those here say no, and whatever reads or writes the path says why.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Self
 
 from msgspec import Struct
 
-from satcheck.scene.path_kind import followed
+# With folders that hold packages, models or files.
+_VARIABLES = (
+    "ROS_PACKAGE_PATH",
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
+)
+_AMENT = "AMENT_PREFIX_PATH"  # the packages are in `share` of its folders
+
+is_folder = os.path.isdir
+is_file = os.path.isfile
+exists = os.path.exists
+
+
+def followed(path: Path) -> Path:
+    """The path without links. `Path.resolve` raises for a path that leads in a circle, and for one
+    that no system accepts. Here they stay as they are: they cannot be opened."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError:
+        return path.absolute()
+
+
+def search_path() -> tuple[str, ...]:
+    """The values of these variables."""
+    return tuple(os.environ.get(name, "") for name in (_AMENT, *_VARIABLES))
+
+
+def folders_of_environment() -> list[Path]:
+    ament, *others = (text.split(os.pathsep) for text in search_path())
+    plain = [Path(entry) for entries in others for entry in entries if entry]
+    return plain + [Path(entry) / "share" for entry in ament if entry]
 
 
 class Permitted(Struct, frozen=True):
