@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -106,36 +107,38 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             reading = replace(reading, geometry=self.geometry)
         reading = reading.beside(_stated_reading(scenes.values()))
         seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
-        files = MeshFiles(ReadLimits(seconds, megabytes, permitted, hashed, reading), known)
-        builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
-        have_bodies = [
-            bool(scenes[path].bodies) if kind == "scene" else kind != "srdf" for path, kind in given
-        ]
-        alone = sum(have_bodies) == 1
-        # Colliders are exact shapes, which no mesh of a whole file holds.
-        apart = alone or reading.geometry == "collision"
-        split: Split = self.split or ("nodes" if apart else "none")
-        meshes = [path for path, kind in given if kind == "mesh"]
-        documents = [path for path, kind in given if kind == "document"]
-        ids = {"mesh": iter(plain_ids(meshes)), "document": iter(plain_ids(documents))}
-        if split == "none":
-            files.read_ahead((path, Path(path)) for path in meshes)
-        for path, kind in given:
-            match kind:
-                case "scene":
-                    builder.add_scene(scenes[path])
-                case "robot":
-                    geometry = self.geometry or "collision"
-                    builder.add_robot(path, Path(path), self.packages, geometry)
-                case "srdf":
-                    builder.add_srdf(path, Path(path))
-                case "document":
-                    builder.add_file("scene", next(ids[kind]), path, "nodes", alone)
-                case "mesh":
-                    builder.add_file("mesh", next(ids[kind]), path, split, alone)
-        for path in _as_texts(self.rules):
-            builder.add_scene(read_rules(path))
-        scene = builder.scene()
+        allowed = ReadLimits(seconds, megabytes, permitted, hashed, reading)
+        with closing(MeshFiles(allowed, known)) as files:
+            builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
+            have_bodies = [
+                bool(scenes[path].bodies) if kind == "scene" else kind != "srdf"
+                for path, kind in given
+            ]
+            alone = sum(have_bodies) == 1
+            # Colliders are exact shapes, which no mesh of a whole file holds.
+            apart = alone or reading.geometry == "collision"
+            split: Split = self.split or ("nodes" if apart else "none")
+            meshes = [path for path, kind in given if kind == "mesh"]
+            documents = [path for path, kind in given if kind == "document"]
+            ids = {"mesh": iter(plain_ids(meshes)), "document": iter(plain_ids(documents))}
+            if split == "none":
+                files.read_ahead((path, Path(path)) for path in meshes)
+            for path, kind in given:
+                match kind:
+                    case "scene":
+                        builder.add_scene(scenes[path])
+                    case "robot":
+                        geometry = self.geometry or "collision"
+                        builder.add_robot(path, Path(path), self.packages, geometry)
+                    case "srdf":
+                        builder.add_srdf(path, Path(path))
+                    case "document":
+                        builder.add_file("scene", next(ids[kind]), path, "nodes", alone)
+                    case "mesh":
+                        builder.add_file("mesh", next(ids[kind]), path, split, alone)
+            for path in _as_texts(self.rules):
+                builder.add_scene(read_rules(path))
+            scene = builder.scene()
         between = self.between
         return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
 

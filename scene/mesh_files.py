@@ -50,7 +50,7 @@ class MeshFiles:
     """Reads each file once, even if several paths lead to it and many bodies use it. known: files
     that earlier scenes have read.
 
-    Formats that need large parsers are read in a child process, which ends with this object.
+    Formats that need large parsers are read in child processes, which `close` ends.
     """
 
     def __init__(
@@ -65,6 +65,10 @@ class MeshFiles:
     @cached_property
     def _children(self) -> ReadingChildren:
         return ReadingChildren(self.allowed.megabytes)
+
+    def close(self) -> None:
+        # An error that is kept holds this object in a cycle, which may live for long.
+        self._children.close()
 
     def nodes(self, path: str, location: Path, split: Split) -> Nodes | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""

@@ -42,7 +42,7 @@ _LONGEST_MESSAGE = 200  # characters of what a library says
 
 class ReadingChildren:
     """A child process for each module that serves. megabytes: limit for each child. The children
-    end when this object is deleted, or when the process ends."""
+    end by `close`, when this object is deleted, or when the process ends."""
 
     def __init__(self, megabytes: int) -> None:
         self._megabytes = megabytes
@@ -62,6 +62,10 @@ class ReadingChildren:
             if fresh:
                 raise
             return worker.ask(request, seconds=seconds)
+
+    def close(self) -> None:
+        for worker in self._workers.values():
+            worker.close()
 
     def _worker(self, module: str) -> Worker:
         if module not in self._workers:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import struct
 from threading import Thread
 
 import pytest
 
+from satcheck.core import worker
 from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files, opening
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import read_native
@@ -172,3 +174,17 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
             assert isinstance(found, Refused)
             assert (found.code, str(found)) == (expected.code, str(expected))
     assert isinstance(ahead.node("bad.obj", places["bad.obj"], None).file, Refused)
+
+
+def test_the_children_end_when_the_scene_is_loaded(tmp_path, monkeypatch):
+    """Also those whose file was refused, and before anything is collected."""
+    (tmp_path / "a.dae").write_text("no XML")
+    monkeypatch.setattr(worker, "_children", set())
+    gc.disable()
+    try:
+        scene = load_scene([tmp_path / "a.dae"])
+        left = len(worker._children)
+    finally:
+        gc.enable()
+    assert [body.issue.code for body in scene.unreadable] == ["bad-encoding"]
+    assert left == 0
