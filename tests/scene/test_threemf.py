@@ -35,6 +35,14 @@ def test_undeclared_prefixes_outside_of_geometry(tmp_path, content):
     assert file.health.volume == 1.0
 
 
+@pytest.mark.parametrize("coding", ["utf-8", "utf-16"])
+def test_undeclared_prefixes_behind_a_comment(tmp_path, coding):
+    model = files.model_3mf(CUBE + "<my:settings/>", ITEM).decode().partition("?>")[2]
+    text = f'<?xml version="1.0" encoding="{coding}"?>\n<!-- <model> --> {model}'
+    content = files.package_3mf({"3D/3dmodel.model": text.encode(coding)})
+    assert loaded(tmp_path, "a.3mf", content).health.volume == 1.0
+
+
 @pytest.mark.parametrize(
     "content",
     [
