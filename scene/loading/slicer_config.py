@@ -10,9 +10,37 @@ from __future__ import annotations
 from msgspec import Struct
 
 from satcheck.scene.errors import Refused
+from satcheck.scene.loading.unknown_names import refuse_misspelt
 from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.vocabulary import Names
 
 CONFIGS = "metadata/*model*.config"  # in lower case
+HOLES = "metadata/*drain_holes*"
+# The parts of a package that place or exempt bodies; the others are the programs' own.
+SIDE_FILES = Names(
+    frozenset({"_rels/.rels", "metadata/slic3r_pe_model.config", "metadata/model_settings.config"}),
+    {
+        CONFIGS: "read",
+        **dict.fromkeys(
+            (f"metadata/{name}.config" for name in ("slic3r_pe", "project_settings", "slice_info")),
+            "printing",
+        ),
+        "*/_rels/*": "of other parts",
+    },
+)
+# What is read in a config, by its element; slicers write many other names there.
+_CHILDREN = {
+    "config": Names(frozenset({"object"})),
+    "object": Names(frozenset({"volume", "part"})),
+    **dict.fromkeys(("volume", "part"), Names(frozenset({"metadata"}))),
+}
+_ATTRIBUTES = {
+    "object": Names(frozenset({"id"})),
+    "volume": Names(frozenset({"firstid", "lastid"})),
+    "part": Names(frozenset({"id", "subtype"})),
+    "metadata": Names(frozenset({"key", "value"})),
+}
+_KEYS = Names(frozenset({"volume_type", "modifier"}))
 _SOLID = frozenset({"ModelPart", "normal_part"})
 _NEGATIVE = frozenset({"NegativeVolume", "negative_part"})
 _SETTINGS = frozenset(
@@ -34,13 +62,29 @@ class Volume(Struct, frozen=True):
 
 
 def volumes(config: Element) -> list[Volume]:
-    """Return the volumes that are no material. Raises Refused for an unknown kind."""
+    """Return the volumes that are no material. Raises Refused for an unknown kind or a misspelt
+    name."""
+    if config.tag != "config":
+        config.refuse("the outermost element of the config of a slicer should be <config>")
+    _refuse_misspelt(config)
     return [
         volume
         for owner in config.all("object")
         for element in owner.children
         if element.tag in ("volume", "part") and (volume := _volume(owner, element)) is not None
     ]
+
+
+def _refuse_misspelt(element: Element) -> None:
+    place = f"config of a slicer, line {element.line}: <{element.tag}>"
+    refuse_misspelt(_ATTRIBUTES.get(element.tag, Names(frozenset())), element.attributes, place)
+    if element.tag == "metadata":
+        refuse_misspelt(_KEYS, [element.attributes.get("key", "")], place)
+    children = _CHILDREN.get(element.tag, Names(frozenset()))
+    for child in element.children:
+        refuse_misspelt(children, [child.tag], place)
+        if child.tag in children.read:
+            _refuse_misspelt(child)
 
 
 def _volume(owner: Element, element: Element) -> Volume | None:

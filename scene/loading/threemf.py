@@ -27,20 +27,23 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.readers import File
-from satcheck.scene.loading.slicer_config import CONFIGS, Volume, volumes
+from satcheck.scene.loading.slicer_config import CONFIGS, HOLES, SIDE_FILES, Volume, volumes
 from satcheck.scene.loading.threemf_vocabulary import (
     ATTRIBUTES,
     CHILDREN,
     CORE,
     CURA_VOLUMES,
+    FULL,
     PREFIXES,
     RELATIONSHIP,
     RELATIONSHIPS,
     TYPES,
     UNITS,
+    ignorable,
     short,
+    short_element,
 )
-from satcheck.scene.loading.unknown_names import UnknownNames
+from satcheck.scene.loading.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
@@ -58,7 +61,7 @@ _DEFAULT_PART = "3D/3dmodel.model"
 _OBJECT = frozenset(f"{namespace} object" for namespace in CORE)
 _BUILD = frozenset(f"{namespace} build" for namespace in CORE)
 # Extensions that a model may require: what they add is read, or looked at where it stands.
-_REQUIRED = frozenset({"p", "m", "s", "t"})
+_REQUIRED = frozenset({"p", "m", "s", "t", "sc"})
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
 _MESH = frozenset({"vertex", "triangle"})  # errors in them refuse only their object
@@ -138,6 +141,9 @@ class _Package:
     def _apply_config(self, root: Model) -> None:
         """Leave out the volumes that the config of a slicer makes settings; refuse an object that
         one of them is taken away from."""
+        refuse_misspelt(SIDE_FILES, self._names, "the package")
+        for name in fnmatch.filter(self._names, HOLES):
+            self._unknown.note((HOLES, ""), f"{name} is not read; it makes holes in bodies")
         for name in fnmatch.filter(self._names, CONFIGS):
             with self._open(name) as stream:
                 config = read_elements(stream)
@@ -173,6 +179,9 @@ class _Package:
             elif target.lower().endswith(".model"):
                 message = f"{place}: {target} is no start part by its type, and is not read"
                 self._unknown.note(("start part", target), message)
+        if not targets:
+            message = f"{relationships} states no start part; {_DEFAULT_PART} is read"
+            self._unknown.note(("start part", ""), message)
         if len(set(targets)) > 1:
             message = f"of the start parts {', '.join(targets)} only the first is read"
             self._unknown.note(("start part", ""), message)
@@ -315,6 +324,7 @@ class _ModelReader:
         self._usual: set[tuple[str, ...]] = set()  # parent, element and attributes, all known
         self._parser = guarded_parser(_ENCODINGS)
         self._prefixes: dict[str | None, str] = {}
+        self._ignorable: frozenset[str] = frozenset()
         self._parser.StartElementHandler = self._on_element
         self._parser.EndElementHandler = self._on_end
         self._parser.StartNamespaceDeclHandler = self._on_namespace
@@ -351,7 +361,9 @@ class _ModelReader:
 
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
-        self._look(short(name), attributes)
+        if not self._around:
+            self._ignorable = ignorable(attributes, self._prefixes)
+        self._look(short_element(name), namespace in self._ignorable, attributes)
         if local in _ONCE and namespace in CORE and self._object:
             if local in self._given:
                 twice = Refused("bad-record", f"an object with two <{local}>")
@@ -368,7 +380,7 @@ class _ModelReader:
                 raise
             self._object.refusal = self._object.refusal or error
 
-    def _look(self, name: str, attributes: dict[str, str]) -> None:
+    def _look(self, name: str, is_ignorable: bool, attributes: dict[str, str]) -> None:
         """Gather the element, if it is unknown there, and its attributes."""
         around = self._around[-1] if self._around else ""
         self._around.append(name)
@@ -376,20 +388,29 @@ class _ModelReader:
             return  # as nearly all elements of a mesh
         place = f"{self._part}, line {self._parser.CurrentLineNumber}"
         children, own = CHILDREN.get(around), ATTRIBUTES.get(name)
-        given = [short(key) for key in attributes] if own else []
-        if children is not None:
+        given = [short(key) for key in attributes if split_name(key)[0] not in self._ignorable]
+        if children is not None and not is_ignorable:
             self._unknown.look(children, (name,), f"in {around}", f"{place}: <{around}>")
+        elif around and name in ATTRIBUTES:
+            message = f"{place}: <{name}> inside of <{around}>, which is not read"
+            self._unknown.note((f"in {around}", name), message)
         if own is not None:
             self._unknown.look(own, given, name, f"{place}: <{name}>")
         elif name == "metadata":
-            if self._in_object and attributes.get("name") in CURA_VOLUMES:
-                message = f"{place}: {attributes['name']} is not read; it may make a body none"
-                self._unknown.note((name, attributes["name"]), message)
+            if self._in_object or self._in_build:
+                self._on_setting(attributes.get("name", ""), place)
             return
         if (children is None or children.knows(name)) and (
             own is None or all(map(own.knows, given))
         ):
             self._usual.add((around, name, *attributes))
+
+    def _on_setting(self, name: str, place: str) -> None:
+        key = name.rpartition(":")[2]
+        refuse_misspelt(CURA_VOLUMES, [key], place)
+        if CURA_VOLUMES.knows(key):
+            message = f"{place}: {name} is not read; it may make a body none"
+            self._unknown.note(("metadata", name), message)
 
     def _on_end(self, name: str) -> None:
         self._around.pop()
@@ -443,6 +464,11 @@ class _ModelReader:
             raise self._fail("bad-record", f"object id {id_!r} occurs twice")
         name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
         self._object = self._model.objects[id_] = Object(name, attributes.get("type", "model"))
+        for key in attributes:
+            if short(key) in FULL and attributes[key] != "fullres":
+                what = f"{short(key)}={attributes[key]!r}: the mesh is not the body"
+                message = f"{self._part}, line {self._parser.CurrentLineNumber}: <object> {what}"
+                self._unknown.note(("resolution", short(key)), message)
         self._in_object = True
         self._given.clear()
 
@@ -453,6 +479,7 @@ class _ModelReader:
 
     def _on_vertex(self, attributes: dict[str, str]) -> None:
         object_ = self._current()
+        _check_plain(attributes["x"] + attributes["y"] + attributes["z"])
         for axis in ("x", "y", "z"):
             text = attributes[axis]
             value = float(text)
@@ -463,7 +490,9 @@ class _ModelReader:
 
     def _on_triangle(self, attributes: dict[str, str]) -> None:
         triangles = self._current().triangles
-        triangles.extend((int(attributes["v1"]), int(attributes["v2"]), int(attributes["v3"])))
+        corners = attributes["v1"], attributes["v2"], attributes["v3"]
+        _check_plain("".join(corners))
+        triangles.extend(map(int, corners))
 
     def _on_component(self, attributes: dict[str, str]) -> None:
         self._current().references.append(self._reference(attributes))
@@ -480,11 +509,18 @@ class _ModelReader:
         """3MF writes 4x3 values for row vectors; here they become a 4x4 for column vectors."""
         if "transform" not in attributes:
             return None
+        _check_plain(attributes["transform"])
         values = [float(word) for word in attributes["transform"].split()]
         if len(values) != 12 or not all(map(math.isfinite, values)):
             raise self._fail("bad-record", "a transform needs 12 finite numbers")
         rows = [(*values[axis::3],) for axis in range(3)]
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
+
+
+def _check_plain(numbers: str) -> None:
+    """Refuse what Python takes for a number and XML does not: "1_0", digits of other scripts."""
+    if "_" in numbers or not numbers.isascii():
+        raise ValueError(f"{numbers[:24]!r} is not a number")
 
 
 def _note_digits(object_: Object, text: str) -> None:

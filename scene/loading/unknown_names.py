@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
@@ -26,11 +26,9 @@ class UnknownNames:
             if key in self._counts:
                 self._counts[key] += 1
                 continue
-            try:
-                for unread in names.unread([name], place):
-                    self.note(key, unread.message)
-            except SatcheckError as error:
-                raise Refused(error.code, error.message) from None
+            refuse_misspelt(names, [name], place)
+            for unread in names.unread([name], place):
+                self.note(key, unread.message)
 
     def note(self, key: tuple[str, str], message: str) -> None:
         """Take something that blocks a pass and is no single name. key: what is named once."""
@@ -45,3 +43,11 @@ class UnknownNames:
             for key, message in self._messages.items()
             for count in (self._counts[key],)
         )
+
+
+def refuse_misspelt(names: Names, found: Iterable[str], place: str) -> None:
+    """Raises Refused for a misspelt name."""
+    try:
+        names.refuse_misspelt(found, place)
+    except SatcheckError as error:
+        raise Refused(error.code, error.message) from None

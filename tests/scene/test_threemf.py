@@ -13,11 +13,26 @@ from tests.scene.loading import load, loaded, refusal, warnings
 CUBE = files.object_3mf(1)
 ITEM = '<item objectid="1"/>'
 SLICES = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"
-PLACED = f'xmlns:x="http://example.com/x" xmlns:s="{SLICES}"'
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+PLACED = (
+    f'xmlns:x="http://example.com/x" xmlns:s="{SLICES}" '
+    'xmlns:d="http://schemas.3mf.io/3dmanufacturing/displacement/2023/10" '
+    'xmlns:mc="http://schemas.openxmlformats.org/markup-compatibility/2006"'
+)
+PARENT = CUBE + files.components_3mf(2, '<component objectid="1"/>')
+AWAY = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>'
+SECOND = '<item objectid="2"/>'
 
 
 def package(resources: str = CUBE, items: str = ITEM, **keys: str) -> bytes:
     return files.package_3mf({"3D/3dmodel.model": files.model_3mf(resources, items, **keys)})
+
+
+def inside(tag: str, child: str) -> str:
+    """The first element of that name in the cube or in the build, with a child."""
+    text = ITEM if tag == "item" else CUBE
+    end = text.index("/>", text.index(f"<{tag} "))
+    return f"{text[:end]}>{child}</{tag}>{text[end + 2 :]}"
 
 
 @pytest.mark.parametrize(
@@ -179,9 +194,18 @@ def test_a_start_part_that_is_not_read_is_named(tmp_path, old, new, code):
             archive.writestr(name, files.model_3mf(CUBE, ITEM))
     if code == "unread":
         scene = load(tmp_path, "a.3mf", content.getvalue())
-        assert [issue.code for issue in scene.issues] == ["unread", "left-out"]
+        assert [issue.code for issue in scene.issues] == ["unread", "unread", "left-out"]
     else:
         assert refusal(tmp_path, "a.3mf", content.getvalue())[0] == code
+
+
+def test_a_package_that_states_no_start_part_is_named(tmp_path):
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        other = '<Relationship Id="r" Type="http://example.com/start" Target="/3D/other.xml"/>'
+        archive.writestr("_rels/.rels", f"<Relationships>{other}</Relationships>")
+        archive.writestr("3D/3dmodel.model", files.model_3mf(CUBE, ITEM))
+    assert set(warnings(loaded(tmp_path, "a.3mf", content.getvalue()))) == {"unread"}
 
 
 @pytest.mark.parametrize("tag", ["vertices", "triangles", "components"])
@@ -227,6 +251,30 @@ def test_a_resource_that_no_object_names_is_harmless(tmp_path, name):
         package(CUBE.replace('type="model"', 'type="other"')),
         package(CUBE + "<volume/>"),
         package(CUBE.replace("<mesh>", '<metadata name="cura:cutting_mesh">True</metadata><mesh>')),
+        package(CUBE.replace("<mesh>", '<metadata name="c:infill_mesh">True</metadata><mesh>')),
+        package(items=inside("item", '<metadata name="cura:cutting_mesh">True</metadata>')),
+        package(items=inside("item", '<x:move by="5 0 0"/>'), attributes=PLACED),
+        package(items=inside("item", "<transform>5 0 0</transform>")),
+        package(inside("vertex", '<x:delta x="9"/>'), attributes=PLACED),
+        package(inside("triangle", "<x:curve/>"), attributes=PLACED),
+        package(PARENT.replace("/></c", "><x:place/></component></c"), SECOND, attributes=PLACED),
+        package(items=ITEM + f"<metadatagroup>{AWAY}</metadatagroup>"),
+        package(f"<x:group>{CUBE}</x:group>", attributes=PLACED),
+        package(items=ITEM + '<item xmlns="" objectid="1"/>'),
+        package(PARENT.replace("</c", '<component xmlns="" objectid="1"/></c'), SECOND),
+        package(items='<item objectid="1" c:transform="1"/>', attributes=f'xmlns:c="{CORE}"'),
+        package(CUBE.replace("<object ", '<object s:meshresolution="lowres" '), attributes=PLACED),
+        package(CUBE.replace("<object ", '<object x:new="1" '), attributes=PLACED),
+        package(items=ITEM + f"<x:g>{AWAY}</x:g>", attributes=f'{PLACED} mc:Ignorable="x"'),
+        package(attributes=f'{PLACED} mc:MustUnderstand="x"'),
+        package(
+            CUBE.replace("<object ", '<object s:slicestackid="9" '),
+            attributes=f'{PLACED} mc:Ignorable="s"',
+        ),
+        package(
+            CUBE.replace("<triangle ", '<triangle d:did="9" '),
+            attributes=f'{PLACED} mc:Ignorable="d"',
+        ),
     ],
 )
 def test_what_nobody_knows_blocks_a_pass(tmp_path, content):
@@ -236,6 +284,38 @@ def test_what_nobody_knows_blocks_a_pass(tmp_path, content):
 @pytest.mark.parametrize(
     "content",
     [
+        package(attributes=f'{PLACED} mc:Ignorable="x"'),
+        package(
+            CUBE.replace("<object ", '<object x:new="1" ').replace("</mesh>", "<x:note/></mesh>"),
+            attributes=f'{PLACED} mc:Ignorable="x"',
+        ),
+        package(CUBE.replace("<object ", '<object s:meshresolution="fullres" '), attributes=PLACED),
+        package(CUBE.replace("<object ", '<object colorid="1" materialid="2" ')),
+        package(CUBE.replace("<triangle ", '<triangle colorid="1" cv1="0" cv2="1" cv3="2" ')),
+        package(CUBE.replace("</vertices>", "</vertices><texturevertices/>")),
+        package(items=inside("item", '<metadatagroup><metadata name="a"/></metadatagroup>')),
+        package(
+            attributes='requiredextensions="k" '
+            'xmlns:k="http://schemas.microsoft.com/3dmanufacturing/securecontent/2019/04"'
+        ),
+    ],
+)
+def test_what_makes_no_body_is_harmless(tmp_path, content):
+    assert warnings(loaded(tmp_path, "a.3mf", content)) == {}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [('x="1"', 'x="1_0"'), ('x="1"', 'x="\u0661"'), ('v1="1"', 'v1="0_1"')]
+)
+def test_numbers_that_xml_does_not_know_are_refused(tmp_path, old, new):
+    code, message = refusal(tmp_path, "a.3mf", package(CUBE.replace(old, new)))
+    assert (code, "is not a number" in message) == ("bad-record", True)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        package(CUBE.replace("<mesh>", '<metadata name="cura:cuting_mesh">True</metadata><mesh>')),
         package(items='<item objectid="1" trnsform="1 0 0 0 1 0 0 0 1 5 0 0"/>'),
         package(attributes='units="inch"'),
     ],
@@ -258,6 +338,7 @@ def test_an_object_without_a_place_is_a_note(tmp_path):
     assert "object '2' not in the build" in issue.message
 
 
+SLIC3R = "Metadata/Slic3r_PE_model.config"
 FAR = [(x + 5, y, z) for x, y, z in files.CUBE_POINTS]
 TWO = files.object_3mf(
     1, files.CUBE_POINTS + FAR, files.CUBE + [(a + 8, b + 8, c + 8) for a, b, c in files.CUBE]
@@ -266,11 +347,14 @@ TWO = files.object_3mf(
 
 def prusa(kind: str, *, key: str = "volume_type") -> bytes:
     """Two cubes in one object; the second one is a volume of this kind."""
-    config = (
+    return with_config(TWO, ITEM, SLIC3R, prusa_config(kind, key))
+
+
+def prusa_config(kind: str, key: str = "volume_type") -> str:
+    return (
         '<config><object id="1"><volume firstid="0" lastid="11"/><volume firstid="12" lastid="23">'
         f'<metadata type="volume" key="{key}" value="{kind}"/></volume></object></config>'
     )
-    return with_config(TWO, ITEM, "Metadata/Slic3r_PE_model.config", config)
 
 
 def bambu(kind: str) -> bytes:
@@ -278,11 +362,15 @@ def bambu(kind: str) -> bytes:
     moved = '<component objectid="2" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>'
     parts = '<component objectid="1"/>' + moved
     resources = CUBE + files.object_3mf(2) + files.components_3mf(3, parts)
-    config = (
+    name = "Metadata/model_settings.config"
+    return with_config(resources, '<item objectid="3"/>', name, bambu_config(kind))
+
+
+def bambu_config(kind: str) -> str:
+    return (
         '<config><object id="3"><part id="1" subtype="normal_part"/>'
         f'<part id="2" subtype="{kind}"/></object></config>'
     )
-    return with_config(resources, '<item objectid="3"/>', "Metadata/model_settings.config", config)
 
 
 def with_config(resources: str, items: str, name: str, config: str) -> bytes:
@@ -319,6 +407,50 @@ def test_a_part_of_a_slicer_is_material(tmp_path, content):
 def test_an_object_with_a_negative_volume_cannot_be_checked(tmp_path, content):
     code, _ = refusal(tmp_path, "a.3mf", content)
     assert code == "unsupported-feature"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("volume_type", "volume_tpye"),
+        (" key=", " kye="),
+        (" value=", " vlaue="),
+        ("<volume ", "<volum "),
+        ("<object ", "<objct "),
+        ("<metadata ", "<metdata "),
+        (" subtype=", " subtpye="),
+        (" subtype=", " SubType="),
+        ("<part ", "<prat "),
+    ],
+)
+def test_a_misspelt_name_in_a_config_of_a_slicer_is_refused(tmp_path, old, new):
+    config = prusa_config("NegativeVolume") if old in prusa_config("") else bambu_config("part")
+    config = config.replace(old, new).replace(f"</{old[1:-1]}>", f"</{new[1:-1]}>")
+    content = with_config(TWO, ITEM, SLIC3R, config)
+    assert refusal(tmp_path, "a.3mf", content)[0] == "misspelt"
+
+
+@pytest.mark.parametrize(
+    "name", ["Metadata/Slic3r_PE_modle.config", "Metadata/modle_settings.config", "_rels/.rel"]
+)
+def test_a_misspelt_side_file_is_refused(tmp_path, name):
+    assert refusal(tmp_path, "a.3mf", more(package(), **{name: ""}))[0] == "misspelt"
+
+
+def test_side_files_of_slicers_for_printing_are_harmless(tmp_path):
+    names = ("slice_info.config", "project_settings.config", "Slic3r_PE.config")
+    parts = {f"Metadata/{name}": "" for name in (*names, "_rels/model_settings.config.rels")}
+    assert warnings(loaded(tmp_path, "a.3mf", more(package(), **parts))) == {}
+
+
+def test_holes_that_a_slicer_drills_block_a_pass(tmp_path):
+    content = more(package(), **{"Metadata/Slic3r_PE_sla_drain_holes.txt": "object_id=1|0 0 0"})
+    assert set(warnings(loaded(tmp_path, "a.3mf", content))) == {"unread"}
+
+
+def test_a_config_whose_outermost_element_is_another_is_refused(tmp_path):
+    content = with_config(TWO, ITEM, SLIC3R, f"<x>{prusa_config('NegativeVolume')}</x>")
+    assert refusal(tmp_path, "a.3mf", content)[0] == "bad-record"
 
 
 def test_an_object_with_two_meshes_is_refused(tmp_path):
