@@ -61,22 +61,43 @@ std::optional<Nearest> nearest_in(const std::vector<ExactSupport>& simplex) {
   return std::nullopt;
 }
 
+// The nearest point once a support point is there that improves it.
+Nearest nearer(const Nearest& nearest, const ExactSupport& w) {
+  std::vector<ExactSupport> simplex = nearest.carriers;
+  simplex.push_back(w);
+  return *nearest_in(simplex);
+}
+
 }  // namespace
 
 ExactFigure exact_distance(const ExactDifference& difference) {
-  std::optional<Nearest> nearest = nearest_in({difference.at(0, 0)});
+  Nearest nearest = *nearest_in({difference.at(0, 0)});
   for (;;) {
-    const ExactSupport w = difference.support(-nearest->point);
-    const Dyadic squared = dot(nearest->point, nearest->point);
-    if ((dot(nearest->point, w.w) * nearest->sum - squared).sign() >= 0) {
-      ExactFigure figure = rooted(squared, nearest->sum * nearest->sum);
-      figure.normal = rounded_unit(-nearest->point);
-      place_witnesses(figure, difference, nearest->carriers, nearest->weights);
+    const ExactSupport w = difference.support(-nearest.point);
+    const Dyadic squared = dot(nearest.point, nearest.point);
+    if ((dot(nearest.point, w.w) * nearest.sum - squared).sign() >= 0) {
+      ExactFigure figure = rooted(squared, nearest.sum * nearest.sum);
+      figure.normal = rounded_unit(-nearest.point);
+      place_witnesses(figure, difference, nearest.carriers, nearest.weights);
       return figure;
     }
-    std::vector<ExactSupport> simplex = nearest->carriers;
-    simplex.push_back(w);
-    nearest = nearest_in(simplex);
+    nearest = nearer(nearest, w);
+  }
+}
+
+int compare_distance(const ExactDifference& difference, const Dyadic& length) {
+  if (length.sign() < 0) return 1;
+  Nearest nearest = *nearest_in({difference.at(0, 0)});
+  for (;;) {
+    const Dyadic squared = dot(nearest.point, nearest.point), limit = length * length * nearest.sum * nearest.sum;
+    const int upper = (squared - limit).sign();
+    if (upper < 0) return -1;
+    const ExactSupport w = difference.support(-nearest.point);
+    const Dyadic along = dot(nearest.point, w.w) * nearest.sum;
+    if ((along - squared).sign() >= 0) return upper;
+    // All of A - B lies beyond the plane through w.
+    if (along.sign() > 0 && (along * along - limit * squared).sign() > 0) return 1;
+    nearest = nearer(nearest, w);
   }
 }
 

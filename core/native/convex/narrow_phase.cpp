@@ -11,7 +11,6 @@
 #include "convex/exact_depth.hpp"
 #include "convex/exact_distance.hpp"
 #include "convex/exact_pair.hpp"
-#include "convex/exact_reach.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
@@ -246,7 +245,8 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
                   PairResult& result) {
   const Polytope core_a = WorldHull(a, pose_a).polytope(), core_b = WorldHull(b, pose_b).polytope();
   const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
-  const int side = cores_meet ? -1 : compare_distance(core_a, core_b, Dyadic(a.margin) + Dyadic(b.margin));
+  const ExactDifference difference(core_a.vertices, core_b.vertices);
+  const int side = cores_meet ? -1 : compare_distance(difference, Dyadic(a.margin) + Dyadic(b.margin));
   result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
   result.method = Method::exact;
   result.reason = Reason::none;

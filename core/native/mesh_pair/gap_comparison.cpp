@@ -1,11 +1,10 @@
 // Float64 distances leave a few pairs of triangles whose distance is about the length. Exact signs decide these.
-#include "convex/convex_hull.hpp"
 #include "mesh_pair/gap_comparison.hpp"
 
 #include <algorithm>
 
 #include "base/rounding.hpp"
-#include "convex/exact_reach.hpp"
+#include "convex/exact_distance.hpp"
 #include "exact/double_double.hpp"
 #include "exact/triangle_pair.hpp"
 
@@ -49,11 +48,10 @@ class GapComparison {
   void include(std::uint32_t t, std::uint32_t u) {
     const Corners of_a = corners(a_.mesh, t), of_b = corners(b_.mesh, u);
     if (least_ < 0 || compare_along_axes(box_of(of_a), box_of(of_b), length_) >= least_) return;
-    const int sign = compare_distance(hull_of(of_a), hull_of(of_b), length_);
+    const std::vector<Vec3> points_a(of_a.begin(), of_a.end()), points_b(of_b.begin(), of_b.end());
+    const int sign = compare_distance(ExactDifference(points_a, points_b), length_);
     least_ = std::min(least_, sign);
   }
-
-  static Polytope hull_of(const Corners& t) { return convex_hull({t.begin(), t.end()}); }
 
   const Surface &a_, &b_;
   double length_;

@@ -1,6 +1,6 @@
 // Distances that are exact squares, and all that is one ulp beside them.
 #include "convex/convex_hull.hpp"
-#include "convex/exact_reach.hpp"
+#include "convex/exact_distance.hpp"
 
 #include <cmath>
 
@@ -14,15 +14,19 @@ const Polytope cube = convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {
 
 Polytope point(double x, double y, double z) { return convex_hull({{x, y, z}}); }
 
+int compared(const Polytope& a, const Polytope& b, const Dyadic& length) {
+  return compare_distance(ExactDifference(a.vertices, b.vertices), length);
+}
+
 // Both orders, at the distance and one ulp to either side; the length is split unevenly over the two.
 void expect(const Polytope& a, const Polytope& b, double distance) {
   for (const double share : {0.0, 0.25}) {
     const double rest = distance - share;
     const auto length = [&](double other) { return Dyadic(share) + Dyadic(other); };
     for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-      CHECK(compare_distance(*one, *other, length(rest)) == 0);
-      CHECK(compare_distance(*one, *other, length(std::nextafter(rest, 0.0))) == 1);
-      CHECK(compare_distance(*one, *other, length(std::nextafter(rest, INFINITY))) == -1);
+      CHECK(compared(*one, *other, length(rest)) == 0);
+      CHECK(compared(*one, *other, length(std::nextafter(rest, 0.0))) == 1);
+      CHECK(compared(*one, *other, length(std::nextafter(rest, INFINITY))) == -1);
     }
   }
 }
@@ -44,20 +48,20 @@ void edges() {
   // only the side is asked.
   const Polytope slanted = convex_hull({{4, -1, 1}, {1, 2, 4}});
   const double distance = std::sqrt(4.5);
-  CHECK(compare_distance(cube, slanted, distance * (1 + 1e-15)) == -1);
-  CHECK(compare_distance(cube, slanted, distance * (1 - 1e-15)) == 1);
+  CHECK(compared(cube, slanted, distance * (1 + 1e-15)) == -1);
+  CHECK(compared(cube, slanted, distance * (1 - 1e-15)) == 1);
 }
 
 void far_and_small() {
   const double tiny = 0x1p-140;
   expect(point(0x1p60, 0, 0), point(0x1p60 + 0x1p10, 0, 0), 0x1p10);
-  CHECK(compare_distance(point(0, 0, 0), point(3 * tiny, 4 * tiny, 0), 5 * tiny) == 0);
-  CHECK(compare_distance(point(0, 0, 0), point(1, 0, 0), Dyadic(1) + Dyadic(tiny)) == -1);
+  CHECK(compared(point(0, 0, 0), point(3 * tiny, 4 * tiny, 0), 5 * tiny) == 0);
+  CHECK(compared(point(0, 0, 0), point(1, 0, 0), Dyadic(1) + Dyadic(tiny)) == -1);
 }
 
 }  // namespace
 
-UNIT(exact_reach) {
+UNIT(compare_distance) {
   vertices_edges_and_faces();
   edges();
   far_and_small();
