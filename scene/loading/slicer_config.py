@@ -28,18 +28,9 @@ SIDE_FILES = Names(
         "*/_rels/*": "of other parts",
     },
 )
-# What is read in a config, by its element; slicers write many other names there.
-_CHILDREN = {
-    "config": Names(frozenset({"object"})),
-    "object": Names(frozenset({"volume", "part"})),
-    **dict.fromkeys(("volume", "part"), Names(frozenset({"metadata"}))),
-}
-_ATTRIBUTES = {
-    "object": Names(frozenset({"id"})),
-    "volume": Names(frozenset({"firstid", "lastid"})),
-    "part": Names(frozenset({"id", "subtype"})),
-    "metadata": Names(frozenset({"key", "value"})),
-}
+# What is read in a config; slicers write many other names there.
+_ELEMENTS = Names(frozenset({"object", "volume", "part", "metadata"}))
+_ATTRIBUTES = Names(frozenset({"id", "firstid", "lastid", "subtype", "key", "value"}))
 _KEYS = Names(frozenset({"volume_type", "modifier"}))
 _SOLID = frozenset({"ModelPart", "normal_part"})
 _NEGATIVE = frozenset({"NegativeVolume", "negative_part"})
@@ -77,13 +68,12 @@ def volumes(config: Element) -> list[Volume]:
 
 def _refuse_misspelt(element: Element) -> None:
     place = f"config of a slicer, line {element.line}: <{element.tag}>"
-    refuse_misspelt(_ATTRIBUTES.get(element.tag, Names(frozenset())), element.attributes, place)
+    refuse_misspelt(_ATTRIBUTES, element.attributes, place)
+    refuse_misspelt(_ELEMENTS, [child.tag for child in element.children], place)
     if element.tag == "metadata":
         refuse_misspelt(_KEYS, [element.attributes.get("key", "")], place)
-    children = _CHILDREN.get(element.tag, Names(frozenset()))
     for child in element.children:
-        refuse_misspelt(children, [child.tag], place)
-        if child.tag in children.read:
+        if child.tag in _ELEMENTS.read:
             _refuse_misspelt(child)
 
 

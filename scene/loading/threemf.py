@@ -254,12 +254,12 @@ class Object:
         return self.refusal is not None or bool(self.triangles)
 
     def leave_out(self, volume: Volume) -> bool:
-        """Drop a volume that is no material. False: it is none of this object."""
+        """Drop a volume that is no material. False: it is none of this object, or not just one."""
         if volume.triangles is None:
-            kept = [each for each in self.references if each.id != volume.part]
-            dropped = len(kept) < len(self.references)
-            self.references = kept
-            return dropped
+            parts = [each for each in self.references if each.id == volume.part]
+            if len(parts) == 1:
+                self.references.remove(parts[0])
+            return len(parts) == 1
         first, last = volume.triangles
         if not first <= last < len(self.triangles) // 3:
             return False

@@ -453,6 +453,14 @@ def test_a_config_whose_outermost_element_is_another_is_refused(tmp_path):
     assert refusal(tmp_path, "a.3mf", content)[0] == "bad-record"
 
 
+def test_a_modifier_that_could_be_one_of_two_parts_cannot_be_left_out(tmp_path):
+    parts = '<component objectid="2"/>' + AWAY.replace("item", "component").replace("1", "2", 1)
+    resources = CUBE + files.object_3mf(2) + files.components_3mf(3, parts)
+    name = "Metadata/model_settings.config"
+    content = with_config(resources, '<item objectid="3"/>', name, bambu_config("modifier_part"))
+    assert refusal(tmp_path, "a.3mf", content)[0] == "unsupported-feature"
+
+
 def test_an_object_with_two_meshes_is_refused(tmp_path):
     mesh = CUBE[CUBE.index("<mesh>") : CUBE.index("</mesh>") + len("</mesh>")]
     code, message = refusal(tmp_path, "a.3mf", package(CUBE.replace("</mesh>", f"</mesh>{mesh}")))
