@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tomllib
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 from itertools import takewhile
@@ -176,6 +175,8 @@ def _lacks_schema(path: Path) -> bool:
     content = content_of(path) or b""
     if b"bodies" not in content:
         return False
+    import tomllib
+
     try:
         text = content.decode("utf-8-sig")
         tree = tomllib.loads(text) if path.suffix.lower() == ".toml" else json.loads(text)

@@ -7,18 +7,20 @@ import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any, ClassVar, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, get_args
 
 from msgspec import UNSET, Struct, ValidationError, convert
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
-from satcheck.scene.format.lines import Key, Keys, repeated_keys
-from satcheck.scene.format.text import Parsed
 from satcheck.scene.planar.outline import Shape
 from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import SEVERITIES
 from satcheck.scene.words import meant
+
+if TYPE_CHECKING:
+    from satcheck.scene.format.lines import Key, Keys
+    from satcheck.scene.format.text import Parsed
 
 T = TypeVar("T")
 
@@ -82,6 +84,8 @@ class Problems:
 
     def __init__(self, parsed: Parsed) -> None:
         self._parsed = parsed
+        from satcheck.scene.format.lines import repeated_keys
+
         repeated = repeated_keys(parsed.text) if parsed.has_repeated_keys else ()
         self._found = [Wrong("a second value for this key", *keys) for keys in repeated]
 
