@@ -78,7 +78,8 @@ class _Look:
             self._at_missing(prim, path)
         for clips in (prim.GetMetadata("clips") or {}).values():
             names.CLIPS.refuse_misspelt(clips, f"{path}: clips")
-            if "primPath" not in clips or not any(each <= clips.keys() for each in _CLIPS):
+            is_whole = "primPath" in clips and any(each <= clips.keys() for each in _CLIPS)
+            if not is_whole and _has_geometry_below(prim):
                 words = "value clips without primPath, or assetPaths and active: not applied"
                 self._said.add("unread", words, path)
         self._unread(names.APIS, self._unknown_apis(prim), path, prim)

@@ -53,7 +53,7 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
     """
     kind = prim.GetTypeName()
     stated = [name for name in _OF_SHAPES if prim.HasAttribute(name)]
-    if not kind and not choice.colliders and not all(_is_custom(prim, name) for name in stated):
+    if not kind and not choice.colliders and any(_is_shape(prim, name) for name in stated):
         message = f"a prim of no type has {', '.join(stated)}: it may be meant to be a shape"
         return Refusal("unsupported-feature", message)
     if _is_made_elsewhere(prim) and not choice.colliders:
@@ -69,9 +69,11 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
     return None
 
 
-def _is_custom(prim: Any, name: str) -> bool:
-    """Whether the property is of the file's own. None of a mesh is."""
-    return name not in _OF_MESHES and prim.GetAttribute(name).IsCustom()
+def _is_shape(prim: Any, name: str) -> bool:
+    """Whether the property makes a prim of no type look like a mesh, or like a shape in a place."""
+    if name in _OF_MESHES:
+        return True
+    return bool(prim.HasAttribute("xformOpOrder") and not prim.GetAttribute(name).IsCustom())
 
 
 def _is_made_elsewhere(prim: Any) -> bool:

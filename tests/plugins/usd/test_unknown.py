@@ -386,11 +386,11 @@ def test_a_mesh_that_no_skeleton_can_move_is_named(tmp_path: Path) -> None:
 def test_a_prim_of_no_type_with_the_size_of_a_shape_may_be_meant_to_be_one(
     tmp_path: Path, name: str
 ) -> None:
-    untyped = f'def "B" {{\n double {name} = 1\n}}\n'
+    untyped = f'def "B" {{\n double {name} = 1\n{at(1)}}}\n'
     (refusal,) = refusals(load(tmp_path, stage(cube("A"), untyped)))
     assert refusal[0] == "unsupported-feature"
     assert name in refusal[1]
-    own = untyped.replace("double", "custom double")
+    own = untyped.replace(f"double {name}", f"custom double {name}")
     assert not refusals(load(tmp_path, stage(cube("A"), own)))
 
 
