@@ -40,12 +40,8 @@ class Choice:
         return bool(UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get(self.time))
 
     def _is_hidden(self, placed: PlacedPrim) -> bool:
-        frame, prim = placed.frame, placed.prim
-        while not self._hidden_below(prim, frame.root):
-            if frame.instancer is None:
-                return False
-            prim, frame = frame.instancer
-        return True
+        around = placed.frame.around(placed.prim)
+        return any(self._hidden_below(prim, frame.root) for prim, frame in around)
 
     def _hidden_below(self, prim: Any, root: Any) -> bool:
         """Whether the prim or one above it, up to the root, is invisible."""
@@ -64,9 +60,8 @@ class Choice:
 
 def _purpose(placed: PlacedPrim) -> str:
     """The purpose of the prim; else that of the nearest point instancer around it that has one."""
-    frame, prim = placed.frame, placed.prim
-    while True:
+    for prim, _ in placed.frame.around(placed.prim):
         purpose = str(UsdGeom.Imageable(prim).ComputePurpose())
-        if purpose != UsdGeom.Tokens.default_ or frame.instancer is None:
-            return purpose
-        prim, frame = frame.instancer
+        if purpose != UsdGeom.Tokens.default_:
+            break
+    return purpose

@@ -51,8 +51,9 @@ class Joints:
     def _joint(self, prim: Any) -> RawJoint | None:
         joint, kind = UsdPhysics.Joint(prim), str(prim.GetTypeName())
         ends = [joint.GetBody0Rel(), joint.GetBody1Rel()]
-        bodies = [body_at(self._stage.stage, end) for end in ends]
-        if not joint.GetJointEnabledAttr().Get() or bodies[0] == bodies[1] or kind in _LOOSE:
+        bodies = [body_at(self._stage.stage, end, self._time) for end in ends]
+        is_on = joint.GetJointEnabledAttr().Get(self._time)
+        if not is_on or bodies[0] == bodies[1] or kind in _LOOSE:
             return None
         parent, child = bodies
         name = str(prim.GetPath())

@@ -31,7 +31,8 @@ SHAPING = named(
     orientation subdivisionScheme tetVertexIndices surfaceFaceVertexIndices size radius height axis
     width length radiusTop radiusBottom protoIndices prototypes positions orientations orientationsf
     scales ids invisibleIds inactiveIds velocities angularVelocities accelerations widths
-    curveVertexCounts"""
+    curveVertexCounts translations rotations joints blendShapes blendShapeWeights bindTransforms
+    restTransforms offsets pointIndices"""
 )
 OF_ALL_PRIMS = named("xformOpOrder visibility purpose")
 # Their geometry is none of the scene, unless it stands below them.
@@ -105,6 +106,17 @@ GEOMETRY = TYPES.read - named("Xform Scope SkelRoot")
 SHAPES_OF_COLLIDERS = named(
     """PhysxConvexDecompositionCollisionAPI PhysxConvexHullCollisionAPI PhysxSDFMeshCollisionAPI
     PhysxSphereFillCollisionAPI PhysxTriangleMeshSimplificationCollisionAPI"""
+)
+
+
+# APIs of simulators that let a mesh collide without PhysicsCollisionAPI.
+COLLIDERS_OF_THEIR_OWN = named(
+    """PhysxDeformableBodyAPI PhysxDeformableSurfaceAPI PhysxParticleClothAPI PhysxParticleSetAPI
+    OmniPhysicsDeformableBodyAPI"""
+)
+SWITCHES = named(
+    """physics:collisionEnabled physics:rigidBodyEnabled physics:jointEnabled
+    physics:invertFilteredGroups"""
 )
 
 

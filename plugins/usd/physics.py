@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
 from satcheck.plugins.usd.stage import Remarks
-from satcheck.plugins.usd.walk import WORLD, Frame, PlacedPrim, of_prototype
+from satcheck.plugins.usd.walk import WORLD, PlacedPrim, of_prototype
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
 
 
@@ -25,18 +25,19 @@ class Physics(Struct, frozen=True):
 
 
 def with_physics(
-    stage: Any, nodes: Sequence[RawNode], prims: Sequence[PlacedPrim], said: Remarks
+    stage: Any, nodes: Sequence[RawNode], prims: Sequence[PlacedPrim], time: Any, said: Remarks
 ) -> Physics:
     """What physics says of the nodes.
 
-    prims: where each node comes from. Simulators do not collide colliders of one rigid body,
-    FilteredPairs, members of CollisionGroups that filter each other, and bodies that a joint
-    connects without collisionEnabled. Visual geometry below these prims is treated alike.
+    prims: where each node comes from. time: a Usd.TimeCode. Simulators do not collide
+    colliders of one rigid body, FilteredPairs, members of CollisionGroups that filter each other,
+    and bodies that a joint connects without collisionEnabled. Visual geometry below these prims is
+    treated alike.
     """
-    sources = _Sources(stage, prims)
+    sources = _Sources(stage, prims, time)
     if not sources:
         return Physics(tuple(nodes))
-    members = _Members(stage, prims)
+    members = _Members(sources, prims)
     made = _Rules(sources, members, len(nodes), said)
     rules = tuple(made.rules())
     links = {number: body for body, numbers in members.of_body.items() for number in numbers}
@@ -50,7 +51,7 @@ def with_physics(
 class _Sources:
     """The prims of a stage that make rules."""
 
-    def __init__(self, stage: Any, prims: Sequence[PlacedPrim]) -> None:
+    def __init__(self, stage: Any, prims: Sequence[PlacedPrim], time: Any) -> None:
         self.filters: list[Any] = []
         self.joints: list[Any] = []
         self.has_bodies = False
@@ -63,6 +64,7 @@ class _Sources:
                 self.joints.append(UsdPhysics.Joint(prim))
         self.table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(stage)
         self.stage = stage
+        self.time = time
 
     def __bool__(self) -> bool:
         return bool(self.has_bodies or self.filters or self.joints or self.table.GetGroups())
@@ -77,8 +79,8 @@ def _undefined(prims: Sequence[PlacedPrim]) -> Iterator[Any]:
 class _Members:
     """Which nodes are below a prim, or in a rigid body. Both have a name in each instance."""
 
-    def __init__(self, stage: Any, prims: Sequence[PlacedPrim]) -> None:
-        self._stage = stage
+    def __init__(self, sources: _Sources, prims: Sequence[PlacedPrim]) -> None:
+        self._stage = sources.stage
         self._prims = prims
         self._below: dict[str, list[int]] = {}
         self._names: dict[str, dict[str, str]] = {}  # path of a prim -> frame -> name there
@@ -93,14 +95,11 @@ class _Members:
             for name, prim, frame in each.frame.ancestors(each.prim):
                 self._below.setdefault(name, []).append(number)
                 self._names.setdefault(str(prim.GetPath()), {})[frame.name] = name
-                self._note(frame)
-                body = body or (name if _is_body(prim) else None)
+                if frame.instancer is not None:
+                    self._around[frame.name] = frame.instancer[1].name
+                body = body or (name if _is_body(prim, sources.time) else None)
             if body is not None:
                 self.of_body.setdefault(body, []).append(number)
-
-    def _note(self, frame: Frame) -> None:
-        if frame.instancer is not None:
-            self._around[frame.name] = frame.instancer[1].name
 
     def below(self, name: str) -> list[int]:
         return self._below.get(name, [])
@@ -135,14 +134,14 @@ class _Members:
         return [
             number
             for number, each in enumerate(self._prims)
-            if each.prim is not None and query.IsPathIncluded(_outer_path(each))
+            if each.prim is not None and query.IsPathIncluded(each.outermost())
         ]
 
 
-def _is_body(prim: Any) -> bool:
+def _is_body(prim: Any, time: Any) -> bool:
     if not prim.HasAPI(UsdPhysics.RigidBodyAPI):
         return False
-    return bool(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get())
+    return bool(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get(time))
 
 
 class _Rules:
@@ -185,10 +184,10 @@ class _Rules:
                 yield _rule(a, b, f"filteredPairs of {path}")
 
     def _of_joint(self, joint: Any) -> Iterator[RawRule]:
-        if joint.GetCollisionEnabledAttr().Get() or not joint.GetJointEnabledAttr().Get():
+        stage, time = self._sources.stage, self._sources.time
+        if joint.GetCollisionEnabledAttr().Get(time) or not joint.GetJointEnabledAttr().Get(time):
             return
-        stage = self._sources.stage
-        ends = [body_at(stage, end) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+        ends = [body_at(stage, end, time) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
         if ends[0] is None or ends[1] is None:
             return
         for pair in self._members.pairs(ends[0], ends[1]):
@@ -212,20 +211,12 @@ def _rule(a: str, b: str, reason: str) -> RawRule:
     return RawRule(a, b, f"USD: {reason}", of_groups=True)
 
 
-def _outer_path(placed: PlacedPrim) -> Any:
-    """Of the prim, or of the point instancer around all."""
-    prim, frame = placed.prim, placed.frame
-    while frame.instancer is not None:
-        prim, frame = frame.instancer
-    return prim.GetPath()
-
-
-def body_at(stage: Any, relationship: Any) -> str | None:
+def body_at(stage: Any, relationship: Any, time: Any) -> str | None:
     """The rigid body that the end of a joint is in; None: the world."""
     for path in relationship.GetForwardedTargets():
         prim = stage.GetPrimAtPath(path)
         while prim and not prim.IsPseudoRoot():
-            if _is_body(prim):
+            if _is_body(prim, time):
                 return str(prim.GetPath())
             prim = prim.GetParent()
     return None

@@ -34,6 +34,8 @@ from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.read_options import ReadOptions
 
+# Approximations that reach out of the mesh.
+_LARGER = (UsdPhysics.Tokens.boundingCube, UsdPhysics.Tokens.boundingSphere)
 _NOT_TURNED = Gf.Matrix4d(1.0)
 Content = RawMesh | Primitive | Refusal
 
@@ -76,7 +78,9 @@ class _Reading:
             code = "no-body" if is_explained else "empty-mesh"
             raise Refused(code, f"the stage has no body. {reasons}".strip())
         said = Remarks()
-        physics = with_physics(self._stage.stage, self._nodes, self._placed, said)
+        physics = with_physics(
+            self._stage.stage, self._nodes, self._placed, self._choice.time, said
+        )
         joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
         return RawScene(
             tuple(self._parts),
@@ -203,7 +207,8 @@ class _Reading:
             vertices, triangles = hull.to_bytes()
             return RawMesh(vertices, triangles, mesh.number_format, units=mesh.units)
         words = f"a simulator takes its {kind}, its mesh is checked"
-        self._said.add("simplified-mesh", words, str(prim.GetPath()))
+        code = "unread" if kind in _LARGER else "simplified-mesh"
+        self._said.add(code, words, str(prim.GetPath()))
         return mesh
 
     def _part(self, name: str, content: Content) -> int:

@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdSkel
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.choice import Choice
@@ -20,8 +20,11 @@ _ORDER = UsdGeom.Tokens.xformOpOrder
 _RESET, _INVERSE, _OP = "!resetXformStack!", "!invert!", "xformOp:"
 # Tokens that place, hide or shape a body.
 _TOKENS = names.named(
-    "visibility purpose orientation subdivisionScheme axis physics:approximation physics:axis"
+    """visibility purpose orientation subdivisionScheme axis physics:approximation physics:axis
+    collection:colliders:expansionRule"""
 )
+# With primPath, what value clips need to count.
+_CLIPS = (names.named("assetPaths active"), names.named("templateAssetPath templateStride"))
 _JOINTS = UsdSkel.Tokens.primvarsSkelJointIndices
 _NOT_READ = "is not read; it may hold or move a body"
 _OF_GEOMETRY = names.named(
@@ -75,6 +78,10 @@ class _Look:
             self._at_missing(prim, path)
         for clips in (prim.GetMetadata("clips") or {}).values():
             names.CLIPS.refuse_misspelt(clips, f"{path}: clips")
+            is_whole = "primPath" in clips and any(each <= clips.keys() for each in _CLIPS)
+            if not is_whole and _has_geometry_below(prim):
+                words = "value clips without primPath, or assetPaths and active: not applied"
+                self._said.add("unread", words, path)
         self._unread(names.APIS, self._unknown_apis(prim), path, prim)
         self._at_properties(prim, path)
         self._at_tokens(prim, path)
@@ -83,6 +90,8 @@ class _Look:
         self._at_skeleton(prim, path)
         if self._choice.collides(prim):
             self._at_collider(prim, path)
+        elif self._choice.colliders:
+            self._at_no_collider(prim, path)
 
     def _at_missing(self, prim: Any, path: str) -> None:
         """USD says nothing of a class that is not there."""
@@ -122,10 +131,12 @@ class _Look:
 
     def _unknown_apis(self, prim: Any) -> Iterator[str]:
         registry = Usd.SchemaRegistry
-        for name in prim.GetPrimTypeInfo().GetAppliedAPISchemas():
-            kind = registry.GetTypeNameAndInstance(name)[0]
+        for name in _apis(prim):
+            kind, instance = registry.GetTypeNameAndInstance(name)
             if registry().FindAppliedAPIPrimDefinition(kind) is None:
                 yield kind
+            elif instance and not registry().IsMultipleApplyAPISchema(kind):
+                yield name
 
     def _at_properties(self, prim: Any, path: str) -> None:
         known = frozenset(prim.GetPrimDefinition().GetPropertyNames())
@@ -177,7 +188,7 @@ class _Look:
 
     def _at_tokens(self, prim: Any, path: str) -> None:
         definition = prim.GetPrimDefinition()
-        for name in _TOKENS:
+        for name in _TOKENS | names.SWITCHES:
             attribute = prim.GetAttribute(name)
             if not attribute or not attribute.HasAuthoredValue():
                 continue
@@ -186,6 +197,8 @@ class _Look:
             if allowed and value is not None and value not in allowed:
                 words = f"{name} is {value!r}, not one of {', '.join(allowed)}"
                 self._said.add("unread", words, path)
+            if name in names.SWITCHES and not isinstance(value, int):
+                self._said.add("unread", f"{name} is {value!r}, no true or false", path)
 
     def _at_ops(self, prim: Any, path: str) -> None:
         attribute = prim.GetAttribute(_ORDER)
@@ -231,7 +244,15 @@ class _Look:
             self._said.add("unread", f"the op {name} has no value", str(prim.GetPath()))
 
     def _at_skeleton(self, prim: Any, path: str) -> None:
-        if not prim.IsA(UsdGeom.Gprim) or not prim.HasAPI(UsdSkel.BindingAPI):
+        if not prim.HasAPI(UsdSkel.BindingAPI):
+            return
+        for name, kind in (("skeleton", UsdSkel.Skeleton), ("animationSource", UsdSkel.Animation)):
+            found = prim.GetRelationship(f"skel:{name}").GetForwardedTargets()
+            other = prim.GetStage().GetPrimAtPath(found[0]) if found else None
+            if found and not (other and other.IsA(kind)):
+                words = f"skel:{name} is {found[0]}, which is no {kind.__name__}"
+                self._said.add("unread", words, path)
+        if not prim.IsA(UsdGeom.Gprim):
             return
         is_bound = prim.GetAttribute(_JOINTS).HasAuthoredValue()
         if is_bound and not (prim.IsA(UsdGeom.Mesh) and UsdSkel.Root.Find(prim)):
@@ -257,16 +278,28 @@ class _Look:
                 self._said.add("unread", words, path)
 
     def _at_collider(self, prim: Any, path: str) -> None:
-        shaped = names.SHAPES_OF_COLLIDERS.intersection(
-            prim.GetPrimTypeInfo().GetAppliedAPISchemas()
-        )
+        shaped = names.SHAPES_OF_COLLIDERS.intersection(_apis(prim))
         if shaped and not prim.GetAttribute("physics:approximation").HasAuthoredValue():
             words = f"{min(shaped)} may shape the collider otherwise; its geometry is checked"
+            self._said.add("unread", words, path)
+        approximation = prim.GetAttribute("physics:approximation")
+        if approximation and not prim.HasAPI(UsdPhysics.MeshCollisionAPI):
+            words = "physics:approximation is of no concern without PhysicsMeshCollisionAPI"
             self._said.add("unread", words, path)
         rest = prim.GetAttribute("physxCollision:restOffset")
         value = rest.Get(self._choice.time) if rest else None
         if isinstance(value, float) and value != 0 and math.isfinite(value):
             self._said.add("unread", f"its restOffset of {value:g} is not applied", path)
+
+    def _at_no_collider(self, prim: Any, path: str) -> None:
+        own = names.COLLIDERS_OF_THEIR_OWN.intersection(_apis(prim))
+        if own:
+            self._said.add("unread", f"{min(own)} makes a collider, which is not read", path)
+
+
+def _apis(prim: Any) -> Any:
+    """The APIs that the prim applies, known to the library or not."""
+    return prim.GetPrimTypeInfo().GetAppliedAPISchemas()
 
 
 def _unregistered(found: Any) -> list[str]:

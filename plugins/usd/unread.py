@@ -15,6 +15,7 @@ _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points
 _WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
 _OF_GEOMETRY = ("extent", "points")
 _OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
+_OF_SHAPES = (*_OF_MESHES, "size", "radius", "height")
 _OF_SKELETONS = (UsdSkel.Root, UsdSkel.Skeleton)
 # Properties that only a prim has that takes up space, whatever its type.
 _OF_SPACE = ("extent", "points", "xformOpOrder", "visibility", "purpose", "material:binding")
@@ -28,7 +29,7 @@ def without_extent(prim: Any, choice: Choice) -> str | None:
     kind = type_of(prim)
     if kind in _WITH_WIDTHS and not _has_widths(prim, choice):
         return f"of type {kind} and without widths, it has no surface"
-    if kind == "Mesh" and not (_has_points(prim, choice) or _has_faces(prim, choice)):
+    if kind == "Mesh" and not any(prim.GetAttribute(name).Get(choice.time) for name in _OF_MESHES):
         return "a mesh without points and faces"
     return None
 
@@ -39,7 +40,7 @@ def not_read(prim: Any, choice: Choice) -> Refusal | None:
     if kind in _WITHOUT_TRIANGLES:
         message = f"geometry of the type {kind} is not read: convert it to a Mesh"
         return Refusal("unsupported-feature", message)
-    if kind == "Mesh" and not _has_faces(prim, choice):
+    if kind == "Mesh" and not prim.GetAttribute("faceVertexCounts").Get(choice.time):
         return Refusal(NO_SURFACE, "the mesh has no faces")
     return None
 
@@ -51,8 +52,9 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
     collider without geometry of its own may if the prims below have geometry.
     """
     kind = prim.GetTypeName()
-    if not kind and not choice.colliders and any(map(prim.HasAttribute, _OF_MESHES)):
-        message = "a prim of no type has the points or faces of a mesh: it may be meant to be one"
+    stated = [name for name in _OF_SHAPES if prim.HasAttribute(name)]
+    if not kind and not choice.colliders and any(_is_shape(prim, name) for name in stated):
+        message = f"a prim of no type has {', '.join(stated)}: it may be meant to be a shape"
         return Refusal("unsupported-feature", message)
     if _is_made_elsewhere(prim) and not choice.colliders:
         return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
@@ -65,6 +67,13 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
         message = f"a collider of type {kind or 'unknown'} that joins what is below is not read"
         return Refusal("unsupported-feature", message)
     return None
+
+
+def _is_shape(prim: Any, name: str) -> bool:
+    """Whether the property makes a prim of no type look like a mesh, or like a shape in a place."""
+    if name in _OF_MESHES:
+        return True
+    return bool(prim.HasAttribute("xformOpOrder") and not prim.GetAttribute(name).IsCustom())
 
 
 def _is_made_elsewhere(prim: Any) -> bool:
@@ -91,11 +100,3 @@ def _has_widths(prim: Any, choice: Choice) -> bool:
     values = [prim.GetAttribute("widths").Get(choice.time)]
     values.append(inherited.Get(choice.time) if inherited else None)
     return any(width > 0 for widths in values if widths is not None for width in widths)
-
-
-def _has_points(prim: Any, choice: Choice) -> bool:
-    return bool(UsdGeom.Mesh(prim).GetPointsAttr().Get(choice.time))
-
-
-def _has_faces(prim: Any, choice: Choice) -> bool:
-    return bool(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr().Get(choice.time))

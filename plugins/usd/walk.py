@@ -33,18 +33,21 @@ class Frame(Struct, frozen=True):
         below = path.MakeRelativePath(self.root.GetPath())
         return self.name if path == self.root.GetPath() else f"{self.name}/{below}"
 
+    def around(self, prim: Any) -> Iterator[tuple[Any, Frame]]:
+        """The prim, then each point instancer around it, with their frames."""
+        yield prim, self
+        if self.instancer is not None:
+            outer, frame = self.instancer
+            yield from frame.around(outer)
+
     def ancestors(self, prim: Any) -> Iterator[tuple[str, Any, Frame]]:
         """The prim and those above it, through point instancers, each with its name and frame."""
-        frame = self
-        while True:
-            while prim and not prim.IsPseudoRoot():
-                yield frame.name_of(prim), prim, frame
-                if prim == frame.root:
+        for below, frame in self.around(prim):
+            while below and not below.IsPseudoRoot():
+                yield frame.name_of(below), below, frame
+                if below == frame.root:
                     break
-                prim = prim.GetParent()
-            if frame.instancer is None:
-                return
-            prim, frame = frame.instancer
+                below = below.GetParent()
 
 
 WORLD = Frame()
@@ -59,6 +62,10 @@ class PlacedPrim(Struct, frozen=True):
     frame: Frame
     matrix: Any = None
     refusal: Refusal | None = None
+
+    def outermost(self) -> Any:
+        """The path of the prim, or of the point instancer around all."""
+        return [*self.frame.around(self.prim)][-1][0].GetPath()
 
 
 class Walk:
@@ -123,7 +130,7 @@ class Walk:
     def _placed(self, prim: Any, frame: Frame) -> list[tuple[int, Any, Any]]:
         """(number, prototype, placement in the space of the instancer) of each instance that is not
         masked. Raises Refused."""
-        if prim in _instancers(frame):
+        if prim in [each for each, _ in frame.around(prim)][1:]:
             raise Refused("reference-cycle", "a prototype holds it: a cycle")
         instancer, time = UsdGeom.PointInstancer(prim), self._time
         numbers = instancer.GetProtoIndicesAttr().Get(time) or ()
@@ -166,13 +173,6 @@ class Walk:
         if not prim or prim.IsAbstract():
             raise Refused("missing-resource", f"there is no prototype {path}")
         return prim
-
-
-def _instancers(frame: Frame) -> Iterator[Any]:
-    """The point instancers around the frame."""
-    while frame.instancer is not None:
-        prim, frame = frame.instancer
-        yield prim
 
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()

@@ -117,11 +117,21 @@ def test_a_hull_is_computed_and_other_approximations_are_named(tmp_path: Path) -
     hull = cube("Hull", 'uniform token physics:approximation = "convexHull"', api)
     notched = hull.replace("[0,1,3,2,", "[0,1,3,3,")
     assert not load(tmp_path, stage(notched)).bodies[0].file.health.closed
-    box = cube("Box", 'uniform token physics:approximation = "boundingCube"', api)
+    box = cube("Box", 'uniform token physics:approximation = "sdf"', api)
     scene = load(tmp_path, stage(notched, box), geometry="collision")
     assert scene.bodies[0].file.health.closed
     assert "/Box" in said(scene)["simplified-mesh"]
-    assert "boundingCube" in said(scene)["simplified-mesh"]
+    assert "sdf" in said(scene)["simplified-mesh"]
+
+
+@pytest.mark.parametrize("kind", ["boundingCube", "boundingSphere"])
+def test_an_approximation_that_reaches_out_of_the_mesh_blocks_a_pass(
+    tmp_path: Path, kind: str
+) -> None:
+    api = f'{COLLIDER}, "PhysicsMeshCollisionAPI"'
+    box = cube("Box", f'uniform token physics:approximation = "{kind}"', api)
+    assert kind in said(load(tmp_path, stage(box), geometry="collision"))["unread"]
+    assert "unread" not in said(load(tmp_path, stage(box)))
 
 
 def test_a_plane_is_a_half_space_to_a_simulator(tmp_path: Path) -> None:
@@ -217,3 +227,51 @@ def test_the_certificates_of_colliders_are_accepted(tmp_path: Path) -> None:
     assert ran.code == 1, ran.err
     accepted = satcheck("verify", str(report))
     assert accepted.code == 0, accepted.err
+
+
+def test_switches_of_rules_count_at_the_time_of_the_check(tmp_path: Path) -> None:
+    off = body(
+        "W",
+        cube("A", api=COLLIDER),
+        cube("B", api=COLLIDER),
+        more="bool physics:rigidBodyEnabled.timeSamples = {0: 0, 1: 1}",
+    )
+    assert not load(tmp_path, stage(off), geometry="collision").rules
+    assert load(tmp_path, stage(off), geometry="collision", time=1.0).rules
+    colliding = joint("bool physics:collisionEnabled.timeSamples = {0: 1, 1: 0}")
+    assert not load(tmp_path, stage(A, B, colliding), geometry="collision").rules
+    assert load(tmp_path, stage(A, B, colliding), geometry="collision", time=1.0).rules
+    loose = joint("bool physics:jointEnabled.timeSamples = {0: 0, 1: 1}")
+    assert not load(tmp_path, stage(A, B, loose), geometry="collision").rules
+
+
+def test_a_switch_that_is_no_truth_blocks_a_pass(tmp_path: Path) -> None:
+    one = body("W", cube("A", api=COLLIDER), more='string physics:rigidBodyEnabled = "false"')
+    scene = load(tmp_path, stage(one), geometry="collision")
+    assert "'false'" in said(scene)["unread"]
+
+
+def test_an_unknown_expansion_rule_blocks_a_pass(tmp_path: Path) -> None:
+    group = (
+        'def PhysicsCollisionGroup "G" (\n prepend apiSchemas = ["CollectionAPI:colliders"]\n) {\n'
+        ' uniform token collection:colliders:expansionRule = "{}"\n'
+        " rel collection:colliders:includes = [</A>]\n}\n"
+    )
+    boxes = stage(A, group.replace("{}", "explicitOny", 1))
+    assert "explicitOny" in said(load(tmp_path, boxes, geometry="collision"))["unread"]
+    known = stage(A, group.replace("{}", "explicitOnly", 1))
+    assert "unread" not in said(load(tmp_path, known, geometry="collision"))
+
+
+def test_an_approximation_without_its_api_blocks_a_pass(tmp_path: Path) -> None:
+    box = cube("Box", 'uniform token physics:approximation = "convexHull"', COLLIDER)
+    scene = load(tmp_path, stage(box), geometry="collision")
+    assert "PhysicsMeshCollisionAPI" in said(scene)["unread"]
+
+
+def test_deformable_bodies_collide_without_the_api_of_colliders(tmp_path: Path) -> None:
+    soft = cube("Soft", api='"PhysxDeformableBodyAPI"')
+    boxes = stage(cube("Box", api=COLLIDER), soft)
+    scene = load(tmp_path, boxes, geometry="collision")
+    assert "PhysxDeformableBodyAPI" in said(scene)["unread"]
+    assert "unread" not in said(load(tmp_path, boxes))

@@ -380,3 +380,57 @@ def test_a_class_that_is_missing_is_named(tmp_path: Path, arc: str) -> None:
 def test_a_mesh_that_no_skeleton_can_move_is_named(tmp_path: Path) -> None:
     bound = cube("A", "int[] primvars:skel:jointIndices = [0]", api='"SkelBindingAPI"')
     assert "SkelRoot" in said(load(tmp_path, stage(bound)))["left-out"]
+
+
+@pytest.mark.parametrize("name", ["size", "radius", "height"])
+def test_a_prim_of_no_type_with_the_size_of_a_shape_may_be_meant_to_be_one(
+    tmp_path: Path, name: str
+) -> None:
+    untyped = f'def "B" {{\n double {name} = 1\n{at(1)}}}\n'
+    (refusal,) = refusals(load(tmp_path, stage(cube("A"), untyped)))
+    assert refusal[0] == "unsupported-feature"
+    assert name in refusal[1]
+    own = untyped.replace(f"double {name}", f"custom double {name}")
+    assert not refusals(load(tmp_path, stage(cube("A"), own)))
+
+
+def test_an_api_that_takes_no_instance_name_is_misspelt_with_one(tmp_path: Path) -> None:
+    text = stage(cube("A", api='"PhysicsCollisionAPI:x"'))
+    ((code, message),) = refusals(load(tmp_path, text))
+    assert code == "misspelt"
+    assert "did you mean PhysicsCollisionAPI?" in message
+
+
+@pytest.mark.parametrize("name", ["skeleton", "animationSource"])
+def test_a_skeleton_or_animation_that_is_not_there_blocks_a_pass(tmp_path: Path, name: str) -> None:
+    box = cube("A", f"rel skel:{name} = </Lost>", api='"SkelBindingAPI"')
+    (message,) = unread(load(tmp_path, stage(box)))
+    assert f"skel:{name}" in message
+    assert "/Lost" in message
+
+
+def test_misspelt_names_of_animations_are_refused(tmp_path: Path) -> None:
+    animation = 'def SkelAnimation "N" {\n float3[] translation = [(1, 0, 0)]\n}\n'
+    ((code, message),) = refusals(load(tmp_path, stage(cube("A"), animation)))
+    assert code == "misspelt"
+    assert "did you mean translations?" in message
+
+
+@pytest.mark.parametrize("lost", ["primPath", "active", "assetPaths"])
+def test_value_clips_that_are_not_applied_block_a_pass(tmp_path: Path, lost: str) -> None:
+    (tmp_path / "clip.usda").write_text('#usda 1.0\ndef "A" {\n}\n')
+    lines = {
+        "primPath": 'string primPath = "/A"',
+        "active": "double2[] active = [(0, 0)]",
+        "assetPaths": "asset[] assetPaths = [@clip.usda@]",
+    }
+
+    def scene() -> Scene:
+        clips = "\n".join(lines.values())
+        head = f"clips = {{\n dictionary default = {{\n{clips}\n}}\n}}"
+        return load(tmp_path, stage(cube("A", head=head)))
+
+    assert not unread(scene())
+    del lines[lost]
+    (message,) = unread(scene())
+    assert "value clips" in message
