@@ -160,12 +160,13 @@ def readers(folder: Path, rounds: int) -> list[str]:
     import trimesh
 
     from satcheck.scene import MeshFiles
+    from satcheck.scene.document import FilePart
 
     lines = ["| 70,000 triangles | satcheck, CPU ms | trimesh | ratio |", "|---|---|---|---|"]
     for form in WRITERS:
         path = written(folder, "a", ring(0.7, 1, *SMALL), form)
         reads: dict[str, Callable[[str], Any]] = {
-            "ours": lambda path: MeshFiles().node(path, Path(path), None),
+            "ours": lambda path: MeshFiles().mesh(FilePart(path, Path(path))),
             "theirs": lambda path: trimesh.load(path, force="mesh"),
         }
         best = dict.fromkeys(reads, float("inf"))

@@ -14,6 +14,7 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.scene import Body, MeshFile, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import FilePart
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.nodes import CORNER
 from satcheck.scene.loading.readers import ReadLimits
@@ -71,7 +72,7 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Re
             return shape_file(shape_from(to_builtins(entry.shape)), entry.file)
         except Refused as error:
             return error
-    return files.node(entry.file, location, entry.path).file
+    return files.mesh(FilePart(entry.file, location, entry.path))
 
 
 def _placed(entry: BodyReport, file: MeshFile) -> Body:

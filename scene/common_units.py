@@ -8,7 +8,7 @@ unit. Otherwise their unit is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -19,7 +19,8 @@ from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
 from satcheck.scene.words import listed
 
-Kind = Literal["mesh", "scene", "robot", "rules"]
+if TYPE_CHECKING:
+    from satcheck.scene.document import Kind
 
 
 class Input(Struct):

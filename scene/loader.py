@@ -14,8 +14,9 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
+from satcheck.scene.document import Document, Item, Kind
 from satcheck.scene.errors import Refused
-from satcheck.scene.input_kind import kind_of
+from satcheck.scene.input_kind import InputKind, kind_of
 from satcheck.scene.loading.nodes import Split
 from satcheck.scene.loading.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -24,7 +25,7 @@ from satcheck.scene.loading.readers import (
 )
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import ANYWHERE, Permitted
-from satcheck.scene.plain_ids import plain_ids
+from satcheck.scene.plain_ids import COMPONENT_MARK, plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_builder import SceneBuilder
@@ -36,6 +37,7 @@ _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTI
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
     from satcheck.scene.mesh_files import KnownMeshes
+    from satcheck.scene.robot import Srdf
 
 
 class LoadOptions(Struct, frozen=True, kw_only=True):
@@ -111,33 +113,32 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         with closing(MeshFiles(allowed, known)) as files:
             builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
             have_bodies = [
-                bool(scenes[path].bodies) if kind == "scene" else kind != "srdf"
+                bool(scenes[path].items) if kind == "scene" else kind != "srdf"
                 for path, kind in given
             ]
             alone = sum(have_bodies) == 1
             # Colliders are exact shapes, which no mesh of a whole file holds.
             apart = alone or reading.geometry == "collision"
             split: Split = self.split or ("nodes" if apart else "none")
-            meshes = [path for path, kind in given if kind == "mesh"]
-            documents = [path for path, kind in given if kind == "document"]
-            ids = {"mesh": iter(plain_ids(meshes)), "document": iter(plain_ids(documents))}
+            of_kind = {kind: [path for path, own in given if own == kind] for _, kind in given}
+            ids = {kind: iter(plain_ids(paths)) for kind, paths in of_kind.items()}
             if split == "none":
-                files.read_ahead((path, Path(path)) for path in meshes)
+                files.read_ahead((path, Path(path)) for path in of_kind.get("mesh", ()))
             for path, kind in given:
                 match kind:
                     case "scene":
-                        builder.add_scene(scenes[path])
+                        builder.add(scenes[path])
                     case "robot":
                         geometry = self.geometry or "collision"
-                        builder.add_robot(path, Path(path), self.packages, geometry)
+                        builder.add(files.robot(path, Path(path), self.packages or {}, geometry))
                     case "srdf":
-                        builder.add_srdf(path, Path(path))
-                    case "document":
-                        builder.add_file("scene", next(ids[kind]), path, "nodes", alone)
-                    case "mesh":
-                        builder.add_file("mesh", next(ids[kind]), path, split, alone)
+                        builder.add_srdf(_srdf(path))
+                    case _:
+                        own: Split = split if kind == "mesh" else "nodes"
+                        found = files.document(path, Path(path), own)
+                        builder.add(_with_ids(found, path, kind, next(ids[kind]), alone))
             for path in _as_texts(self.rules):
-                builder.add_scene(read_rules(path))
+                builder.add(read_rules(path))
             scene = builder.scene()
         between = self.between
         return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
@@ -193,6 +194,37 @@ def _scene(path: str, permitted: Permitted) -> SceneFile:
     return read_scene_file(path, Path(path), permitted)
 
 
+def _srdf(path: str) -> Srdf:
+    """Raises Refused."""
+    from satcheck.scene.robot import read_srdf
+
+    return read_srdf(path, Path(path))
+
+
+def _with_ids(
+    found: Document | Refused, path: str, kind: InputKind, file_id: str, alone: bool
+) -> Document:
+    """A mesh file or a document as an input, with the ids that its bodies should have. alone: the
+    paths of nodes are ids, without the id of the file before them."""
+    name = Path(path).stem or path
+    if isinstance(found, Refused):
+        of: Kind = "mesh" if kind == "mesh" else "scene"
+        found = Document(path=path, name=name, kind=of, items=(Item(found),))
+    items = []
+    for item in found.items:
+        id_ = _node_id(item.path, file_id, alone)
+        items.append(replace(item, id=id_, title=item.title or (id_ if item.path else name)))
+    return replace(found, path=path, items=tuple(items))
+
+
+def _node_id(path: str | None, file_id: str, alone: bool) -> str:
+    if path is None:
+        return file_id
+    if path.startswith(COMPONENT_MARK):  # of a file without nodes
+        return file_id + path
+    return path if alone else f"{file_id}/{path.removeprefix('/')}"
+
+
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
     """The options that scenes state. Raises Refused if two of them differ."""
     stated: dict[str, Any] = {}
@@ -214,7 +246,7 @@ def read_rules(path: str) -> SceneFile:
 def is_rules(path: str) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises Refused."""
-    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).bodies
+    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).items
 
 
 def has_only_rules(path: str) -> bool:
@@ -223,7 +255,7 @@ def has_only_rules(path: str) -> bool:
     if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
         return False
     scene = _scene(path, ANYWHERE)
-    return bool(scene.rules or scene.body_rules) and not scene.bodies
+    return bool(scene.rules or scene.body_rules) and not scene.items
 
 
 def is_mesh(path: str) -> bool:

@@ -19,11 +19,12 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
+from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.loading.nodes import Node, Nodes, Split, nodes_of
+from satcheck.scene.loading.nodes import Split, document_of
 from satcheck.scene.loading.raw_mesh import RawScene
 from satcheck.scene.loading.readers import (
     File,
@@ -42,8 +43,6 @@ from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
-    from satcheck.scene.robot.model import Robot
-    from satcheck.scene.robot.packages import FilePlaces
 
 
 class MeshFiles:
@@ -70,13 +69,13 @@ class MeshFiles:
         # An error that is kept holds this object in a cycle, which may live for long.
         self._children.close()
 
-    def nodes(self, path: str, location: Path, split: Split) -> Nodes | Refused:
+    def document(self, path: str, location: Path, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
             load = partial(self._known.recall, (path, key, self.allowed), load)
-        made: Nodes | Refused = self._once(key, load)
+        made: Document | Refused = self._once(key, load)
         return made
 
     def _once(self, key: Hashable, make: Callable[[], Any]) -> Any:
@@ -88,10 +87,10 @@ class MeshFiles:
                 self._made[key] = error
         return self._made[key]
 
-    def _load(self, path: str, location: Path, split: Split) -> Nodes:
+    def _load(self, path: str, location: Path, split: Split) -> Document:
         with _reading(path, location), errors_of(path):
             file = replace(open_file(path, location, self.allowed), whole=split == "none")
-            return nodes_of(file, self._read(file), split)
+            return document_of(file, self._read(file), split)
 
     def _read(self, file: File) -> RawScene:
         """In this process, or in the child process, as its reader says."""
@@ -104,47 +103,58 @@ class MeshFiles:
         place = f"{read.__module__}:{read.__name__}"
         return read_in_child(file, place, RawScene, self._children, self.allowed)
 
-    def node(self, path: str, location: Path, part: str | None) -> Node:
-        """Return one node of the file by its path, which may end in "#" and the number of a
-        component, or in the mark of a convex hull, which may also stand alone. None: all of the
-        file."""
+    def item(self, named: FilePart) -> Item:
+        """Return one body of a file. A part may end in "#" and the number of a component, or in the
+        mark of a convex hull, which may also stand alone."""
+        path, location, part = named.path, named.location, named.part
         if part is not None and part.endswith(HULL_MARK):
-            hull: Node = self._once(
-                (_absolute(location), part), partial(self._hull, path, location, part)
-            )
+            hull: Item = self._once((_absolute(location), part), partial(self._hull, named))
             return hull
         split: Split = (
             "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
         )
-        loaded = self.nodes(path, location, split)
+        loaded = self.document(path, location, split)
         if isinstance(loaded, Refused):
-            return Node(part, loaded)
-        if part is None or part in loaded.nodes:
-            return loaded.nodes[part]
-        hint = meant(part, filter(None, loaded.nodes))
+            return Item(loaded, part)
+        if part is None:
+            return loaded.items[0]
+        by_path: dict[str, Item] = self._once(
+            (_absolute(location), "by path", split),
+            lambda: {item.path or "": item for item in loaded.items},
+        )
+        if part in by_path:
+            return by_path[part]
+        hint = meant(part, filter(None, by_path))
         message = f"there is no part {part!r} in the file{hint}"
         reader = reader_of(location.suffix)
         if reader is not None and "geometry" in reader.options:
             message += "; --geometry, --purpose and `reading` of a scene choose its parts"
-        return Node(part, Refused("unknown-part", message, file=path))
+        return Item(Refused("unknown-part", message, file=path), part)
 
-    def _hull(self, path: str, location: Path, part: str) -> Node:
-        """Return a node with the convex hull of its mesh."""
-        node = self.node(path, location, part.removesuffix(HULL_MARK) or None)
-        if isinstance(node.file, Refused):
-            return node
+    def mesh(self, named: FilePart) -> MeshFile | Refused:
+        """Return the mesh of a file, or of a part of it."""
+        shape = self.item(named).shape
+        assert not isinstance(shape, FilePart)  # a file names parts of others, or has its own
+        return shape if isinstance(shape, MeshFile | Refused) else self.shape(shape, named.path)
+
+    def _hull(self, named: FilePart) -> Item:
+        """Return an item with the convex hull of its mesh."""
+        part = named.part or ""
+        item = self.item(replace(named, part=part.removesuffix(HULL_MARK) or None))
+        if not isinstance(item.shape, MeshFile):
+            return item
         try:
-            hull = node.file.mesh.convex_hull().to_mesh()
-            return replace(node, path=part, file=replace(remeshed(node.file, hull), part=part))
+            hull = item.shape.mesh.convex_hull().to_mesh()
+            return replace(item, path=part, shape=replace(remeshed(item.shape, hull), part=part))
         except (Refused, ValueError) as error:
             code = error.code if isinstance(error, Refused) else "flat"
-            return replace(node, file=Refused(code, f"convex hull: {error}", file=path))
+            return replace(item, shape=Refused(code, f"convex hull: {error}", file=named.path))
 
     def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
         place = _absolute(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
-        return next((nodes.issues for nodes in made if isinstance(nodes, Nodes)), ())
+        return next((each.issues for each in made if isinstance(each, Document)), ())
 
     def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
         """Reads the large ones of these files in parallel, as a whole.
@@ -164,7 +174,7 @@ class MeshFiles:
         def read() -> None:
             while queue:
                 try:
-                    self.nodes(*queue.pop(), "none")
+                    self.document(*queue.pop(), "none")
                 except Exception:  # noqa: BLE001 reported when the file is used
                     continue
 
@@ -183,17 +193,18 @@ class MeshFiles:
         self,
         path: str,
         location: Path,
-        places: FilePlaces,
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
-    ) -> tuple[Robot, tuple[Issue, ...]]:
-        """Return the robot that a file describes, and issues. Raises Refused, also if reading it
-        has ended the process before."""
-        from satcheck.scene.robot import read_robot
+    ) -> Document:
+        """Return the robot that a file describes, and the bodies of its links. No mesh is read.
+        Raises Refused, also if reading it has ended the process before."""
+        from satcheck.scene.robot import FilePlaces, document_of_robot, read_robot
 
+        places = FilePlaces(path, packages, self.allowed.permitted)
         with _reading(path, location):
             file = RobotFile(places, packages, geometry, self.allowed, self._children)
-            return read_robot(path, location, file)
+            robot, issues = read_robot(path, location, file)
+        return document_of_robot(robot, places, issues)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | Refused:
         """path: the file that states it."""
@@ -204,7 +215,7 @@ class MeshFiles:
 class _Known(Struct, frozen=True):
     """read: what was made of these files."""
 
-    read: Nodes
+    read: Document
     files: FilesRead
     triangles: int
 
@@ -219,7 +230,7 @@ class KnownMeshes:
         self._known: OrderedDict[Hashable, _Known] = OrderedDict()
         self._lock = Lock()
 
-    def recall(self, key: Hashable, load: Callable[[], Nodes]) -> Nodes:
+    def recall(self, key: Hashable, load: Callable[[], Document]) -> Document:
         """The result of `load`, or of an earlier one with this key. Raises what it raises."""
         known = self._take(key)
         if known is not None and known.files.are_certain():
@@ -248,10 +259,10 @@ class KnownMeshes:
                 self._held -= oldest.triangles
 
 
-def _triangles(read: Nodes) -> int:
+def _triangles(read: Document) -> int:
     """Each mesh counts for a little more than its triangles."""
-    files = (node.file for node in read.nodes.values())
-    return sum(100 + file.mesh.triangle_count for file in files if isinstance(file, MeshFile))
+    shapes = (item.shape for item in read.items)
+    return sum(100 + shape.mesh.triangle_count for shape in shapes if isinstance(shape, MeshFile))
 
 
 def _absolute(location: Path) -> str:

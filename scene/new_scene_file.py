@@ -16,6 +16,7 @@ from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.common_units import scaled_mesh, scaled_world
+from satcheck.scene.document import FilePart
 from satcheck.scene.format.document import SCENE_1
 from satcheck.scene.format.text import is_toml
 from satcheck.scene.loading.readers import mesh_reader, options_of
@@ -111,9 +112,9 @@ def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
     for body in scene.bodies:
         place = None
         if body.path is not None:
-            node = files.node(body.file.path, Path(body.file.path), body.path)
+            item = files.item(FilePart(body.file.path, Path(body.file.path), body.path))
             own = stated_unit(_stated_units(body) or body.file.units)
-            place = scaled_world(node.transform, ratio(own, unit) if own and unit else 1.0)
+            place = scaled_world(item.transform, ratio(own, unit) if own and unit else 1.0)
         elif body.shape is None:
             place = scaled_mesh(None, body.unit_scale or 1.0)
         unplaced[body.id] = place or IDENTITY

@@ -7,43 +7,48 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
-from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
+from satcheck.scene.bodies import IDENTITY, Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import (
     InOneUnit,
     Input,
-    Kind,
     in_one_unit,
     scaled_mesh,
     scaled_world,
 )
+from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
-from satcheck.scene.format.entries import BodyEntry, SceneFile
+from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import BLOCKING, Issue, issue
-from satcheck.scene.loading.nodes import Node, Nodes, Split, document_rules, groups_of
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.loading.readers import mesh_reader
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.rules import Rule
+from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
-    from satcheck.scene.robot import Part, SceneRobot, Srdf
-    from satcheck.scene.robot.document import Jointed
+    from satcheck.scene.planar.outline import Shape
+    from satcheck.scene.robot import SceneRobot, Srdf
 
-ROBOT_UNITS = "m"  # of every URDF, SDFormat and MJCF file
+
+class Added(Struct, frozen=True):
+    """A document in the check. ids: of its items. groups: in the file -> in the check."""
+
+    document: Document
+    ids: tuple[str, ...]
+    groups: Mapping[str, str]
 
 
 class SceneBuilder:
-    """Takes inputs one by one; `scene` returns their scene.
+    """Takes documents one by one; `scene` returns their scene.
 
-    files: reads their meshes. units: of the inputs that declare none.
+    files: reads the meshes that they name. units: of the inputs that declare none.
     """
 
     def __init__(self, files: MeshFiles, units: str | None) -> None:
@@ -51,207 +56,138 @@ class SceneBuilder:
         self._given_units = units
         self._ids = UniqueNames()
         self._groups = UniqueNames()
-        self._shared_groups: dict[str, str] = {}  # of documents
+        self._shared_groups: dict[str, str] = {}  # of documents that are no scene files or robots
         self._inputs: list[Input] = []
-        self._scenes: JoinedScenes | None = None
+        self._added: list[Added] = []
         self._rule_files: set[str] = set()
         self._parted: set[Path] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
-        self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
-        self._document_rules: list[Rule] = []
-        self._jointed: list[Jointed] = []
 
-    def add_file(self, kind: Kind, id_: str, path: str, split: Split, alone: bool) -> None:
-        """Adds a mesh file or a document. alone: the paths of nodes are ids, without the id of the
-        file before them."""
-        location = Path(path)
-        name = location.stem or path
-        nodes = self._files.nodes(path, location, split)
-        if isinstance(nodes, Refused):
-            nodes = Nodes({None: Node(None, nodes)})
-        self._issues.extend(nodes.issues)
-        files = [node.file for node in nodes.nodes.values()]
-        units = next((file.units for file in files if isinstance(file, MeshFile)), None)
-        self._begin(kind, name, path, units)
-        groups = groups_of(nodes, self._groups, self._shared_groups)
-        ids = {}
-        for place, node in nodes.nodes.items():
-            wanted = _node_id(place, id_, alone)
-            title = node.title or (wanted if place else name)
-            # A report states an exact shape by its sizes, and no node of a file.
-            own = replace(
-                node,
-                path=place if node.shape is None else None,
-                title=title,
-                groups=tuple(groups[group] for group in node.groups),
-            )
-            ids[place] = self._add(wanted, path, own)
-        self._document_rules += document_rules(nodes, ids, groups, path)
-        if any(joint.kind != "fixed" for joint in nodes.joints):
-            from satcheck.scene.robot.document import Jointed
-
-            links = {ids[place]: node.link for place, node in nodes.nodes.items() if node.link}
-            self._jointed.append(Jointed(path, nodes.joints, links))
-
-    def add_scene(self, scene: SceneFile) -> None:
-        """Adds a scene file. One without bodies is a file of rules, which is added only once."""
-        path = scene.path
-        if not scene.bodies:
-            place = os.path.realpath(path)
+    def add(self, document: Document) -> None:
+        """Adds the bodies of a document. A file of rules is added only once."""
+        if document.kind == "rules":
+            place = os.path.realpath(document.path)
             if place in self._rule_files:
                 return
             self._rule_files.add(place)
-        self._begin("scene" if scene.bodies else "rules", scene.name, path, scene.units)
-        self._scenes = self._scenes or JoinedScenes(self._groups)
-        groups = self._scenes.groups_of(scene)
-        ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
-        self._scenes.add(scene, ids, groups)
-        places = enumerate(ids.values())
-        self._entries |= {id_: Entry(path, number=number) for number, id_ in places}
-        self._issues.extend(scene.issues)
+        declares, is_rules = document.units, document.kind == "rules"
+        unit = stated_unit(declares) or (None if is_rules else self._given_units)
+        self._inputs.append(Input(document.kind, document.name, document.path, declares, unit))
+        self._issues.extend(document.issues)
+        groups = self._groups_of(document)
+        ids = tuple(self._add(item, document, groups) for item in document.items)
+        self._added.append(Added(document, ids, groups))
 
-    def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
-        """names: group in the file -> group in the check. path: of the scene file."""
-        transform = entry.transform
-        if entry.shape is not None:
-            node = Node(None, self._files.shape(entry.shape, path), None, entry.shape)
-        else:
-            path = entry.mesh.path
-            node = self._part(path, entry.mesh.location, entry.part)
-            scale = self._scale(node.file, entry.units)
-            if entry.part is None:
-                transform = scaled_mesh(transform, scale)
+    def add_srdf(self, srdf: Srdf) -> None:
+        self._srdfs.append(srdf)
+
+    def _groups_of(self, document: Document) -> dict[str, str]:
+        """Groups of the document -> their names in the check.
+
+        Groups of several files are different, even if they have the same name. Those of mesh files,
+        buildings and stages are one group, unless rules of the file name the group.
+        """
+        own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
+        named = dict.fromkeys(group for item in document.items for group in item.groups)
+        prefix = f"{document.name}: " if document.robot else ""
+        if isinstance(document, SceneFile):
+            named |= dict.fromkeys(sorted(document.ignore_within_groups))
+        if prefix or isinstance(document, SceneFile):
+            own = {*named}
+        groups = {}
+        for group in named:
+            if group in own:
+                groups[group] = self._groups.unique(f"{prefix}{group}")
             else:
-                transform = multiply(transform, scaled_world(node.transform, scale))
-        own = Node(
-            entry.part if node.shape is None else None,
-            node.file,
-            transform,
-            node.shape,
-            groups=tuple(names[group] for group in entry.groups),
-            static=entry.static,
-            pinned=entry.pinned,
-            units=entry.units,
-            surface_tolerance=entry.surface_tolerance,
-        )
-        return self._add(entry.id, path, own)
+                if group not in self._shared_groups:
+                    self._shared_groups[group] = self._groups.unique(group)
+                groups[group] = self._shared_groups[group]
+        return groups
 
-    def add_robot(
-        self,
-        path: str,
-        location: Path,
-        packages: Mapping[str, str | Path] | None,
-        geometry: GeometryKind,
-    ) -> None:
-        from satcheck.scene.robot import (
-            FilePlaces,
-            RobotBody,
-            SceneRobot,
-            bare_links,
-            parts_of,
-        )
-
-        places = FilePlaces(path, packages, self._files.allowed.permitted)
-        robot, issues = self._files.robot(path, location, places, packages or {}, geometry)
-        self._begin("robot", robot.name, path, ROBOT_UNITS)
-        self._issues += [*issues, *bare_links(robot)]
-        parts = parts_of(robot, places)
-        groups = self._groups_of(robot.name, parts)
-        bodies = []
-        for part in parts:
-            own = tuple(groups[group] for group in part.groups)
-            place, shape, offset = part.file, None, part.offset
-            file: MeshFile | Refused
-            if isinstance(part.source, Path):
-                place = part.source.as_posix()
-                file = self._part(place, part.source, part.piece).file
-                offset = scaled_mesh(offset, self._scale(file, None)) or offset
-            elif isinstance(part.source, Refused):
-                file = part.source
-            else:
-                shape = part.source
-                file = self._files.shape(shape, place)
-            node = Node(part.piece, file, offset, shape, groups=own, static=part.static)
-            id_ = self._add(part.id, place, node)
-            self._entries[id_] = Entry(part.file, line=part.line)
-            bodies.append(RobotBody(id_, part.link, offset, part.groups))
-        self._robots.append(SceneRobot(robot, tuple(bodies), groups=groups))
-
-    def _part(self, path: str, location: Path, part: str | None) -> Node:
-        """A part of a file, or all of it. What blocks a pass about the file is said once, whoever
-        names a part of it."""
-        node = self._files.node(path, location, part)
-        if part is not None and location not in self._parted:
-            self._parted.add(location)
-            issues = self._files.issues_of_parts(location)
-            self._issues += [each for each in issues if each.code in BLOCKING]
-        return node
-
-    def _groups_of(self, robot: str, parts: Sequence[Part]) -> dict[str, str]:
-        """Groups of a robot -> their names in the check."""
-        groups = dict.fromkeys(group for part in parts for group in part.groups)
-        return {group: self._groups.unique(f"{robot}: {group}") for group in groups}
-
-    def add_srdf(self, path: str, location: Path) -> None:
-        from satcheck.scene.robot import read_srdf
-
-        self._srdfs.append(read_srdf(path, location))
-
-    def _begin(self, kind: Kind, name: str, path: str, declares: str | None) -> None:
-        """Starts an input. The bodies that follow belong to it."""
-        unit = stated_unit(declares) or (None if kind == "rules" else self._given_units)
-        self._inputs.append(Input(kind, name, path, declares, unit))
-
-    def _scale(self, file: MeshFile | Refused, units: str | None) -> float:
-        """The factor from the unit of the mesh file to the unit of the input. units: override the
-        unit that the file states."""
-        own = self._inputs[-1].unit
-        if isinstance(file, Refused) or own is None:
-            return 1.0
-        return ratio(stated_unit(units or file.units) or own, own)
-
-    def _add(self, wanted: str, path: str, node: Node) -> str:
-        """Adds a body and returns its id. path: of the file that it is about. The placement is that
-        of coordinates of the file; the units override what the file states."""
-        id_ = self._ids.unique(wanted)
-        file, is_floor = node.file, isinstance(node.shape, HalfSpace)
+    def _add(self, item: Item, document: Document, groups: Mapping[str, str]) -> str:
+        """Adds a body and returns its id. groups: from `_groups_of`."""
+        id_ = self._ids.unique(item.id)
+        path = document.path
+        if item.entry is not None:
+            self._entries[id_] = item.entry
+            path = item.entry.file
+        if isinstance(item.shape, FilePart):
+            path, item = item.shape.path, self._in_other_file(item, item.shape)
+        exact: Shape | None = None
+        node = item.path
+        match item.shape:
+            case MeshFile() | Refused() as file:
+                pass
+            case FilePart():
+                raise AssertionError("a file names parts of others, or has its own")
+            case exact:
+                # A report states it by its sizes, and no node of a file.
+                file, node = self._files.shape(exact, path), None
+        groups_here = tuple(groups[group] for group in item.groups)
         if isinstance(file, Refused):
             # A file of shapes has many bodies: the message is about the body, not the file.
-            message = str(file) if node.shape is None else file.message
+            message = str(file) if exact is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
-            lost = Unreadable(id_, path, reason, node.groups, node.path, node.static)
+            lost = Unreadable(id_, path, reason, groups_here, node, item.static)
             self._inputs[-1].bodies.append(lost)
             return id_
+        is_floor = isinstance(exact, HalfSpace)
         body = Body(
             id_,
-            node.title or wanted,
+            item.title or item.id,
             file,
-            node.transform,
-            node.groups,
-            node.static or is_floor,
-            node.shape,
-            node.path,
-            node.pinned or is_floor,
-            stated_unit(node.units or file.units) or self._inputs[-1].unit,
-            surface_tolerance=node.surface_tolerance,
+            item.transform,
+            groups_here,
+            item.static or is_floor,
+            exact,
+            node,
+            item.pinned or is_floor,
+            stated_unit(item.units or file.units) or self._inputs[-1].unit,
+            surface_tolerance=item.surface_tolerance,
         )
         self._inputs[-1].bodies.append(body)
         return id_
+
+    def _in_other_file(self, item: Item, named: FilePart) -> Item:
+        """The item with the mesh that it names, where both files together place it. What blocks a
+        pass about a file is said once, whoever names a part of it."""
+        found = self._files.item(named)
+        if named.part is not None and named.location not in self._parted:
+            self._parted.add(named.location)
+            issues = self._files.issues_of_parts(named.location)
+            self._issues += [each for each in issues if each.code in BLOCKING]
+        place, own = item.transform, self._inputs[-1].unit
+        if isinstance(found.shape, MeshFile) and own is not None:
+            scale = ratio(stated_unit(item.units or found.shape.units) or own, own)
+            if found.transform is None:
+                place = scaled_mesh(place, scale)
+            else:
+                place = multiply(place, scaled_world(found.transform, scale))
+        elif found.transform is not None:
+            place = multiply(place, found.transform)
+        return replace(item, path=named.part, shape=found.shape, transform=place)
 
     def scene(self) -> Scene:
         """Raises Refused if a rule has to be expanded into too many pairs."""
         common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
-        if not self._robots and not self._srdfs and not self._jointed:
+        bodies = {body.id: body for each in self._inputs for body in each.readable}
+        robots = [_robot(each, bodies) for each in self._added if each.document.robot]
+        jointed = [
+            (each.document, dict(_links(each)))
+            for each in self._added
+            if any(joint.kind != "fixed" for joint in each.document.joints)
+        ]
+        if not robots and not self._srdfs and not jointed:
             return with_reach(scene)
         from satcheck.scene.robot import permissions, posed, with_srdfs
         from satcheck.scene.robot.document import robots_of_documents
 
-        robots = with_srdfs(self._robots, self._srdfs)
+        robots = with_srdfs(robots, self._srdfs)
         allowed, issues = [], list(scene.issues)
-        documents, remarks = robots_of_documents(self._jointed, scene.bodies, common)
+        documents, remarks = robots_of_documents(jointed, scene.bodies, common)
         issues += remarks
         for robot in robots:
             permitted, remarks = permissions(robot)
@@ -282,15 +218,58 @@ class SceneBuilder:
             bodies=common.bodies,
             unreadable=tuple(lost),
             order=tuple(body.id for body in everyone),
-            rules=tuple(self._document_rules),
+            rules=tuple(rule for each in self._added for rule in _rules(each)),
             entries=self._entries,
             reading=self._files.allowed.options,
             composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        if self._scenes is None:
+        stated = JoinedScenes()
+        for each in self._added:
+            if isinstance(each.document, SceneFile):
+                stated.add(each.document, each.ids, each.groups)
+        if stated.are_none:
             return scene
-        return _as_stated(scene, self._scenes, common.scales, alone=len(inputs) == 1)
+        return _as_stated(scene, stated, common.scales, alone=len(inputs) == 1)
+
+
+def _robot(added: Added, bodies: Mapping[str, Body]) -> SceneRobot:
+    """bodies: that can be used, by id, as the file places them in their links."""
+    from satcheck.scene.robot import RobotBody, SceneRobot
+
+    document = added.document
+    assert document.robot is not None
+    own = []
+    for item, id_ in zip(document.items, added.ids, strict=True):
+        placed = bodies[id_].transform if id_ in bodies else item.transform
+        own.append(RobotBody(id_, item.link or "", placed or IDENTITY, item.groups))
+    return SceneRobot(document.robot, tuple(own), groups=added.groups)
+
+
+def _links(added: Added) -> Iterator[tuple[str, str]]:
+    """The bodies of rigid bodies: (id, link)."""
+    for item, id_ in zip(added.document.items, added.ids, strict=True):
+        if item.link:
+            yield id_, item.link
+
+
+def _rules(added: Added) -> Iterator[Rule]:
+    """The rules of a document about its own items and groups."""
+    path, pairs = added.document.path, added.document.pairs
+    ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
+    for rule in pairs:
+        select = Selector.exactly_group if rule.of_groups else Selector.exactly
+        names = added.groups if rule.of_groups else ids
+        if rule.a in names and rule.b in names:
+            yield Rule(
+                a=select(names[rule.a]),
+                b=select(names[rule.b]),
+                allowed=True if rule.severity is None else None,
+                severity=rule.severity,
+                reason=rule.reason,
+                where=f"{path}: {rule.reason}",
+                file=path,
+            )
 
 
 def _as_stated(
@@ -336,14 +315,6 @@ def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:
         causes.setdefault((reason.code, reason.file, reason.message), []).append(reason)
     for first, *others in causes.values():
         yield replace(first, body=None) if others else first
-
-
-def _node_id(path: str | None, file_id: str, alone: bool) -> str:
-    if path is None:
-        return file_id
-    if path.startswith(COMPONENT_MARK):  # of a file without nodes
-        return file_id + path
-    return path if alone else f"{file_id}/{path.removeprefix('/')}"
 
 
 def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:

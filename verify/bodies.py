@@ -16,6 +16,7 @@ from satcheck.core.shapes import HalfSpace, Primitive, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
+from satcheck.scene.document import FilePart
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.loading.readers import ReadLimits
@@ -181,7 +182,7 @@ class Bodies:
 
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
-        mesh = self._files.node(file, self._root / file, path).file
+        mesh = self._files.mesh(FilePart(file, self._root / file, path))
         if isinstance(mesh, Refused):
             return Missing(file) if mesh.code == "file-not-found" else str(mesh)
         key = (file, mesh.part, "")

@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from msgspec import Struct
+from msgspec.structs import replace
 
+from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.files_read import note
 from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.issue import Issue, issue
@@ -18,57 +19,20 @@ from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
-    from satcheck.core.transform import Transform
     from satcheck.scene.motion import Motion
-    from satcheck.scene.planar.outline import Shape
     from satcheck.scene.rules import Rule
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
 
-class MeshPath(Struct, frozen=True):
-    """path: for messages and reports. location: on disk."""
+class SceneFile(Document, frozen=True, kw_only=True):
+    """A document whose items have ids, and name mesh files or state shapes. Rules and motions
+    refer to bodies of this file only. reading: the options with which its mesh files are read, by
+    their names in `ReadOptions`. accept: issues that may stay."""
 
-    path: str
-    location: Path
-
-
-NO_MESH = MeshPath("", Path())
-
-
-class BodyEntry(Struct, frozen=True):
-    """One body as the scene file describes it.
-
-    mesh: NO_MESH if the body is a shape. part: the name of a part of the mesh file; None: the whole
-    file. units: of the mesh; they override those of its file. surface_tolerance: in units of the
-    scene.
-    """
-
-    id: str
-    mesh: MeshPath
-    part: str | None = None
-    shape: Shape | None = None
-    transform: Transform | None = None
-    groups: tuple[str, ...] = ()
-    static: bool = False
-    pinned: bool = False
-    units: str | None = None
-    surface_tolerance: float | None = None
-
-
-class SceneFile(Struct, frozen=True):
-    """ids: as written. Rules and motions refer to bodies of this file only. reading: the options
-    with which its mesh files are read, by their names in `ReadOptions`. accept: issues that may
-    stay."""
-
-    path: str
-    name: str
-    units: str | None
-    bodies: tuple[BodyEntry, ...]
     ignore_within_groups: frozenset[str]
     check_static: bool
     rules: tuple[Rule, ...]
-    motions: tuple[Motion, ...]
-    issues: tuple[Issue, ...]
+    motions: tuple[Motion, ...] = ()
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     reading: Mapping[str, Any] = {}
@@ -87,15 +51,16 @@ class MeshPlaces:
         self._folder = location.parent
         self._own = followed(self._folder)
         self._permitted = permitted
-        self._known: dict[str, MeshPath] = {}
+        self._known: dict[str, FilePart] = {}
 
-    def find(self, mesh: str) -> MeshPath:
+    def find(self, mesh: str, part: str | None = None) -> FilePart:
         """The mesh file that a body names. Raises Wrong if it is missing or may not be opened."""
         if mesh not in self._known:
             self._known[mesh] = self._judged(mesh)
-        return self._known[mesh]
+        found = self._known[mesh]
+        return found if part is None else replace(found, part=part)
 
-    def _judged(self, mesh: str) -> MeshPath:
+    def _judged(self, mesh: str) -> FilePart:
         if "\0" in mesh:
             raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
         location = self._folder / mesh
@@ -113,7 +78,7 @@ class MeshPlaces:
         if not is_file(location):
             raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
         path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
-        return MeshPath(path, location)
+        return FilePart(path, location)
 
 
 def add_id(id_: str, ids: set[str]) -> None:
@@ -131,7 +96,7 @@ def unknown_units(units: str | None, path: str) -> list[Issue]:
     return [issue("unknown-units", message, file=path)]
 
 
-def unknown_groups(ignored: frozenset[str], bodies: Iterable[BodyEntry], path: str) -> list[Issue]:
+def unknown_groups(ignored: frozenset[str], bodies: Iterable[Item], path: str) -> list[Issue]:
     """Warnings about groups in ignore_within_groups without a body."""
     groups = {group for body in bodies for group in body.groups}
     return [

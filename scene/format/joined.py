@@ -15,10 +15,10 @@ from typing import NamedTuple, TypeVar
 from msgspec.structs import replace
 
 from satcheck.scene.bodies import Accepted, Body, Unreadable
+from satcheck.scene.document import FilePart
 from satcheck.scene.errors import Refused
 from satcheck.scene.format.entries import SceneFile
 from satcheck.scene.motion import Motion, scaled_motion
-from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selectable, Selector
 from satcheck.scene.statics import BodyRule, StaticsTerms, joined_terms
 
@@ -44,39 +44,35 @@ class _Own(NamedTuple):
 class JoinedScenes:
     """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
-    group_names: makes names of groups unique in the check. check_static: whether any file requires
-    it. ignored: groups whose pairs are not checked.
+    check_static: whether any file requires it. ignored: groups whose pairs are not checked.
     """
 
-    def __init__(self, group_names: UniqueNames) -> None:
-        self._group_names = group_names
+    def __init__(self) -> None:
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
         self.check_static = False
         self._motions: list[tuple[str, Motion]] = []  # with the path of their file
 
-    def groups_of(self, scene: SceneFile) -> dict[str, str]:
-        """Its groups -> their names in the check. Groups of different scenes are different, even if
-        they have the same name."""
-        groups = dict.fromkeys(group for entry in scene.bodies for group in entry.groups)
-        groups |= dict.fromkeys(sorted(scene.ignore_within_groups))
-        return {group: self._group_names.unique(group) for group in groups}
-
-    def add(self, scene: SceneFile, ids: Mapping[str, str], groups: Mapping[str, str]) -> None:
-        """ids: in the file -> in the check; groups: likewise, from `groups_of`."""
-        self._scenes.append((scene, ids))
+    def add(self, scene: SceneFile, ids: Sequence[str], groups: Mapping[str, str]) -> None:
+        """ids: of its items in the check. groups: in the file -> in the check."""
+        known = {item.id: id_ for item, id_ in zip(scene.items, ids, strict=True)}
+        self._scenes.append((scene, known))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
         self.check_static |= scene.check_static
         self._motions += [
-            (scene.path, replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies)))
+            (scene.path, replace(motion, bodies=tuple(known[id_] for id_ in motion.bodies)))
             for motion in scene.motions
         ]
+
+    @property
+    def are_none(self) -> bool:
+        return not self._scenes
 
     def accepted(self, *, alone: bool) -> tuple[Accepted, ...]:
         """Issues that may stay. alone: no input stands beside the file. What a file without bodies
         accepts counts for all, as its rules do."""
         return tuple(
-            Accepted(text, None if alone or not scene.bodies else _named_by(scene, ids))
+            Accepted(text, None if alone or not scene.items else _named_by(scene, ids))
             for scene, ids in self._scenes
             for text in scene.accept
         )
@@ -107,12 +103,12 @@ class JoinedScenes:
         bare = [body for body in everybody if body.id not in placed]
         for scene, ids in self._scenes:
             rules = [rule.scaled(scales.get(scene.path, 1.0)) for rule in rules_of(scene)]
-            if len(everybody) == len(scene.bodies) or not scene.bodies:
+            if len(everybody) == len(scene.items) or not scene.items:
                 yield from rules
             elif rules:
-                final = {id(body): ids[body.id] for body in scene.bodies}
+                final = {id(body): ids[body.id] for body in scene.items}
                 final |= {id(body): body.id for body in bare}
-                bodies = list[Selectable](chain(scene.bodies, bare))
+                bodies = list[Selectable](chain(scene.items, bare))
                 yield from expanded(rules, _Own(bodies, final, everybody, scene))
 
     def statics(self, scales: Mapping[str, float]) -> StaticsTerms | None:
@@ -126,7 +122,8 @@ class JoinedScenes:
 
 
 def _named_by(scene: SceneFile, ids: Mapping[str, str]) -> frozenset[str]:
-    return frozenset((scene.path, *ids.values(), *(body.mesh.path for body in scene.bodies)))
+    files = (item.shape.path for item in scene.items if isinstance(item.shape, FilePart))
+    return frozenset((scene.path, *ids.values(), *files))
 
 
 def _own_body_rules(rules: Sequence[BodyRule], own: _Own) -> Iterator[BodyRule]:

@@ -20,9 +20,9 @@ from satcheck.core.transform import (
     quaternion_matrix,
 )
 from satcheck.core.transform import Rotation as RotationMatrix
+from satcheck.scene.document import Item
 from satcheck.scene.format import document
 from satcheck.scene.format.document import Body, Row
-from satcheck.scene.format.entries import BodyEntry
 from satcheck.scene.format.form import Wrong, shown
 from satcheck.scene.motion import (
     NO_TURN,
@@ -139,7 +139,7 @@ def selector(text: str, *keys: str | int) -> Selector:
 
 
 def motion_of(
-    table: document.Motion, number: int, bodies: Sequence[BodyEntry] | None, moved: dict[str, int]
+    table: document.Motion, number: int, bodies: Sequence[Item] | None, moved: dict[str, int]
 ) -> list[Motion]:
     """The motion, if the bodies of the scene are known. Raises Wrong and SatcheckError.
 

@@ -10,14 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
+from satcheck.scene.bodies import Entry
+from satcheck.scene.document import Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.format import document, simple
 from satcheck.scene.format.document import RULES_FILE_KEYS, SCENE_1
 from satcheck.scene.format.entries import (
-    NO_MESH,
-    BodyEntry,
     MeshPlaces,
     SceneFile,
     add_id,
@@ -109,11 +110,12 @@ def _read(
         top = converted(outer, document.Scene)
 
     places = MeshPlaces(path, parsed.location, permitted)
-    bodies: list[BodyEntry] = []
+    bodies: list[Item] = []
     ids: set[str] = set()
     for k, table in enumerate(inner.get("bodies", ())):
         with problems.at("bodies", k):
-            bodies.append(_body(converted(table, document.Body), units, places, ids))
+            body = _body(converted(table, document.Body), units, places, ids)
+            bodies.append(replace(body, entry=Entry(path, number=k)))
     are_sound = not problems
 
     rules: list[Rule | BodyRule] = []
@@ -143,8 +145,9 @@ def _read(
     return SceneFile(
         path=path,
         name=top.name or parsed.location.stem,
+        kind="scene" if bodies else "rules",
         units=units,
-        bodies=tuple(bodies),
+        items=tuple(bodies),
         ignore_within_groups=ignored,
         check_static=top.check_static,
         rules=tuple(rule for rule in rules if isinstance(rule, Rule)),
@@ -157,18 +160,16 @@ def _read(
     )
 
 
-def _body(body: document.Body, units: str | None, places: MeshPlaces, ids: set[str]) -> BodyEntry:
+def _body(body: document.Body, units: str | None, places: MeshPlaces, ids: set[str]) -> Item:
     """units: of the scene. ids: of the bodies before; this call adds to them."""
     add_id(body.id, ids)
     own_units = None if body.units is UNSET else unit_of(body.units)
     if own_units is None and body.units is not UNSET:
         raise Wrong(f"one of {', '.join(MICROMETRES)} expected, not {shown(body.units)}", "units")
-    shape = body.shape or None
-    return BodyEntry(
+    shape = HalfSpace() if isinstance(body.shape, document.HalfSpace) else body.shape
+    return Item(
         id=body.id,
-        mesh=NO_MESH if body.mesh is UNSET else places.find(body.mesh),
-        part=body.part or None,
-        shape=HalfSpace() if isinstance(shape, document.HalfSpace) else shape,
+        shape=shape or places.find(body.mesh or "", body.part or None),
         transform=placement(body),
         groups=body.groups,
         static=body.static,

@@ -15,9 +15,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from msgspec.structs import replace
+
+from satcheck.scene.bodies import Entry
+from satcheck.scene.document import Item
 from satcheck.scene.format.document import Matrix, Text, Texts
 from satcheck.scene.format.entries import (
-    BodyEntry,
     MeshPlaces,
     SceneFile,
     add_id,
@@ -69,11 +72,12 @@ def read_scene(parsed: Parsed) -> SceneFile:
     with problems.at():
         top = converted(outer, Scene)
     places = MeshPlaces(path, parsed.location, ANYWHERE)
-    bodies: list[BodyEntry] = []
+    bodies: list[Item] = []
     ids: set[str] = set()
     for k, table in enumerate(inner.get("bodies", ())):
         with problems.at("bodies", k):
-            bodies.append(_entry(converted(table, Body), places, ids))
+            body = _entry(converted(table, Body), places, ids)
+            bodies.append(replace(body, entry=Entry(path, number=k)))
     pairs: list[tuple[Any, ...]] = []
     for k, pair in enumerate(inner.get("allowed_pairs", ())):
         with problems.at("allowed_pairs", k):
@@ -86,12 +90,12 @@ def read_scene(parsed: Parsed) -> SceneFile:
     return SceneFile(
         path=path,
         name=top.name or parsed.location.stem,
+        kind="scene" if bodies else "rules",
         units=top.units,
-        bodies=tuple(bodies),
+        items=tuple(bodies),
         ignore_within_groups=ignored,
         check_static=True,
         rules=rules,
-        motions=(),
         issues=(
             *_unknown_keys(values, path),
             *unknown_units(top.units, path),
@@ -101,12 +105,12 @@ def read_scene(parsed: Parsed) -> SceneFile:
     )
 
 
-def _entry(body: Body, places: MeshPlaces, ids: set[str]) -> BodyEntry:
+def _entry(body: Body, places: MeshPlaces, ids: set[str]) -> Item:
     """ids: of the bodies before; this call adds to them."""
     add_id(body.id, ids)
-    return BodyEntry(
+    return Item(
         id=body.id,
-        mesh=places.find(body.mesh),
+        shape=places.find(body.mesh),
         transform=None if body.transform is None else matrix(body.transform, "transform"),
         groups=() if body.group is None else (body.group,),
         static=body.static,

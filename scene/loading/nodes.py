@@ -4,39 +4,28 @@ connected component of these."""
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Literal
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
-from satcheck.core.transform import Transform
 from satcheck.scene.bodies import MeshFile
+from satcheck.scene.document import Document, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.health import CRACK_WIDTH
-from satcheck.scene.inspect import errors_of, mesh_file, resolution_of, shape_file
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.inspect import errors_of, mesh_file, resolution_of
+from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.raw_mesh import (
-    RawJoint,
-    RawMesh,
-    RawNode,
-    RawPart,
-    RawRule,
-    RawScene,
-    Refusal,
-)
-from satcheck.scene.loading.readers import File
-from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
-from satcheck.scene.planar.outline import Shape
-from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.loading.readers import File, reader_named
+from satcheck.scene.plain_ids import COMPONENT_MARK
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]
-Marked = list[tuple[str, MeshFile | Refused]]  # (the end of the path of a node, its mesh)
+Marked = list[tuple[str, MeshFile | Primitive | Refused]]  # (end of the path, shape)
 
 _ONLY_DEGENERATE = "only-degenerate"
 CORNER = Mesh.from_bytes(
@@ -44,64 +33,46 @@ CORNER = Mesh.from_bytes(
 )
 
 
-class Node(Struct, frozen=True):
-    """A mesh with its placement, or the error if it cannot be used.
-
-    path: unique in the file; it ends in "#3" for the third component. None: all of the file. Nodes
-    with one mesh share the MeshFile. transform: as in Body. shape: the exact shape whose mesh is
-    `file`. title, groups, static, link: as in RawNode. pinned, units, surface_tolerance: as in
-    `BodyEntry`.
-    """
-
-    path: str | None
-    file: MeshFile | Refused
-    transform: Transform | None = None
-    shape: Shape | None = None
-    title: str | None = None
-    groups: tuple[str, ...] = ()
-    static: bool = False
-    link: str | None = None
-    pinned: bool = False
-    units: str | None = None
-    surface_tolerance: float | None = None
-
-
-class Nodes(Struct, frozen=True):
-    """All nodes of a file by their paths, in file order, the warnings that concern no single node,
-    and the rules and joints of a document."""
-
-    nodes: Mapping[str | None, Node]
-    issues: tuple[Issue, ...] = ()
-    rules: tuple[RawRule, ...] = ()
-    joints: tuple[RawJoint, ...] = ()
-
-
-def nodes_of(file: File, scene: RawScene, split: Split) -> Nodes:
+def document_of(file: File, scene: RawScene, split: Split) -> Document:
     """Return the bodies of a file.
 
     Components are edge-connected, after cracks are closed. They are numbered by their lowest
     corners, so that the order of the triangles in the file does not matter. Raises Refused if
     nothing can be used.
     """
+    reader = reader_named(file.format)
+    whole = Document(
+        path=file.path,
+        name=Path(file.path).stem or file.path,
+        kind="scene" if reader is not None and reader.kind == "document" else "mesh",
+        items=(),
+    )
     if split == "none":
-        return Nodes({None: Node(None, mesh_file(file, flattened(scene)))})
+        return _with(whole, Item(mesh_file(file, flattened(scene))))
     said = list(scene.warnings)
-    meshes = [
-        _meshes_of(file, part, scene.units, said, apart=split == "components")
-        for part in scene.parts
-    ]
-    _refuse_too_many(sum(len(meshes[node.part]) for node in scene.nodes))
-    nodes = {
-        path: _placed(path, mesh, node, scene.parts[node.part].mesh)
+    shapes = [_shapes_of(file, part, said, apart=split == "components") for part in scene.parts]
+    _refuse_too_many(sum(len(shapes[node.part]) for node in scene.nodes))
+    items = [
+        _placed(f"{node.path or ''}{mark}" or None, shape, node, scene.units, file.path)
         for node in scene.nodes
-        for mark, mesh in meshes[node.part]
-        for path in [f"{node.path or ''}{mark}" or None]
-    }
-    errors = [node.file for node in nodes.values() if isinstance(node.file, Refused)]
-    if len(errors) == len(nodes):
+        for mark, shape in shapes[node.part]
+    ]
+    errors = [item.shape for item in items if isinstance(item.shape, Refused)]
+    if len(errors) == len(items):
         raise errors[0]
     issues = tuple(issue(code, message, file=file.path) for code, message in said)
-    return Nodes(nodes, issues, scene.rules, scene.joints)
+    return replace(_with(whole, *items), issues=issues, pairs=scene.rules, joints=scene.joints)
+
+
+def _with(document: Document, *items: Item) -> Document:
+    """The document of these items, in the unit of the first one that can be used."""
+    usable = (item for item in items if not isinstance(item.shape, Refused))
+    units = next((_units(item) for item in usable), None)
+    return replace(document, items=items, units=units)
+
+
+def _units(item: Item) -> str | None:
+    return item.shape.units if isinstance(item.shape, MeshFile) else item.units
 
 
 def _refuse_too_many(bodies: int) -> None:
@@ -112,26 +83,26 @@ def _refuse_too_many(bodies: int) -> None:
 
 def _placed(
     path: str | None,
-    file: MeshFile | Refused,
+    shape: MeshFile | Primitive | Refused,
     raw: RawNode,
-    mesh: RawMesh | Primitive | Refusal,
-) -> Node:
-    if raw.matrix is not None and isinstance(file, MeshFile):
+    units: str | None,
+    file: str,
+) -> Item:
+    """path: of the item. units: of exact shapes. file: its path, for messages."""
+    if raw.matrix is not None and not isinstance(shape, Refused):
         try:
             CORNER.transformed(raw.matrix)
         except ValueError as error:
-            file = Refused("singular-transform", f"{path}: {error}", file=file.path)
+            shape = Refused("singular-transform", f"{path}: {error}", file=file)
         except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
-    shape = None if isinstance(mesh, RawMesh | Refusal) else mesh
-    return Node(path, file, raw.matrix, shape, raw.title, raw.groups, raw.static, raw.link)
+    own = None if isinstance(shape, MeshFile | Refused) else units
+    link = raw.link
+    return Item(shape, path, raw.matrix, raw.title, raw.groups, raw.static, link, units=own)
 
 
-def _meshes_of(
-    file: File, part: RawPart, units: str | None, said: list[tuple[str, str]], *, apart: bool
-) -> Marked:
-    """Return the mesh of a part, or its components. units: of exact shapes. said: of the file; this
-    call adds to it."""
+def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart: bool) -> Marked:
+    """Return the shape of a part, or its components. said: of the file; this call adds to it."""
     raw = part.mesh
     where = f"mesh {part.name!r}: " if part.name else ""
     if isinstance(raw, Refusal):
@@ -139,7 +110,7 @@ def _meshes_of(
     try:
         with errors_of(file.path):
             if not isinstance(raw, RawMesh):
-                return [("", replace(shape_file(raw, file.path), units=units))]
+                return [("", raw)]
             mesh = Mesh.from_bytes(raw.vertices, raw.triangles)
             bodies = _components(file, part, raw, mesh) if apart else []
             if not bodies:
@@ -151,7 +122,7 @@ def _meshes_of(
     if flat := sum(isinstance(body, Refused) for _, body in bodies):
         message = f"{where}{flat} loose pieces of area 0 are left out"
         said.append(("degenerate-triangles", message))
-    return [body for body in bodies if isinstance(body[1], MeshFile)]
+    return [body for body in bodies if not isinstance(body[1], Refused)]
 
 
 def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
@@ -174,38 +145,3 @@ def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
                 raise
             flat.append(("", error))
     return [*bodies, *flat] if bodies else []
-
-
-def groups_of(nodes: Nodes, names: UniqueNames, shared: dict[str, str]) -> dict[str, str]:
-    """Return the groups of a document -> their names in the check.
-
-    Groups of several documents that have one name are one group, unless rules of a document name
-    the group. names: of all groups in the check. shared: of these documents; this call adds to it.
-    """
-    ruled = {group for rule in nodes.rules if rule.of_groups for group in (rule.a, rule.b)}
-    groups: dict[str, str] = {}
-    for group in dict.fromkeys(group for node in nodes.nodes.values() for group in node.groups):
-        if group not in ruled and group not in shared:
-            shared[group] = names.unique(group)
-        groups[group] = names.unique(group) if group in ruled else shared[group]
-    return groups
-
-
-def document_rules(
-    nodes: Nodes, ids: Mapping[str | None, str], groups: Mapping[str, str], path: str
-) -> Iterator[Rule]:
-    """The rules of the document at `path`. ids, groups: of its nodes -> their names in
-    the check."""
-    for rule in nodes.rules:
-        select = Selector.exactly_group if rule.of_groups else Selector.exactly
-        names = groups if rule.of_groups else ids
-        if rule.a in names and rule.b in names:
-            yield Rule(
-                a=select(names[rule.a]),
-                b=select(names[rule.b]),
-                allowed=True if rule.severity is None else None,
-                severity=rule.severity,
-                reason=rule.reason,
-                where=f"{path}: {rule.reason}",
-                file=path,
-            )

@@ -5,11 +5,9 @@ again. `RandomPoses` draws random poses.
 """
 
 from satcheck.scene.robot.assembly import (
-    Part,
     RobotBody,
     SceneRobot,
-    bare_links,
-    parts_of,
+    document_of_robot,
     pose_of_states,
     posed,
     with_srdfs,
@@ -28,7 +26,6 @@ __all__ = [
     "Joint",
     "JointPath",
     "Link",
-    "Part",
     "Pose",
     "Posture",
     "RandomPoses",
@@ -37,8 +34,7 @@ __all__ = [
     "SceneRobot",
     "Srdf",
     "State",
-    "bare_links",
-    "parts_of",
+    "document_of_robot",
     "permissions",
     "pose_of_states",
     "posed",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
@@ -13,7 +12,8 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
-from satcheck.scene.bodies import IDENTITY, Scene
+from satcheck.scene.bodies import IDENTITY, Entry, Scene
+from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -31,24 +31,7 @@ from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf
 from satcheck.scene.words import listed
 
-
-class Part(Struct, frozen=True):
-    """One <collision> that becomes a body. offset: its geometry in the frame of the link. file,
-    line: where it is stated. groups: as the robot names them.
-
-    source: the path of a mesh file, a shape, or the error if there is neither. piece: the part of
-    the mesh file that is meant; None: all of it.
-    """
-
-    id: str
-    link: str
-    offset: Transform
-    source: Path | Primitive | Refused
-    file: str
-    line: int
-    static: bool = False
-    groups: tuple[str, ...] = ()
-    piece: str | None = None
+UNITS = "m"  # of every URDF, SDFormat and MJCF file
 
 
 class RobotBody(Struct, frozen=True):
@@ -104,35 +87,44 @@ class SceneRobot(Struct, frozen=True):
         return pairs
 
 
-def parts_of(robot: Robot, places: FilePlaces) -> list[Part]:
-    """One part for each <collision>. Its id is the name of the link; if the link has several,
-    "link/name" or "link/number". Parts that fail for the same cause share one message, which states
-    their number."""
+def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue]) -> Document:
+    """Return a document with an item for each <collision>, and with these issues.
+
+    The id of an item is the name of the link; if the link has several, "link/name" or
+    "link/number". Items that fail for the same cause share one message, which states their number.
+    """
     collisions = [
-        (link, collision, number, _source(collision, places.of(collision.file or robot.file)))
+        (link, collision, number, _shape(collision, places.of(collision.file or robot.file)))
         for link in robot.links.values()
         for number, collision in enumerate(link.collisions, 1)
     ]
     lost: dict[tuple[str, str], list[Collision]] = {}
-    for _, collision, _, source in collisions:
-        if isinstance(source, Refused):
-            lost.setdefault((source.code, source.message), []).append(collision)
-    return [
-        Part(
+    for _, collision, _, shape in collisions:
+        if isinstance(shape, Refused):
+            lost.setdefault((shape.code, shape.message), []).append(collision)
+    items = []
+    for link, collision, number, shape in collisions:
+        if isinstance(shape, Refused):
+            shape = _placed(shape, lost[shape.code, shape.message])
+        item = Item(
             id=_part_id(link, collision, number),
             link=link.name,
-            offset=_offset(collision),
-            source=_placed(source, lost[source.code, source.message])
-            if isinstance(source, Refused)
-            else source,
-            file=collision.file or robot.file,
-            line=collision.line,
+            transform=_offset(collision),
+            shape=shape,
             static=link.static,
             groups=collision.groups,
-            piece=_piece(collision),
+            entry=Entry(collision.file or robot.file, line=collision.line),
         )
-        for link, collision, number, source in collisions
-    ]
+        items.append(item)
+    return Document(
+        path=robot.file,
+        name=robot.name,
+        kind="robot",
+        units=UNITS,
+        items=tuple(items),
+        issues=(*issues, *_bare_links(robot)),
+        robot=robot,
+    )
 
 
 def _placed(cause: Refused, lost: Sequence[Collision]) -> Refused:
@@ -145,7 +137,7 @@ def _placed(cause: Refused, lost: Sequence[Collision]) -> Refused:
     return Refused(cause.code, f"{start}: {cause.message}")
 
 
-def bare_links(robot: Robot) -> list[Issue]:
+def _bare_links(robot: Robot) -> list[Issue]:
     """A note on links that have only geometry of the kind that is not checked."""
     bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
     if not bare:
@@ -250,20 +242,14 @@ def _offset(collision: Collision) -> Transform:
     return collision.origin
 
 
-def _piece(collision: Collision) -> str | None:
+def _shape(collision: Collision, places: FilePlaces) -> FilePart | Primitive | Refused:
     match collision.geometry:
-        case MeshReference(part=part, hull=hull):
-            return f"{part or ''}{HULL_MARK}" if hull else part
-    return None
-
-
-def _source(collision: Collision, places: FilePlaces) -> Path | Primitive | Refused:
-    match collision.geometry:
-        case MeshReference(uri):
+        case MeshReference(uri, part=part, hull=hull):
             try:
-                return places.locate(uri)
+                found = places.locate(uri)
             except Refused as error:
                 return error
+            return FilePart(found.as_posix(), found, f"{part or ''}{HULL_MARK}" if hull else part)
         case Refusal(code, reason):
             return Refused(code, reason)
     return collision.geometry

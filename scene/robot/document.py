@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from msgspec import Struct
-
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body
 from satcheck.scene.common_units import InOneUnit
+from satcheck.scene.document import Document
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import RawJoint
 from satcheck.scene.robot.assembly import RobotBody, SceneRobot
@@ -23,34 +22,34 @@ from satcheck.scene.units import ratio
 _WORLD = ""
 
 
-class Jointed(Struct, frozen=True):
-    """A document with joints that move. links: id of a body -> its rigid body."""
-
-    path: str
-    joints: tuple[RawJoint, ...]
-    links: Mapping[str, str]
-
-
 def robots_of_documents(
-    documents: Iterable[Jointed], bodies: Sequence[Body], common: InOneUnit
+    documents: Iterable[tuple[Document, Mapping[str, str]]],
+    bodies: Sequence[Body],
+    common: InOneUnit,
 ) -> tuple[list[SceneRobot], list[Issue]]:
-    """The robots, and issues. bodies: of the scene, in the common unit, as the files place them."""
+    """The robots, and issues. documents: with joints that move, and id of a body -> its rigid body.
+    bodies: of the scene, in the common unit, as the files place them."""
     metre = ratio("m", common.unit) if common.unit else 1.0
     robots: list[SceneRobot] = []
     issues: list[Issue] = []
-    for document in documents:
-        robot, remarks = _robot(document, bodies, metre, common.scales.get(document.path, 1.0))
+    for document, links in documents:
+        unit = common.scales.get(document.path, 1.0)
+        robot, remarks = _robot(document, links, bodies, metre, unit)
         robots.append(robot)
         issues += remarks
     return robots, issues
 
 
 def _robot(
-    document: Jointed, bodies: Sequence[Body], metre: float, unit: float
+    document: Document,
+    links: Mapping[str, str],
+    bodies: Sequence[Body],
+    metre: float,
+    unit: float,
 ) -> tuple[SceneRobot, list[Issue]]:
     """metre: in the unit of the scene. unit: that of the document, in the unit of the scene."""
-    path, joints, links = document.path, document.joints, document.links
-    edges = [_edge(joint, metre, unit) for joint in joints]
+    path = document.path
+    edges = [_edge(joint, metre, unit) for joint in document.joints]
     ends = [end for edge in edges for end in (edge.parent, edge.child)]
     names = list(dict.fromkeys((_WORLD, *ends)))
     poses = dict.fromkeys(names, IDENTITY)

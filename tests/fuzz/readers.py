@@ -21,7 +21,6 @@ from satcheck.scene.loading.raw_mesh import RawScene, Refusal
 from satcheck.scene.loading.readers import File
 from satcheck.scene.loading.reading_children import Reply, Request, serve
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.robot import FilePlaces
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
 from tests.fuzz.written import written
@@ -70,7 +69,7 @@ _MODELS = MeshFiles()  # one child process for all files
 def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
-        _MODELS.robot(str(path), path, FilePlaces(str(path)), {}, "collision")
+        _MODELS.robot(str(path), path, {}, "collision")
     except Refused as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule
 from satcheck.scene import Refused
-from satcheck.scene.format.entries import MeshPath
+from satcheck.scene.document import FilePart
 from satcheck.scene.motion import PosePath, Rotation, Translation
 from satcheck.scene.paths import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
@@ -25,15 +25,15 @@ def test_one_of_everything(tmp_path, form):
     assert (scene.name, scene.units, scene.check_static) == ("cell", "mm", True)
     assert scene.ignore_within_groups == {"arm"}
     assert scene.issues == ()
-    floor, one, two, tool, bin_ = scene.bodies
+    floor, one, two, tool, bin_ = scene.items
     assert (floor.id, floor.shape, floor.static, floor.pinned) == (
         "floor",
         Box((1, 1, 1)),
         True,
         False,
     )
-    assert one.mesh == MeshPath("cube.obj", tmp_path / "cube.obj")
-    assert one.mesh is two.mesh
+    assert one.shape == FilePart("cube.obj", tmp_path / "cube.obj")
+    assert one.shape is two.shape
     assert one.groups == ("arm", "robot")
     assert one.transform == (0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
     assert (two.pinned, two.transform[0]) == (True, 2.0)
@@ -83,8 +83,8 @@ def test_a_motion_of_a_group(tmp_path):
 def test_defaults(tmp_path):
     scene = read(tmp_path, scene_of({"id": "a", "shape": BOX}))
     assert (scene.name, scene.units, scene.check_static) == ("cell", None, False)
-    (body,) = scene.bodies
-    assert (body.transform, body.groups, body.part) == (None, (), None)
+    (body,) = scene.items
+    assert (body.transform, body.groups, body.path) == (None, (), None)
 
 
 def test_useless_declarations_are_warnings(tmp_path):
@@ -434,8 +434,8 @@ def test_a_mesh_outside_of_the_folder_needs_to_be_allowed(tmp_path):
     document = scene_of({"id": "a", "mesh": "../cube.obj"})
     (error,) = errors(folder, document)
     assert error.code == "outside-path"
-    (body,) = read(folder, document, permitted=ANYWHERE).bodies
-    assert body.mesh.path == "../cube.obj"
+    (body,) = read(folder, document, permitted=ANYWHERE).items
+    assert body.shape.path == "../cube.obj"
 
 
 def test_a_link_that_leads_outside_lies_outside(tmp_path):
@@ -449,7 +449,7 @@ def test_a_link_that_leads_outside_lies_outside(tmp_path):
         pytest.skip("no links on this file system")
     (error,) = errors(folder, scene_of({"id": "a", "mesh": "link.obj"}))
     assert error.code == "outside-path"
-    assert read(folder, scene_of({"id": "a", "mesh": "inner/cube.obj"})).bodies
+    assert read(folder, scene_of({"id": "a", "mesh": "inner/cube.obj"})).items
 
 
 def test_nothing_of_a_file_outside_is_told(tmp_path):
@@ -472,5 +472,5 @@ def test_the_example_of_the_documentation_is_one(tmp_path):
     example = text.partition("```toml\n")[2].partition("```")[0]
     (tmp_path / "finger.obj").write_bytes(files.obj())
     scene = read(tmp_path, example, "toml")
-    assert (len(scene.bodies), len(scene.rules), len(scene.motions)) == (3, 1, 1)
+    assert (len(scene.items), len(scene.rules), len(scene.motions)) == (3, 1, 1)
     assert scene.issues == ()

@@ -187,7 +187,7 @@ def test_allowed_pairs_are_rules(tmp_path):
     }
     scene = read(tmp_path, document)
     (rule,) = scene.rules
-    assert [body.id for body in rule.a.select(scene.bodies)] == ["group:b"]
+    assert [body.id for body in rule.a.select(scene.items)] == ["group:b"]
     assert rule.b == Selector("a")
     assert (rule.allowed, rule.reason, rule.where) == (
         True,

@@ -9,7 +9,7 @@ import pytest
 from satcheck.scene import Issue, Refused
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot import FilePlaces, Robot
+from satcheck.scene.robot import Robot
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
@@ -29,9 +29,14 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
 def read_robot(
     location: Path, path: str | None = None, geometry: GeometryKind = "collision"
 ) -> tuple[Robot, tuple[Issue, ...]]:
-    """The robot of a file of any format, and issues. path: its name in messages."""
+    """The robot of a file of any format, and the issues of its reader. path: its name in
+    messages."""
     name = path or str(location)
-    return MeshFiles().robot(name, location, FilePlaces(name), {}, geometry)
+    document = MeshFiles().robot(name, location, {}, geometry)
+    assert document.robot is not None
+    return document.robot, tuple(
+        issue for issue in document.issues if issue.code != "no-collision-geometry"
+    )
 
 
 def robot_of(*elements: str) -> str:
