@@ -166,7 +166,7 @@ def readers(folder: Path, rounds: int) -> list[str]:
     for form in WRITERS:
         path = written(folder, "a", ring(0.7, 1, *SMALL), form)
         reads: dict[str, Callable[[str], Any]] = {
-            "ours": lambda path: MeshFiles().mesh(FilePart(path, Path(path))),
+            "ours": lambda path: MeshFiles().mesh(FilePart(path, path)),
             "theirs": lambda path: trimesh.load(path, force="mesh"),
         }
         best = dict.fromkeys(reads, float("inf"))

@@ -66,7 +66,7 @@ def stated_scene(
 def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Refused:
     """Return the mesh file of a body. Of a shape the report has the sizes: the file that states it
     is not read again."""
-    location = root / entry.file
+    location = str(root / entry.file)
     if entry.shape is not None:
         try:
             return shape_file(shape_from(to_builtins(entry.shape)), entry.file)

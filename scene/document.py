@@ -6,7 +6,6 @@ items name other files (`format.entries.SceneFile`).
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
@@ -30,7 +29,7 @@ class FilePart(Struct, frozen=True):
     the path of a node in it, see `MeshFiles.item`; None: all of the file."""
 
     path: str
-    location: Path
+    location: str
     part: str | None = None
 
 

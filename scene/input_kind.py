@@ -8,6 +8,7 @@ from typing import Literal
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots, robots_of
 from satcheck.scene.opening import size_of
+from satcheck.scene.paths import suffix_of
 
 InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
 
@@ -23,7 +24,7 @@ _HEAD_BYTES = 1 << 20
 
 def kind_of(path: str) -> InputKind:
     """ "mesh" if no other kind fits. Its reader then reports errors."""
-    suffix = Path(path).suffix.lower()
+    suffix = suffix_of(path).lower()
     if suffix in SCENE_SUFFIXES:
         return "scene"
     if suffix == _SRDF:

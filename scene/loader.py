@@ -24,7 +24,7 @@ from satcheck.scene.loading.readers import (
     ReadLimits,
 )
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.paths import ANYWHERE, Permitted
+from satcheck.scene.paths import ANYWHERE, Permitted, name_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, plain_ids
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 from satcheck.scene.rules import Rule, Selector
@@ -120,22 +120,23 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             # Colliders are exact shapes, which no mesh of a whole file holds.
             apart = alone or reading.geometry == "collision"
             split: Split = self.split or ("nodes" if apart else "none")
-            of_kind = {kind: [path for path, own in given if own == kind] for _, kind in given}
+            kinds: tuple[InputKind, ...] = ("mesh", "document")
+            of_kind = {kind: [path for path, own in given if own == kind] for kind in kinds}
             ids = {kind: iter(plain_ids(paths)) for kind, paths in of_kind.items()}
             if split == "none":
-                files.read_ahead((path, Path(path)) for path in of_kind.get("mesh", ()))
+                files.read_ahead((path, path) for path in of_kind["mesh"])
             for path, kind in given:
                 match kind:
                     case "scene":
                         builder.add(scenes[path])
                     case "robot":
                         geometry = self.geometry or "collision"
-                        builder.add(files.robot(path, Path(path), self.packages or {}, geometry))
+                        builder.add(files.robot(path, path, self.packages or {}, geometry))
                     case "srdf":
                         builder.add_srdf(_srdf(path))
                     case _:
                         own: Split = split if kind == "mesh" else "nodes"
-                        found = files.document(path, Path(path), own)
+                        found = files.document(path, path, own)
                         builder.add(_with_ids(found, path, kind, next(ids[kind]), alone))
             for path in _as_texts(self.rules):
                 builder.add(read_rules(path))
@@ -206,14 +207,14 @@ def _with_ids(
 ) -> Document:
     """A mesh file or a document as an input, with the ids that its bodies should have. alone: the
     paths of nodes are ids, without the id of the file before them."""
-    name = Path(path).stem or path
     if isinstance(found, Refused):
+        name = name_of(path)[0] or path
         of: Kind = "mesh" if kind == "mesh" else "scene"
         found = Document(path=path, name=name, kind=of, items=(Item(found),))
     items = []
     for item in found.items:
         id_ = _node_id(item.path, file_id, alone)
-        items.append(replace(item, id=id_, title=item.title or (id_ if item.path else name)))
+        items.append(replace(item, id=id_, title=item.title or (id_ if item.path else found.name)))
     return replace(found, path=path, items=tuple(items))
 
 

@@ -37,6 +37,7 @@ from satcheck.scene.loading.readers import (
 )
 from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
 from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
+from satcheck.scene.paths import StrPath, suffix_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.words import meant
@@ -69,7 +70,7 @@ class MeshFiles:
         # An error that is kept holds this object in a cycle, which may live for long.
         self._children.close()
 
-    def document(self, path: str, location: Path, split: Split) -> Document | Refused:
+    def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
@@ -87,9 +88,9 @@ class MeshFiles:
                 self._made[key] = error
         return self._made[key]
 
-    def _load(self, path: str, location: Path, split: Split) -> Document:
+    def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), errors_of(path):
-            file = replace(open_file(path, location, self.allowed), whole=split == "none")
+            file = open_file(path, location, self.allowed, whole=split == "none")
             return document_of(file, self._read(file), split)
 
     def _read(self, file: File) -> RawScene:
@@ -126,7 +127,7 @@ class MeshFiles:
             return by_path[part]
         hint = meant(part, filter(None, by_path))
         message = f"there is no part {part!r} in the file{hint}"
-        reader = reader_of(location.suffix)
+        reader = reader_of(suffix_of(location))
         if reader is not None and "geometry" in reader.options:
             message += "; --geometry, --purpose and `reading` of a scene choose its parts"
         return Item(Refused("unknown-part", message, file=path), part)
@@ -150,13 +151,13 @@ class MeshFiles:
             code = error.code if isinstance(error, Refused) else "flat"
             return replace(item, shape=Refused(code, f"convex hull: {error}", file=named.path))
 
-    def issues_of_parts(self, location: Path) -> tuple[Issue, ...]:
+    def issues_of_parts(self, location: StrPath) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
         place = _absolute(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
 
-    def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
+    def read_ahead(self, given: Iterable[tuple[str, StrPath]]) -> None:
         """Reads the large ones of these files in parallel, as a whole.
 
         given: (name in messages, location). Only formats whose reader runs in this process and
@@ -192,7 +193,7 @@ class MeshFiles:
     def robot(
         self,
         path: str,
-        location: Path,
+        location: StrPath,
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
     ) -> Document:
@@ -265,31 +266,31 @@ def _triangles(read: Document) -> int:
     return sum(100 + shape.mesh.triangle_count for shape in shapes if isinstance(shape, MeshFile))
 
 
-def _absolute(location: Path) -> str:
+def _absolute(location: StrPath) -> str:
     return os.path.join(os.getcwd(), location)  # noqa: PTH109, PTH118  many bodies share a path
 
 
 @contextmanager
-def _reading(path: str, location: Path) -> Iterator[None]:
+def _reading(path: str, location: StrPath) -> Iterator[None]:
     """Raises Refused if reading this file has ended the process before."""
     try:
         with risky_step(f"reading {path}"):
             yield
     except LeftOut as error:
-        note(location)
+        note(os.fspath(location))
         if not _is_read_here(location):  # it may name further files
             note_lost_reader()
         reason = f"the process that read it {error.message}"
         raise Refused(error.code, reason, file=path) from None
 
 
-def _is_read_here(location: Path) -> bool:
+def _is_read_here(location: StrPath) -> bool:
     """Return whether its reader always runs in this process, and releases the GIL."""
-    reader = reader_of(location.suffix)
+    reader = reader_of(suffix_of(location))
     return reader is not None and reader.here == math.inf
 
 
-def _is_large(location: Path) -> bool:
+def _is_large(location: StrPath) -> bool:
     try:
         return size_of(location) >= LARGE_FILE_BYTES
     except SatcheckError:  # reported when the file is used

@@ -112,7 +112,7 @@ def _without_placements(scene: Scene, files: MeshFiles) -> dict[str, Transform]:
     for body in scene.bodies:
         place = None
         if body.path is not None:
-            item = files.item(FilePart(body.file.path, Path(body.file.path), body.path))
+            item = files.item(FilePart(body.file.path, body.file.path, body.path))
             own = stated_unit(_stated_units(body) or body.file.units)
             place = scaled_world(item.transform, ratio(own, unit) if own and unit else 1.0)
         elif body.shape is None:

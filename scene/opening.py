@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import os
 import stat
-from pathlib import Path
+from io import BufferedReader, FileIO
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
@@ -21,6 +22,7 @@ from satcheck.scene.loading.readers import (
     reader_of,
     readers,
 )
+from satcheck.scene.paths import StrPath, suffix_of
 from satcheck.scene.plugins import failures
 
 STANDARD_INPUT = "-"
@@ -81,13 +83,14 @@ _TEXT_HEAD_BYTES = 4096
 _BINARY_PLY = b"\nformat binary"
 
 
-def size_of(location: Path) -> int:
+def size_of(location: StrPath) -> int:
     """Size of a regular file in bytes. Raises Refused, without a file name, for anything else."""
-    if str(location) == STANDARD_INPUT:
+    location = os.fspath(location)
+    if location == STANDARD_INPUT:
         raise Refused("not-a-file", "standard input is not read: give the path of a file")
     note(location)
     try:
-        status = location.stat()
+        status = os.stat(location)  # noqa: PTH116
     except (FileNotFoundError, NotADirectoryError):
         raise Refused("file-not-found", "no such file") from None
     except OSError as error:
@@ -102,13 +105,13 @@ def size_of(location: Path) -> int:
     return status.st_size
 
 
-def read_whole(path: str, location: Path, most: int) -> bytes:
+def read_whole(path: str, location: StrPath, most: int) -> bytes:
     """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
     regular file, has more than `most` bytes, or cannot be read."""
     try:
         if size_of(location) > most:
             raise _too_large(most)
-        with location.open("rb") as file:
+        with FileIO(location) as raw, BufferedReader(raw) as file:
             data = file.read(most + 1)  # a system file states no size
         if len(data) > most:
             raise _too_large(most)
@@ -137,21 +140,22 @@ def _too_large(most: int) -> Refused:
     return Refused("too-large", f"larger than {most >> 20} MiB, the most for such a file")
 
 
-def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
+def open_file(path: str, location: StrPath, allowed: ReadLimits, *, whole: bool = False) -> File:
     """Return a mesh file as its reader takes it. Raises Refused, without a file name.
 
     path: its name in messages and reports. location: on disk. Only a file whose suffix is that of a
     reader is opened. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
-    are read here: its reader reads it in pieces.
+    are read here: its reader reads it in pieces. whole: see `File`.
     """
     size = size_of(location)
     most = allowed.file_bytes
-    reader = reader_of(location.suffix)
+    suffix = suffix_of(location)
+    reader = reader_of(suffix)
     if reader is None:
         known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
-        hint = _CONVERTIBLE.get(location.suffix.lower(), known)
+        hint = _CONVERTIBLE.get(suffix.lower(), known)
         failed = failures("readers", KINDS)
-        message = f"unsupported format {location.suffix!r}: {hint}{failed}"
+        message = f"unsupported format {suffix!r}: {hint}{failed}"
         raise Refused("unsupported-format", message)
     _refuse_large(size, most)
     try:
@@ -171,13 +175,15 @@ def open_file(path: str, location: Path, allowed: ReadLimits) -> File:
     if content is not None:
         message = f"not of format {reader.title}: its content is {content}"
         raise Refused("format-mismatch", message)
+    folder, name = os.path.split(location)
     return File(
         reader.name,
-        str(location.parent),
-        location.name,
+        folder or os.curdir,
+        name,
         data,
         size,
         allowed.options,
+        whole,
         permitted=allowed.permitted,
         path=path,
         sha256=digest,
@@ -193,11 +199,11 @@ def _refuse_large(size: int, most: int) -> None:
         raise Refused("too-large", message)
 
 
-def _read(location: Path, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
+def _read(location: StrPath, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
     """The size and the bytes of the file, even if its size has changed, and of a system file, which
     states none; at most a byte more than max_bytes. in_pieces: of a large binary STL file only the
     first bytes are read."""
-    with location.open("rb", buffering=0) as file:
+    with FileIO(location) as file:
         if in_pieces and size >= LARGE_FILE_BYTES:
             head = file.read(_TEXT_HEAD_BYTES)
             if _is_binary_stl(size, head):

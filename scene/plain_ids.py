@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from pathlib import Path, PurePath
+from collections.abc import Iterable, Sequence
+from pathlib import PurePath
+
+from satcheck.scene.paths import name_of
 
 HULL_MARK = "#hull"  # after the path of a node, or alone: the convex hull of the mesh
 COMPONENT_MARK = "#"  # between the path of a node and a component number; never in names
@@ -30,23 +32,19 @@ def plain_ids(paths: Sequence[str]) -> list[str]:
     ids are the shortest ends of the paths that differ ("left/part", "right/part"), with the
     suffixes if only these differ. Paths to the same file get the same id.
     """
-    same_stem: dict[str, dict[str, PurePath]] = {}
-    places = [os.path.normpath(Path(path).absolute()) for path in paths]
+    same_stem: dict[str, dict[str, str]] = {}
+    places = list(map(os.path.abspath, paths))
     for path, place in zip(paths, places, strict=True):
-        tidy = PurePath(os.path.normpath(path))
-        same_stem.setdefault(_stem(path), {}).setdefault(place, tidy)
+        same_stem.setdefault(name_of(path)[0] or path, {}).setdefault(place, path)
     ids: dict[str, str] = {}
     for stem, distinct in same_stem.items():
-        names = [stem] if len(distinct) == 1 else _shortest_ends(list(distinct.values()))
+        names = [stem] if len(distinct) == 1 else _shortest_ends(distinct.values())
         ids.update(zip(distinct, names, strict=True))
     return [ids[place] for place in places]
 
 
-def _stem(path: str) -> str:
-    return PurePath(path).stem or path
-
-
-def _shortest_ends(paths: list[PurePath]) -> list[str]:
+def _shortest_ends(given: Iterable[str]) -> list[str]:
+    paths = [PurePath(os.path.normpath(path)) for path in given]
     longest = max(len(path.parts) for path in paths)
     for named in ([path.parent / path.stem for path in paths], paths):
         for length in range(1, longest + 1):

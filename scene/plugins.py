@@ -45,6 +45,7 @@ def failures(group: Group, kinds: tuple[type[Any], ...]) -> str:
     return "".join(f"; the plug-in {each.name} cannot be loaded: {each.reason}" for each in failed)
 
 
+@cache
 def function_at(place: str) -> Any:
     """The function at "module:name"."""
     module, _, name = place.partition(":")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -28,6 +27,7 @@ from satcheck.scene.issue import BLOCKING, Issue, issue
 from satcheck.scene.loading.placing import multiply
 from satcheck.scene.loading.readers import mesh_reader
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.paths import suffix_of
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import ratio, stated_unit
@@ -60,7 +60,7 @@ class SceneBuilder:
         self._inputs: list[Input] = []
         self._added: list[Added] = []
         self._rule_files: set[str] = set()
-        self._parted: set[Path] = set()  # files of which a part is named
+        self._parted: set[str] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
@@ -296,9 +296,9 @@ def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[
     """A mesh file whose axis nothing turns, beside one that names no axis."""
     meshes = [each.path for each in inputs if each.kind == "mesh"]
     stated = {issue.file for issue in issues if issue.code == "up-axis"}.intersection(meshes)
-    for path in meshes:
-        reader = mesh_reader(Path(path).suffix)
-        if stated and path not in stated and (reader is None or reader.up is None):
+    for path in meshes if stated else ():
+        reader = mesh_reader(suffix_of(path))
+        if path not in stated and (reader is None or reader.up is None):
             other = min(filter(None, stated))
             message = (
                 f"{path} does not say which axis points up, as {other} does: nothing is turned"

@@ -182,7 +182,7 @@ class Bodies:
 
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
-        mesh = self._files.mesh(FilePart(file, self._root / file, path))
+        mesh = self._files.mesh(FilePart(file, str(self._root / file), path))
         if isinstance(mesh, Refused):
             return Missing(file) if mesh.code == "file-not-found" else str(mesh)
         key = (file, mesh.part, "")

@@ -78,7 +78,7 @@ class MeshPlaces:
         if not is_file(location):
             raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
         path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
-        return FilePart(path, location)
+        return FilePart(path, str(location))
 
 
 def add_id(id_: str, ids: set[str]) -> None:

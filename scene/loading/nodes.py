@@ -4,7 +4,6 @@ connected component of these."""
 from __future__ import annotations
 
 from array import array
-from pathlib import Path
 from typing import Literal
 
 from msgspec.structs import replace
@@ -21,6 +20,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.readers import File, reader_named
+from satcheck.scene.paths import name_of
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 # "none": the whole file is one body.
@@ -43,7 +43,7 @@ def document_of(file: File, scene: RawScene, split: Split) -> Document:
     reader = reader_named(file.format)
     whole = Document(
         path=file.path,
-        name=Path(file.path).stem or file.path,
+        name=name_of(file.path)[0] or file.path,
         kind="scene" if reader is not None and reader.kind == "document" else "mesh",
         items=(),
     )

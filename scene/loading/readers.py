@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Block, RawScene
-from satcheck.scene.paths import NOTHING_ELSE, Permitted
+from satcheck.scene.paths import NOTHING_ELSE, Permitted, suffix_of
 from satcheck.scene.plugins import function_at, others, own
 from satcheck.scene.read_options import GeometryKind, ReadOptions
 
@@ -272,7 +272,7 @@ def reader_named(name: str) -> Reader | None:
 def read(file: File) -> RawScene:
     """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
     # A child process has not looked for the readers of other packages.
-    reader = reader_named(file.format) or reader_of(file.location.suffix)
+    reader = reader_named(file.format) or reader_of(suffix_of(file.name))
     assert reader is not None  # it has been opened for its reader
     return reader.scene(file)
 

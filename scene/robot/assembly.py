@@ -249,7 +249,9 @@ def _shape(collision: Collision, places: FilePlaces) -> FilePart | Primitive | R
                 found = places.locate(uri)
             except Refused as error:
                 return error
-            return FilePart(found.as_posix(), found, f"{part or ''}{HULL_MARK}" if hull else part)
+            return FilePart(
+                found.as_posix(), str(found), f"{part or ''}{HULL_MARK}" if hull else part
+            )
         case Refusal(code, reason):
             return Refused(code, reason)
     return collision.geometry

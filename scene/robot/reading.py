@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import NoReturn
 
 from satcheck.scene.errors import Refused
@@ -23,6 +22,7 @@ from satcheck.scene.loading.xml_tree import (
     read_elements,
 )
 from satcheck.scene.opening import read_whole
+from satcheck.scene.paths import StrPath
 from satcheck.scene.robot.model import Robot
 
 _MAX_BYTES = 64 << 20
@@ -39,7 +39,7 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+def read_robot(path: str, location: StrPath, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     """Return the robot, and issues. Raises Refused with the file, the line and the element.
 
     path: of the file, for messages; location: where it lies. No mesh is opened.
@@ -55,7 +55,7 @@ def read_robot(path: str, location: Path, file: RobotFile) -> tuple[Robot, tuple
     return robot, issues
 
 
-def read_tree(path: str, location: Path, *roots: str) -> Element:
+def read_tree(path: str, location: StrPath, *roots: str) -> Element:
     """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
     Text between elements is ignored. Raises Refused, with the line.

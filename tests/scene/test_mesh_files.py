@@ -30,7 +30,7 @@ def wheel(tmp_path):
 
 def test_a_part_is_the_node_where_the_file_places_it(wheel):
     read = MeshFiles()
-    rim, tyre = (read.item(FilePart("wheel.glb", wheel, name)) for name in ("rim", "tyre"))
+    rim, tyre = (read.item(FilePart("wheel.glb", str(wheel), name)) for name in ("rim", "tyre"))
     assert rim.shape is tyre.shape
     assert isinstance(rim.shape, MeshFile)
     assert rim.shape.path == "wheel.glb"
@@ -41,7 +41,7 @@ def test_a_part_is_the_node_where_the_file_places_it(wheel):
 
 
 def test_a_part_that_is_not_there_is_an_error_with_a_suggestion(wheel):
-    found = MeshFiles().item(FilePart("wheel.glb", wheel, "tire")).shape
+    found = MeshFiles().item(FilePart("wheel.glb", str(wheel), "tire")).shape
     assert isinstance(found, Refused)
     assert found.code == "unknown-part"
     assert "did you mean 'tyre'?" in found.message
@@ -51,29 +51,29 @@ def test_a_component_is_a_part_of_any_format(tmp_path):
     path = tmp_path / "two.obj"
     path.write_bytes(files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES))
     read = MeshFiles()
-    found = read.item(FilePart("two.obj", path, "#2"))
+    found = read.item(FilePart("two.obj", str(path), "#2"))
     assert isinstance(found.shape, MeshFile)
     assert found.shape.mesh.bounds == ((3, 0, 0), (4, 1, 1))
-    assert isinstance(read.item(FilePart("two.obj", path, "#3")).shape, Refused)
-    assert isinstance(read.item(FilePart("two.obj", path, "two")).shape, Refused)
+    assert isinstance(read.item(FilePart("two.obj", str(path), "#3")).shape, Refused)
+    assert isinstance(read.item(FilePart("two.obj", str(path), "two")).shape, Refused)
 
 
 def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
     read = MeshFiles()
-    first = read.item(FilePart("wheel.glb", wheel))
-    part = read.item(FilePart("wheel.glb", wheel, "rim"))
+    first = read.item(FilePart("wheel.glb", str(wheel)))
+    part = read.item(FilePart("wheel.glb", str(wheel), "rim"))
     wheel.unlink()
     monkeypatch.chdir(wheel.parent)
-    assert read.item(FilePart("wheel.glb", wheel.relative_to(wheel.parent))) is first
-    assert read.item(FilePart("wheel.glb", wheel, "rim")) is part
+    assert read.item(FilePart("wheel.glb", str(wheel.relative_to(wheel.parent)))) is first
+    assert read.item(FilePart("wheel.glb", str(wheel), "rim")) is part
 
 
 def test_what_cannot_be_read_stays_so(tmp_path):
     read = MeshFiles()
-    missing = read.item(FilePart("gone.glb", tmp_path / "gone.glb", "a")).shape
+    missing = read.item(FilePart("gone.glb", str(tmp_path / "gone.glb"), "a")).shape
     assert isinstance(missing, Refused)
     assert missing.code == "file-not-found"
-    assert read.item(FilePart("gone.glb", tmp_path / "gone.glb", "b")).shape is missing
+    assert read.item(FilePart("gone.glb", str(tmp_path / "gone.glb"), "b")).shape is missing
 
 
 @pytest.mark.parametrize("in_process", [True, False])
@@ -88,11 +88,11 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     path = tmp_path / "level" / "level.gltf"
     path.parent.mkdir()
     path.write_bytes(graphs.gltf(document))
-    refused = MeshFiles().item(FilePart("level.gltf", path)).shape
+    refused = MeshFiles().item(FilePart("level.gltf", str(path))).shape
     assert isinstance(refused, Refused)
     assert refused.code == "outside-path"
     allowed = ReadLimits(permitted=ANYWHERE)
-    assert isinstance(MeshFiles(allowed).item(FilePart("level.gltf", path)).shape, MeshFile)
+    assert isinstance(MeshFiles(allowed).item(FilePart("level.gltf", str(path))).shape, MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
 
@@ -120,8 +120,8 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
         content = bytearray(b"solid x\nendsolid x\n" * 10)
     path = tmp_path / "fan.stl"
     path.write_bytes(content)
-    pieces = MeshFiles(ReadLimits(hashed=False)).item(FilePart("fan.stl", path)).shape
-    whole = MeshFiles().item(FilePart("fan.stl", path)).shape
+    pieces = MeshFiles(ReadLimits(hashed=False)).item(FilePart("fan.stl", str(path))).shape
+    whole = MeshFiles().item(FilePart("fan.stl", str(path))).shape
     if damage == "none":
         assert isinstance(pieces, MeshFile)
         assert isinstance(whole, MeshFile)
@@ -166,7 +166,7 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
     ahead, alone = MeshFiles(), MeshFiles()
     ahead.read_ahead(places.items())
     for name, place in places.items():
-        found, expected = (read.item(FilePart(name, place)).shape for read in (ahead, alone))
+        found, expected = (read.item(FilePart(name, str(place))).shape for read in (ahead, alone))
         if isinstance(expected, MeshFile):
             assert isinstance(found, MeshFile)
             assert found.mesh.to_bytes() == expected.mesh.to_bytes()
@@ -174,7 +174,7 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
         else:
             assert isinstance(found, Refused)
             assert (found.code, str(found)) == (expected.code, str(expected))
-    assert isinstance(ahead.item(FilePart("bad.obj", places["bad.obj"])).shape, Refused)
+    assert isinstance(ahead.item(FilePart("bad.obj", str(places["bad.obj"]))).shape, Refused)
 
 
 def test_the_children_end_when_the_scene_is_loaded(tmp_path, monkeypatch):
