@@ -17,11 +17,12 @@ from array import array
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import IO
+from typing import IO, NamedTuple
 from urllib.parse import unquote
 
 from msgspec.structs import replace
 
+from satcheck._native import readers
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
@@ -58,13 +59,12 @@ from satcheck.scene.words import listed
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
-_OBJECT = frozenset(f"{namespace} object" for namespace in CORE)
-_BUILD = frozenset(f"{namespace} build" for namespace in CORE)
 # Extensions that a model may require: what they add is read, or looked at where it stands.
 _REQUIRED = frozenset({"p", "m", "s", "t", "sc"})
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
-_MESH = frozenset({"vertex", "triangle"})  # errors in them refuse only their object
+# Attributes of the elements of a mesh, whose errors refuse only their object.
+_NUMBERS = {"vertex": ["x", "y", "z"], "triangle": ["v1", "v2", "v3"]}
 _ONCE = frozenset({"mesh", "vertices", "triangles", "components"})  # in an object
 # Elements of extensions that define geometry other than triangles.
 _OTHER_GEOMETRY = frozenset(
@@ -216,7 +216,7 @@ class _Package:
             return
         message = f"part {part!r} is in the unit {model.unit}, the build in {unit}: use one"
         for object_ in model.objects.values():
-            if object_.triangles:
+            if object_.corners:
                 object_.refusal = Refused("unsupported-feature", message)
 
     def _object(self, part: str, id_: str) -> Object:
@@ -234,24 +234,23 @@ class _Package:
 
 @dataclass(slots=True)
 class Object:
-    """decimals, significant: as in RawMesh. refusal: the first thing wrong with its mesh."""
+    """coordinates, corners: of vertices and triangles, as written. refusal: the first thing wrong
+    with its mesh."""
 
     name: str
     kind: str
-    vertices: array[float] = field(default_factory=lambda: array("d"))
-    triangles: array[int] = field(default_factory=lambda: array("I"))
+    coordinates: list[str] = field(default_factory=list)
+    corners: list[str] = field(default_factory=list)
     references: list[Reference] = field(default_factory=list)
-    decimals: int = 0
-    significant: int = 0
     refusal: Refused | None = None
 
     @property
     def is_empty(self) -> bool:
-        return not (self.refusal or self.triangles or self.references)
+        return not (self.refusal or self.corners or self.references)
 
     @property
     def has_mesh(self) -> bool:
-        return self.refusal is not None or bool(self.triangles)
+        return self.refusal is not None or bool(self.corners)
 
     def leave_out(self, volume: Volume) -> bool:
         """Drop a volume that is no material. False: it is none of this object, or not just one."""
@@ -261,23 +260,45 @@ class Object:
                 self.references.remove(parts[0])
             return len(parts) == 1
         first, last = volume.triangles
-        if not first <= last < len(self.triangles) // 3:
+        if not first <= last < len(self.corners) // 3:
             return False
         # The triangles after it keep their numbers: a triangle of one corner has no area.
-        self.triangles[3 * first : 3 * last + 3] = array("I", [0]) * (3 * (last - first + 1))
+        self.corners[3 * first : 3 * last + 3] = ["0"] * (3 * (last - first + 1))
         return True
 
     def mesh(self, unit: str) -> RawMesh | Refusal:
         if self.refusal is not None:
             return Refusal(self.refusal.code, self.refusal.message)
-        return RawMesh(
-            vertices=self.vertices.tobytes(),
-            triangles=self.triangles.tobytes(),
-            number_format="written-digits",
-            decimals=self.decimals,
-            significant=self.significant,
-            units=unit,
-        )
+        try:
+            mesh = self._vertices()
+            return RawMesh(
+                vertices=mesh.vertices,
+                triangles=self._triangles(len(self.coordinates) // 3),
+                number_format="written-digits",
+                decimals=mesh.decimals,
+                significant=mesh.significant,
+                units=unit,
+            )
+        except Refused as error:
+            return Refusal(error.code, f"object {self.name!r}: {error.message}")
+
+    def _vertices(self) -> readers.MeshData:
+        read = readers.read_coordinates("\n".join(self.coordinates).encode())
+        if isinstance(read, readers.ReadError):
+            raise Refused(read.code, f"vertex {(read.line - 1) // 3}: {read.message}")
+        return read
+
+    def _triangles(self, vertices: int) -> bytes:
+        """vertices: their number."""
+        try:
+            _check_plain("".join(self.corners))
+            triangles = array("I", map(int, self.corners))
+        except (ValueError, OverflowError) as error:
+            raise Refused("bad-record", f"<triangle>: {error}") from None
+        if max(triangles) >= vertices:
+            message = f"face index out of range: {max(triangles)} of {vertices} vertices"
+            raise Refused("index-out-of-range", message)
+        return triangles.tobytes()
 
 
 @dataclass(slots=True)
@@ -310,6 +331,17 @@ def part_name(target: str) -> str:
     return posixpath.normpath(posixpath.join("/", path)).lstrip("/")
 
 
+class _Row(NamedTuple):
+    """A vertex or a triangle that is like the last one: its parent, its name and attributes, its
+    short name, and where the texts of its numbers go."""
+
+    around: str
+    name: str
+    keys: list[str]
+    short: str
+    texts: list[str]
+
+
 class _ModelReader:
     """Keeps only coordinates, indices and references."""
 
@@ -317,16 +349,17 @@ class _ModelReader:
         self._part = part
         self._model = Model()
         self._object: Object | None = None
-        self._in_object = self._in_build = False
         self._unknown = UnknownNames()
         self._around: list[str] = []  # the elements that are open
         self._given: set[str] = set()  # elements of the object
         self._usual: set[tuple[str, ...]] = set()  # parent, element and attributes, all known
+        self._row: _Row | None = None
         self._parser = guarded_parser(_ENCODINGS)
+        self._parser.ordered_attributes = True
         self._prefixes: dict[str | None, str] = {}
         self._ignorable: frozenset[str] = frozenset()
         self._parser.StartElementHandler = self._on_element
-        self._parser.EndElementHandler = self._on_end
+        self._parser.EndElementHandler = lambda _: self._around.pop()
         self._parser.StartNamespaceDeclHandler = self._on_namespace
         self._handlers = {
             "model": self._on_model,
@@ -343,13 +376,6 @@ class _ModelReader:
         for id_, object_ in self._model.objects.items():
             if object_.is_empty:
                 object_.refusal = Refused("empty-mesh", f"object {id_!r} has no triangles")
-            count = len(object_.vertices) // 3
-            if object_.refusal is None and max(object_.triangles, default=-1) >= count:
-                object_.refusal = Refused(
-                    "index-out-of-range",
-                    f"object {id_!r}: face index out of range: "
-                    f"{max(object_.triangles)} of {count} vertices",
-                )
         return self._model
 
     def _fail(self, code: str, message: str) -> Refused:
@@ -359,7 +385,15 @@ class _ModelReader:
     def _on_namespace(self, prefix: str | None, uri: str) -> None:
         self._prefixes[prefix] = uri
 
-    def _on_element(self, name: str, attributes: dict[str, str]) -> None:
+    def _on_element(self, name: str, given: list[str]) -> None:
+        """given: names of attributes and their values, in turns."""
+        around = self._around[-1] if self._around else ""
+        row = self._row
+        if row and row.name == name and row.around == around and row.keys == given[::2]:
+            self._around.append(row.short)
+            row.texts.extend(given[1:6:2])
+            return
+        attributes = dict(zip(given[::2], given[1::2], strict=True))
         namespace, local = split_name(name)
         if not self._around:
             self._ignorable = ignorable(attributes, self._prefixes)
@@ -375,10 +409,20 @@ class _ModelReader:
             return
         try:
             self._handle(handler, local, attributes)
+            if given[:6:2] == _NUMBERS.get(local):
+                self._remember(around, name, given[::2])
         except Refused as error:
-            if self._object is None or local not in _MESH:
+            if self._object is None or local not in _NUMBERS:
                 raise
             self._object.refusal = self._object.refusal or error
+
+    def _remember(self, around: str, name: str, keys: list[str]) -> None:
+        """The next elements are like this one, as nearly all of a mesh. keys: its attributes, of
+        which the numbers come first."""
+        short, object_ = short_element(name), self._current()
+        if (around, short, *keys) in self._usual:
+            texts = object_.coordinates if short == "vertex" else object_.corners
+            self._row = _Row(around, name, keys, short, texts)
 
     def _look(self, name: str, is_ignorable: bool, attributes: dict[str, str]) -> None:
         """Gather the element, if it is unknown there, and its attributes."""
@@ -397,7 +441,7 @@ class _ModelReader:
         if own is not None:
             self._unknown.look(own, given, name, f"{place}: <{name}>")
         elif name == "metadata":
-            if self._in_object or self._in_build:
+            if not self._is_outside:
                 self._on_setting(attributes.get("name", ""), place)
             return
         if (children is None or children.knows(name)) and (
@@ -412,20 +456,20 @@ class _ModelReader:
             message = f"{place}: {name} is not read; it may make a body none"
             self._unknown.note(("metadata", name), message)
 
-    def _on_end(self, name: str) -> None:
-        self._around.pop()
-        if name in _OBJECT:
-            self._in_object = False
-        elif name in _BUILD:
-            self._in_build = False
+    @property
+    def _in_build(self) -> bool:
+        return "build" in self._around
+
+    @property
+    def _is_outside(self) -> bool:
+        """Return whether no object is open, and not the build."""
+        return "object" not in self._around and not self._in_build
 
     def _on_other(self, namespace: str, local: str) -> None:
         """Refuses other elements unless they are known to hold and place no geometry."""
-        if local == "build" and namespace in CORE:
-            self._in_build = True
-        elif not (self._in_object or self._in_build):
+        if self._is_outside:
             return
-        elif local in _OTHER_GEOMETRY:
+        if local in _OTHER_GEOMETRY:
             self._refuse(f"<{local}> is not read")
         elif namespace.startswith(UNDECLARED):
             prefix = namespace.removeprefix(UNDECLARED)
@@ -469,8 +513,8 @@ class _ModelReader:
                 what = f"{short(key)}={attributes[key]!r}: the mesh is not the body"
                 message = f"{self._part}, line {self._parser.CurrentLineNumber}: <object> {what}"
                 self._unknown.note(("resolution", short(key)), message)
-        self._in_object = True
         self._given.clear()
+        self._row = None
 
     def _current(self) -> Object:
         if self._object is None:
@@ -478,21 +522,10 @@ class _ModelReader:
         return self._object
 
     def _on_vertex(self, attributes: dict[str, str]) -> None:
-        object_ = self._current()
-        _check_plain(attributes["x"] + attributes["y"] + attributes["z"])
-        for axis in ("x", "y", "z"):
-            text = attributes[axis]
-            value = float(text)
-            if not math.isfinite(value):
-                raise self._fail("non-finite", f"non-finite coordinate {text[:24]!r}")
-            object_.vertices.append(value)
-            _note_digits(object_, text)
+        self._current().coordinates += attributes["x"], attributes["y"], attributes["z"]
 
     def _on_triangle(self, attributes: dict[str, str]) -> None:
-        triangles = self._current().triangles
-        corners = attributes["v1"], attributes["v2"], attributes["v3"]
-        _check_plain("".join(corners))
-        triangles.extend(map(int, corners))
+        self._current().corners += attributes["v1"], attributes["v2"], attributes["v3"]
 
     def _on_component(self, attributes: dict[str, str]) -> None:
         self._current().references.append(self._reference(attributes))
@@ -521,17 +554,3 @@ def _check_plain(numbers: str) -> None:
     """Refuse what Python takes for a number and XML does not: "1_0", digits of other scripts."""
     if "_" in numbers or not numbers.isascii():
         raise ValueError(f"{numbers[:24]!r} is not a number")
-
-
-def _note_digits(object_: Object, text: str) -> None:
-    decimals, significant = _digits_of(text)
-    object_.decimals = max(object_.decimals, decimals)
-    object_.significant = max(object_.significant, significant)
-
-
-def _digits_of(number: str) -> tuple[int, int]:
-    """(digits after the point, 0); for a number with an exponent (0, its significant digits)."""
-    mantissa, exponent, _ = number.lower().partition("e")
-    if exponent:
-        return 0, len(mantissa.lstrip("+-0.").replace(".", ""))
-    return len(mantissa.rstrip().partition(".")[2]), 0

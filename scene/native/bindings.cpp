@@ -213,6 +213,9 @@ void satcheck::bind_readers(nb::module_& m) {
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 
+  m.def("read_coordinates", &read<read_coordinates>, nb::arg("data"),
+        "The vertices of a mesh without triangles, one coordinate a line; the line of an error is the number of the coordinate.");
+
   m.def("cut_polygons", &cut_polygons, nb::arg("vertices"), nb::arg("corners"), nb::arg("lengths"),
         "The triangles of polygons, as those of OBJ are cut: little-endian float64 vertices, and uint32 corners of one polygon after "
         "the other, `lengths` of them each.");

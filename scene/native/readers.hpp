@@ -37,4 +37,7 @@ ReadOutcome read_ply(std::string_view bytes);
 // Object File Format, ASCII, optionally with per-vertex normals, colours and texture coordinates.
 ReadOutcome read_off(std::string_view bytes);
 
+// Coordinates alone, one a line; the line of an error is its number from 1.
+ReadOutcome read_coordinates(std::string_view bytes);
+
 }  // namespace satcheck::scene

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <version>
 
+#include "readers.hpp"
+
 #if !defined(__cpp_lib_to_chars)
 #include <locale>
 #include <sstream>
@@ -191,6 +193,20 @@ void check_numbers(Words& words, std::int64_t line) {
       fail_at_line(code::bad_record, "expected a number, found " + quoted(word), line);
     }
   }
+}
+
+ReadOutcome read_coordinates(std::string_view bytes) {
+  return run_reader([&]() -> ReadOutcome {
+    MeshData mesh;
+    Lines lines(bytes);
+    for (std::string_view line, word; lines.next(line);) {
+      Words words(line);
+      words.next(word);
+      if (!words.none_left()) fail_at_line(code::bad_record, "expected one coordinate, found " + quoted(line), lines.number());
+      mesh.vertices.push_back(parse_coordinate(word, lines.number(), mesh));
+    }
+    return mesh;
+  });
 }
 
 std::int64_t parse_integer(std::string_view word, std::int64_t line, const char* what) {

@@ -309,7 +309,8 @@ def test_what_makes_no_body_is_harmless(tmp_path, content):
 )
 def test_numbers_that_xml_does_not_know_are_refused(tmp_path, old, new):
     code, message = refusal(tmp_path, "a.3mf", package(CUBE.replace(old, new)))
-    assert (code, "is not a number" in message) == ("bad-record", True)
+    assert code == "bad-record"
+    assert "is not a number" in message or "expected a coordinate" in message
 
 
 @pytest.mark.parametrize(
