@@ -30,6 +30,7 @@ from satcheck.report.judge import (
     clearance_judgement,
     disputed,
     judged,
+    named,
 )
 from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.scene.loading.readers import is_complete
@@ -235,7 +236,7 @@ def _overlap(draft: Draft) -> str | None:
     if band.side == "hidden":
         return f"undecided: {band.why}"
     is_open = pair.curved and verdict.signed_distance is not None and band.side == "open"
-    draft.relation = "touching" if band.side == "within" else verdict.relation
+    draft.relation = named(verdict.relation, band.side == "within")
     shown = verdict.proven
     draft.reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
     if pair.excuses and draft.relation in OVERLAPS:
@@ -274,25 +275,22 @@ def _gap(draft: Draft) -> None:
         from satcheck.audit.figures.curve_error import gap_of_curves
 
         gap = gap_of_curves(pair, gap)
-    relation, proven, reason = verdict.relation, verdict.proven, _weakness(pair, verdict)
+    proven, reason = verdict.proven, _weakness(pair, verdict)
+    kept = True if gap.kept is None and gap.distance is not None else gap.kept
+    draft.relation = relation = named(verdict.relation, gap.within, kept)
     if gap.within:
-        relation = "touching"
         # The band is proven, even if it is unknown whether the bodies overlap a little.
         proven = proven or _overlaps_within(verdict, pair.tolerance)
-    elif relation == "separated":
-        guess = gap.kept is None and gap.distance is None
-        if gap.kept is False or guess:
-            relation = "near"
-        elif gap.within is None:
-            reason = reason or OPEN_BAND
-        if guess:
-            proven, reason = False, _open_gap(pair)
+    elif relation == "near" and kept is None:
+        proven, reason = False, _open_gap(pair)
+    elif relation == "separated" and gap.within is None:
+        reason = reason or OPEN_BAND
     shown = verdict.proven
     if pair.closer and gap.lower == 0:  # the curves may meet
         shown = False
         if pair.tolerance < pair.closer:
             proven, reason = False, reason or _within_curves(pair)
-    draft.gap, draft.relation, draft.reason = gap, relation, reason
+    draft.gap, draft.reason = gap, reason
     draft.exact_relation, draft.proven = verdict.relation if shown else None, proven
 
 

@@ -1,4 +1,4 @@
-"""The severity of a finding, the rule that decided it, and what it leaves undecided: pure functions
+"""The relation and the severity of a finding, the rule that decided it, and what it leaves undecided: pure functions
 of what the report states.
 
 An overlap is an error, unless rules allow it within limits; then it is an error if it exceeds a
@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
 from satcheck.report.request import Request
-from satcheck.report.values import Interval, Quality
+from satcheck.report.values import Interval, Quality, Relation
 
 CLEARANCE_RULE = "clearance"
 # A depth interval of this relative width comes from rounding alone and counts as exact.
@@ -39,6 +39,23 @@ class Judgement(Struct, frozen=True):
         """Return the same with an open question, at least a warning."""
         severity = min(self.severity, "warning", key=SEVERITIES.index)
         return replace(self, severity=severity, undecided=undecided)
+
+
+def named(exact: Relation, within: bool | None, kept: bool | None = True) -> Relation:
+    """Return what a pair is called. This decides `touching`, and nothing else does.
+
+    exact: what it is without a tolerance. within: whether its overlap, or its gap, is proven to be
+    at most the tolerance; None: open. kept: whether its gap keeps the clearance; None: not even the
+    gap is known.
+
+    - touching: what it shares, or what lies between, is proven to be within the tolerance; or it
+      touches exactly.
+    - near: it is apart, and the gap is less than the clearance, or may be.
+    - else what it is exactly: an open question never makes an overlap a touch.
+    """
+    if within:
+        return "touching"
+    return "near" if exact == "separated" and not kept else exact
 
 
 def judged(
