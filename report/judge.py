@@ -1,5 +1,5 @@
-"""The relation and the severity of a finding, the rule that decided it, and what it leaves undecided: pure functions
-of what the report states.
+"""The relation and the severity of a finding, the rule that decided it, and what it leaves
+undecided: pure functions of what the report states.
 
 An overlap is an error, unless rules allow it within limits; then it is an error if it exceeds a
 limit. A gap below the clearance is an error. Rules may set another severity for the errors of a
