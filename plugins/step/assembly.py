@@ -205,7 +205,7 @@ class _Assembly:
             for face in items(faces, "faces")
             if isinstance(face, dict) and face.get("type") == "plane"  # others may be null
         }
-        used = self._accessors.indices(integer(faces, "faceIndices", -1))
+        used, _ = self._accessors.indices(integer(faces, "faceIndices", -1))
         return planes.issuperset(used)
 
     def _warnings(

@@ -1,15 +1,16 @@
-"""Typed arrays of glTF: accessors, dense and sparse, each range checked.
+"""The numbers of glTF: accessors, dense and sparse, each range checked.
 
-The arrays are those of the standard library: importing numpy takes longer than reading most files.
+C++ unpacks them: importing numpy takes longer than reading most files.
 """
 
 from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
+from satcheck._native import readers
 from satcheck.scene.errors import Refused
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_buffers import (
@@ -27,8 +28,12 @@ _UNSIGNED = frozenset("BHI")
 _LARGEST = {"b": 127, "B": 255, "h": 32767, "H": 65535}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
+if TYPE_CHECKING:
+    Floats = memoryview[float]
+    Indices = memoryview[int]
+
 # (name, type) -> the vertex attribute row by row; None: it is missing.
-Columns = Callable[[str, str], "array[float] | None"]
+Columns = Callable[[str, str], "Floats | None"]
 
 
 class Accessors:
@@ -39,31 +44,33 @@ class Accessors:
         self._accessors = items(document, "accessors")
         self._views = views
 
-    def positions(self, index: int) -> array[float]:
+    def positions(self, index: int) -> Floats:
         """x, y, z of each vertex, all finite."""
         if self._type(member(self._accessors, index, "accessor")) == "I":
             raise Refused("bad-record", f"accessor {index}: positions of type uint32")
         return self.numbers(index, "VEC3", "coordinates")
 
-    def numbers(self, index: int, kind: str, what: str = "numbers") -> array[float]:
+    def numbers(self, index: int, kind: str, what: str = "numbers") -> Floats:
         """The numbers of a type such as VEC4 row by row, all finite."""
-        values = self._read(index, kind)
-        # A sum of float32 numbers does not overflow, and a term that is not finite stays in it.
-        if not math.isfinite(sum(values)):
+        data, code, stride = self._read(index, kind)
+        largest = self.largest_integer(index) or 0
+        numbers = readers.unpack_numbers(data, code, _COLUMNS[kind], stride, largest)
+        if numbers is None:
             raise Refused("non-finite", f"accessor {index}: non-finite {what}")
-        return normalized(values, self.largest_integer(index))
+        return memoryview(numbers).cast("d")
 
-    def indices(self, index: int) -> array[int]:
-        """Vertex numbers."""
-        values = self._read(index, "SCALAR")
-        if values.typecode not in _UNSIGNED:
+    def indices(self, index: int) -> tuple[Indices, int]:
+        """Vertex numbers, and the largest of them; -1: none."""
+        data, code, stride = self._read(index, "SCALAR")
+        if code not in _UNSIGNED:
             raise Refused("bad-record", f"accessor {index}: indices are not unsigned")
-        return array("I", values)
+        indices, largest = readers.unpack_indices(data, code, stride)
+        return memoryview(indices).cast("I"), largest
 
     def columns(self, attributes: dict[str, Any]) -> Columns:
         """attributes: numbers of accessors by name."""
 
-        def rows(name: str, kind: str) -> array[float] | None:
+        def rows(name: str, kind: str) -> Floats | None:
             return self.numbers(integer(attributes, name, -1), kind) if name in attributes else None
 
         return rows
@@ -110,14 +117,18 @@ class Accessors:
         """The typecode of an array; "" for none."""
         return _COMPONENTS.get(integer(owner, "componentType", 0), "")
 
-    def _read(self, index: int, kind: str) -> array[Any]:
-        """The numbers row by row, of the type that the file has."""
+    def _read(self, index: int, kind: str) -> tuple[bytes, str, int]:
+        """The numbers row by row, their type in the file, and the bytes from row to row."""
         accessor = member(self._accessors, index, "accessor")
         code = self._type(accessor)
         if not code or accessor.get("type") != kind:
             raise Refused("bad-record", f"accessor {index}: {kind} expected")
         count, columns = integer(accessor, "count", 0), _COLUMNS[kind]
         self._work.spend(count * columns)
+        row = columns * array(code).itemsize
+        if "bufferView" in accessor and "sparse" not in accessor:
+            data, stride = self._range(accessor, f"accessor {index}", count, row)
+            return bytes(data), code, stride
         if "bufferView" in accessor:
             values = self._rows(accessor, f"accessor {index}", count, columns, code)
         elif count > limits.MAX_ZEROS:
@@ -131,7 +142,7 @@ class Accessors:
         if "sparse" in accessor:
             where = f"accessor {index}: sparse data"
             self._replace(values, columns, accessor["sparse"], where)
-        return values
+        return values.tobytes(), code, row
 
     def _rows(
         self,
@@ -145,7 +156,21 @@ class Accessors:
         """The elements in the range that the owner states. view: the bytes instead of those of its
         buffer view."""
         values = array(code)
-        number, row = integer(owner, "bufferView", 0), columns * values.itemsize
+        row = columns * values.itemsize
+        data, stride = self._range(owner, what, count, row, view)
+        if stride == row:
+            values.frombytes(data)
+        else:
+            starts = range(0, len(data), stride)
+            values.frombytes(b"".join(data[first : first + row] for first in starts))
+        return values
+
+    def _range(
+        self, owner: dict[str, Any], what: str, count: int, row: int, view: memoryview | None = None
+    ) -> tuple[memoryview, int]:
+        """The bytes from the first to the last element, and those from one to the next. row: bytes
+        of an element. view: as of `_rows`."""
+        number = integer(owner, "bufferView", 0)
         view = self._views.view(number) if view is None else view
         stride = self._views.stride(number, row)
         start = integer(owner, "byteOffset", 0)
@@ -156,12 +181,7 @@ class Accessors:
                 f"{what} exceeds its buffer view {number}: "
                 f"{count} elements need {needed} bytes, it has {len(view)}",
             )
-        if stride == row:
-            values.frombytes(view[start:needed])
-        else:
-            starts = range(start, needed, stride)
-            values.frombytes(b"".join(view[first : first + row] for first in starts))
-        return values
+        return view[start:needed], stride
 
     def _replace(self, values: array[Any], columns: int, sparse: Any, where: str) -> None:
         """Overwrites the elements that sparse data list."""
@@ -178,10 +198,3 @@ class Accessors:
         for k, element in enumerate(elements):
             start = element * columns
             values[start : start + columns] = replaced[k * columns : (k + 1) * columns]
-
-
-def normalized(values: Iterable[float], largest: int | None) -> array[float]:
-    """As float64. largest: the integer that means 1.0."""
-    if largest is None:
-        return array("d", values)
-    return array("d", (max(value / largest, -1.0) for value in values))

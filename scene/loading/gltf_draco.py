@@ -7,16 +7,18 @@ taken as decoded: the compression has rounded them and may have changed their or
 from __future__ import annotations
 
 import math
-from array import array
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.gltf_accessors import Accessors, normalized
+from satcheck.scene.loading.gltf_accessors import Accessors
 from satcheck.scene.loading.gltf_buffers import integer
 from satcheck.scene.resolution import FLOAT32_STEP
+
+if TYPE_CHECKING:
+    from satcheck.scene.loading.gltf_accessors import Floats
 
 FLOAT32_ROUNDING = FLOAT32_STEP / 2  # largest relative error of rounding to float32
 _RECORD = 17  # bytes: the lowest corner, the size, the bits
@@ -57,9 +59,9 @@ class Unpacked:
                 "index-out-of-range",
                 f"Draco data: index out of range: {faces.max()} of {count} vertices",
             )
-        self.triangles = array("I", faces.astype("<u4").tobytes())
+        self.triangles = memoryview(faces.astype("<u4").tobytes()).cast("I")
 
-    def positions(self) -> array[float]:
+    def positions(self) -> Floats:
         positions = self._columns("POSITION", 3)
         if positions is None:
             raise Refused("bad-record", "Draco data: no positions")
@@ -67,7 +69,7 @@ class Unpacked:
             raise Refused("non-finite", "Draco data: non-finite coordinates")
         return positions
 
-    def rounding(self, positions: array[float]) -> float:
+    def rounding(self, positions: Floats) -> float:
         """How far the compression may have put a coordinate off: half the step of its integers,
         plus the rounding of the decoder to float32. positions: as decoded; 0.0: not as integers.
         """
@@ -79,13 +81,13 @@ class Unpacked:
             return 0.0
         return 0.5 * step + max(map(abs, positions)) * FLOAT32_ROUNDING
 
-    def columns(self, name: str, kind: str) -> array[float] | None:
+    def columns(self, name: str, kind: str) -> Floats | None:
         """As Accessors.columns(). Attributes that Draco does not hold have an accessor of their
         own."""
         rows = self._columns(name, 4)
         return self._accessors.columns(self._attributes)(name, kind) if rows is None else rows
 
-    def _columns(self, name: str, count: int) -> array[float] | None:
+    def _columns(self, name: str, count: int) -> Floats | None:
         """An attribute that Draco holds. The accessor says how to normalize its integers."""
         id_ = self._ids.get(name)
         if id_ is None:
@@ -95,7 +97,10 @@ class Unpacked:
         if data is None or data.ndim != 2 or data.shape[1] != count:
             raise Refused("bad-record", f"Draco data: no attribute {id_!r} for {name}")
         largest = None if data.dtype.kind == "f" else self._largest(name)
-        return normalized(data.ravel().tolist(), largest)
+        numbers = data.astype(np.float64)
+        if largest is not None:
+            numbers = np.maximum(numbers / largest, -1.0)
+        return memoryview(numbers.tobytes()).cast("d")
 
     def _largest(self, name: str) -> int | None:
         return self._accessors.largest_integer(integer(self._attributes, name, -1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
@@ -23,6 +23,9 @@ from satcheck.scene.loading.raw_mesh import (
 )
 from satcheck.scene.loading.readers import NeedsChild
 
+if TYPE_CHECKING:
+    from satcheck.scene.loading.gltf_accessors import Floats, Indices
+
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 
@@ -40,7 +43,7 @@ class Skin(Struct, frozen=True):
     the joint, 16 numbers column by column; None: the identity."""
 
     joints: tuple[Transform, ...]
-    bound: array[float] | None = None
+    bound: Floats | None = None
 
 
 class Meshes:
@@ -75,7 +78,7 @@ class Meshes:
         for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives"):
             part = self._primitive(primitive, shape, skin, where, warnings)
             if part is not None:
-                parts.append((part[0].tobytes(), part[1].tobytes(), None))
+                parts.append((part[0].cast("B"), part[1].cast("B"), None))
                 rounding = max(rounding, part[2])
         vertices, triangles = concatenate(parts)
         if not triangles:
@@ -96,7 +99,7 @@ class Meshes:
         skin: Skin | None,
         where: str,
         warnings: dict[str, str],
-    ) -> tuple[array[float], array[int], float] | None:
+    ) -> tuple[Floats, Indices, float] | None:
         """x, y, z of each vertex, the corners of each triangle, and how far integers and packed
         data may put a vertex off; None without triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
@@ -155,15 +158,12 @@ class Meshes:
                 "unsupported-feature", f"{where}: the positions or indices are not in the file"
             )
 
-    def _triangles(
-        self, primitive: dict[str, Any], mode: int, count: int, where: str
-    ) -> array[int]:
+    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> Indices:
         """The corners of each triangle. count: of the vertices."""
         if "indices" not in primitive:
-            return _as_list(array("I", range(count)), mode, where)
-        corners = self._accessors.indices(integer(primitive, "indices", -1))
-        largest = max(corners, default=0)
-        if corners and largest >= count:
+            return _as_list(memoryview(array("I", range(count))), mode, where)
+        corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
+        if largest >= count:
             raise Refused(
                 "index-out-of-range",
                 f"{where}: index out of range: {largest} of {count} vertices",
@@ -181,9 +181,7 @@ class Meshes:
             if weight and isinstance(target, dict) and "POSITION" in target
         ]
 
-    def _morphed(
-        self, positions: array[float], targets: list[tuple[float, int]]
-    ) -> tuple[array[float], float]:
+    def _morphed(self, positions: Floats, targets: list[tuple[float, int]]) -> tuple[Floats, float]:
         """The moved positions, and how far integers and packed data may put their moves off."""
         from satcheck.scene.loading.gltf_shapes import morphed
 
@@ -198,10 +196,11 @@ def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
     return [integer(owner, key, -1) for owner, key in owners if key in owner]
 
 
-def _as_list(corners: array[int], mode: int, where: str) -> array[int]:
+def _as_list(corners: Indices, mode: int, where: str) -> Indices:
     """The corners of strips and fans, three a triangle."""
     if mode == _TRIANGLES:
         if len(corners) % 3:
             raise Refused("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
         return corners
-    return array("I", fan_triangles(corners) if mode == _FAN else strip_triangles(corners))
+    made = fan_triangles(corners) if mode == _FAN else strip_triangles(corners)
+    return memoryview(array("I", made))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,11 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.loading.gltf_accessors import Columns
 
+if TYPE_CHECKING:
+    from satcheck.scene.loading.gltf_accessors import Floats
 
-def morphed(positions: array[float], moves: Sequence[tuple[float, array[float]]]) -> array[float]:
+
+def morphed(positions: Floats, moves: Sequence[tuple[float, Floats]]) -> Floats:
     """positions: x, y, z of each vertex. moves: (weight, displacement of each vertex at weight
     1)."""
     moved = np.array(positions)
@@ -25,12 +28,12 @@ def morphed(positions: array[float], moves: Sequence[tuple[float, array[float]]]
 
 
 def skinned(
-    positions: array[float],
+    positions: Floats,
     columns: Columns,
     joints: Sequence[Transform],
-    bound: array[float] | None,
+    bound: Floats | None,
     where: str,
-) -> tuple[array[float], float]:
+) -> tuple[Floats, float]:
     """Each vertex where its joints put it, in world coordinates, and how far these joints stretch
     a length at most.
 
@@ -67,7 +70,7 @@ def skinned(
     return _finite(placed[:, :3] / placed[:, 3:]), float(stretch)
 
 
-def _finite(points: NDArray[np.float64]) -> array[float]:
+def _finite(points: NDArray[np.float64]) -> Floats:
     if not np.isfinite(points).all():
         raise Refused("non-finite", "the pose makes non-finite coordinates")
-    return array("d", points.tobytes())
+    return memoryview(points.tobytes()).cast("d")

@@ -22,6 +22,7 @@
 #include "meshopt.hpp"
 #include "polygons.hpp"
 #include "readers.hpp"
+#include "rows.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck::scene;
@@ -118,6 +119,22 @@ std::variant<nb::bytes, ReadError> unpack_buffer_view(const nb::bytes& stream, c
     return std::move(error);
   }
   return nb::bytes(elements.data(), elements.size());
+}
+
+Rows rows_of(const nb::bytes& data, const std::string& code, std::size_t columns, std::size_t stride) {
+  return {{data.c_str(), data.size()}, code.empty() ? ' ' : code[0], columns, stride};
+}
+
+nb::object unpack_numbers(const nb::bytes& data, const std::string& code, std::size_t columns, std::size_t stride,
+                          double largest) {
+  const auto numbers = as_numbers(rows_of(data, code, columns, stride), largest);
+  return numbers ? nb::object(to_bytes(*numbers)) : nb::none();
+}
+
+nb::tuple unpack_indices(const nb::bytes& data, const std::string& code, std::size_t stride) {
+  const std::vector<std::uint32_t> indices = as_indices(rows_of(data, code, 1, stride));
+  const auto largest = std::max_element(indices.begin(), indices.end());
+  return nb::make_tuple(to_bytes(indices), largest == indices.end() ? -1 : static_cast<std::int64_t>(*largest));
 }
 
 template <class T>
@@ -219,6 +236,12 @@ void satcheck::bind_readers(nb::module_& m) {
   m.def("cut_polygons", &cut_polygons, nb::arg("vertices"), nb::arg("corners"), nb::arg("lengths"),
         "The triangles of polygons, as those of OBJ are cut: little-endian float64 vertices, and uint32 corners of one polygon after "
         "the other, `lengths` of them each.");
+  m.def("unpack_numbers", &unpack_numbers, nb::arg("data"), nb::arg("code"), nb::arg("columns"), nb::arg("stride"),
+        nb::arg("largest"),
+        "Rows of numbers, `stride` bytes apart, as little-endian float64; None if one is not finite. code: b, B, h, H, I or f, as of "
+        "`array`. largest: the integer that means 1.0; 0: the numbers stand for themselves.");
+  m.def("unpack_indices", &unpack_indices, nb::arg("data"), nb::arg("code"), nb::arg("stride"),
+        "(unsigned numbers as little-endian uint32, the largest of them or -1).");
   m.def("unpack_meshopt", &unpack_buffer_view, nb::arg("stream"), nb::arg("mode"), nb::arg("count"), nb::arg("stride"),
         nb::arg("filter"),
         "The `count` elements of `stride` bytes of a glTF buffer view that meshopt packed. mode: \"ATTRIBUTES\", \"TRIANGLES\" or "
