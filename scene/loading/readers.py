@@ -119,6 +119,11 @@ class Reader(Struct, frozen=True):
     up: Literal["y", "z"] | None = None
     complete: bool = True
 
+    def __post_init__(self) -> None:
+        unknown = {*self.options} - {*ReadOptions.__struct_fields__}
+        if unknown:
+            raise ValueError(f"no options of readers: {', '.join(sorted(unknown))}")
+
     def scene(self, file: File) -> RawScene:
         """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
         scene = cast("RawScene", function_at(self.read)(file))

@@ -185,4 +185,7 @@ def _content(file: File, read: str) -> object:
     try:
         return function_at(read)(file)
     except SatcheckError as error:
-        return Refusal(error.code, error.message)
+        line = error.line if isinstance(error, Refused) else None
+        return Refusal(
+            error.code, error.message if line is None else f"line {line}: {error.message}"
+        )

@@ -110,6 +110,25 @@ def test_a_reader_that_fails_loses_its_file_alone(tmp_path: Path, env: dict[str,
     assert "the TETRA reader failed: KeyError" in ran.err
 
 
+def test_the_line_of_a_refusal_is_said(tmp_path: Path, env: dict[str, str]) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace('{error}")', '{error}", line=7)'))
+    (tmp_path / "a.tetra").write_text("0 0\n")
+    ran = satcheck("a.tetra", "b.tetra", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    assert "a.tetra: line 7: not four corners" in ran.err
+
+
+def test_a_reader_with_an_option_that_nobody_has_is_a_failure(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace('text="plain"', 'options=("flop",)'))
+    ran = satcheck("a.tetra", "b.tetra", cwd=tmp_path, env=env)
+    assert ran.code == 2
+    assert "no options of readers: flop" in ran.err
+
+
 def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:
     env = install(tmp_path / "odd", "[satcheck.readers]\nodd = tetra:_FACES\n")
     (tmp_path / "a.tetra").write_text(UNIT)
