@@ -23,12 +23,17 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 @pytest.fixture(autouse=True, scope="session")
 def one_set_of_reading_children() -> Iterator[None]:
-    """A process that reads files imports a large parser: it reads those of all tests. No answer
-    depends on the files before (tests/scene/test_reading_children.py)."""
+    """A process that reads files imports a large parser: it reads those of all tests, though the
+    loading of each scene closes its children. No answer depends on the files before
+    (tests/scene/test_reading_children.py)."""
     from satcheck.scene import mesh_files
 
+    class Kept(mesh_files.ReadingChildren):
+        def close(self) -> None:
+            pass
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(mesh_files, "ReadingChildren", cache(mesh_files.ReadingChildren))
+        patch.setattr(mesh_files, "ReadingChildren", cache(Kept))
         yield
 
 

@@ -8,8 +8,8 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import pytest
+from jsonschema import Draft202012Validator
 
 from satcheck.audit import Settings, check
 from satcheck.audit.sampled import Samples
@@ -165,7 +165,8 @@ def test_what_hits_on_the_way_counts(tmp_path: Path, monkeypatch: pytest.MonkeyP
     text = render(found, PLAIN_PAGE)
     assert "while they move: hits at" in text
     assert "separated" not in text
-    jsonschema.validate(json.loads(json.dumps(found.to_dict())), json.loads(schema_text("samples")))
+    schema = Draft202012Validator(json.loads(schema_text("samples")))
+    schema.validate(json.loads(json.dumps(found.to_dict())))
     why = {(one.a, one.b): one.why for one in suggest(scene, poses=drawn, seed=1).pairs}
     assert all(why.get(pair) != "never" for pair in hits)
 

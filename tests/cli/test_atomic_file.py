@@ -34,7 +34,8 @@ WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
 
 
 def short_of_disk() -> None:
-    """No file may grow beyond the limit, as on a disk that is full."""
+    """No file may grow beyond the limit, as on a disk that is full. Python must not keep what it
+    compiles meanwhile: it would keep the beginnings, and no later process could import them."""
     import resource
 
     resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
@@ -49,7 +50,7 @@ def test_a_full_disk_leaves_the_older_file(tmp_path: Path, writer: str) -> None:
     done = subprocess.run(
         command(*(word.replace("{}", str(out)) for word in arguments)),
         cwd=SAMPLES,
-        env=environment(),
+        env=environment({"PYTHONDONTWRITEBYTECODE": "1"}),
         capture_output=True,
         timeout=SECONDS,
         check=False,

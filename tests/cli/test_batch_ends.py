@@ -31,7 +31,7 @@ def start(tmp_path: Path) -> Iterator[Start]:
     scenes.mkdir()
     for number in range(COUNT):
         shutil.copy(SAMPLES / "box.obj", scenes / f"nap{number:02}.obj")
-    variables = environment({"PYTHONPATH": str(PLANTED)})
+    variables = environment({"PYTHONPATH": str(PLANTED), "PYTHONDONTWRITEBYTECODE": "1"})
     running: list[subprocess.Popen[str]] = []
 
     def begin(*options: str, **more: Any) -> subprocess.Popen[str]:
@@ -113,7 +113,8 @@ def test_a_killed_parent(start: Start, tmp_path: Path) -> None:
 
 
 def test_a_full_disk(start: Start, tmp_path: Path) -> None:
-    """A limit of the size of files stands for it: Python ignores its signal."""
+    """A limit of the size of files stands for it: Python ignores its signal. It must not keep what
+    it compiles meanwhile: no later process could import the beginnings that it would keep."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, resource.RLIM_INFINITY))

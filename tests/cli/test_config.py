@@ -186,7 +186,6 @@ def test_help_needs_no_sound_config(folder: Path) -> None:
 
 def test_the_schema_knows_every_option() -> None:
     document = json.loads(satcheck("schema", "config").out)
-    Draft202012Validator.check_schema(document)
     assert document["properties"].keys() == options_of_commands().keys()
     sound: list[dict[str, Any]] = [
         {"tolerance": 0.5}, {"tolerance": "0.5 mm"}, {"rules": "a"}, {"rules": ["a"]},

@@ -21,6 +21,8 @@ from tests.audit.batch.test_slot import PLANTED
 from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 from tests.plugin_marks import needs
 
+SCHEMA = Draft202012Validator(json.loads(text("assets")))
+
 
 @pytest.fixture
 def assets(tmp_path: Path) -> Path:
@@ -37,7 +39,7 @@ def assets(tmp_path: Path) -> Path:
 
 def verdicts(ran_out: str) -> dict[str, str]:
     document = json.loads(ran_out)
-    Draft202012Validator(json.loads(text("assets"))).validate(document)
+    SCHEMA.validate(document)
     return {Path(asset["file"]).name: asset["verdict"] for asset in document["assets"]}
 
 

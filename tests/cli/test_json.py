@@ -94,10 +94,6 @@ def test_any_name_reads_back(name: str) -> None:
     assert json.loads(text_of(report, timings=True))["findings"][0]["a"] == name
 
 
-def test_the_schema_is_one() -> None:
-    Draft202012Validator.check_schema(SCHEMA)
-
-
 @pytest.mark.parametrize("timings", [True, False])
 @pytest.mark.parametrize("report", [FULL, reports.report(bodies=())], ids=["full", "empty"])
 def test_documents_follow_the_schema(report: Report, timings: bool) -> None:

@@ -19,6 +19,7 @@ from tests.audit.statics.scenes import box, floor, loaded, tower
 
 Json = dict[str, Any]
 ASKED = {"bodies": "*", "supported": True}
+SIZE = (400, 300)
 
 
 def checked(folder: Path, bodies: list[Json], *rules: Json) -> tuple[Report, Scene]:
@@ -39,7 +40,7 @@ def test_forces_point_against_gravity(tmp_path: Path) -> None:
     arrows = arrows_of(report, scene)
     assert {arrow.kind for arrow in arrows} == {"force"}
     assert all(arrow.way[2] > 0 for arrow in arrows)
-    image = render(report, scene)
+    image = render(report, scene, SIZE)
     assert share_of(image, FORCE) > 0
     assert share_of(image, FAILS) == 0
 
@@ -53,7 +54,7 @@ def test_falls_point_along_gravity(tmp_path: Path) -> None:
     assert arrow.way[2] < 0
     assert np.allclose(arrow.way[:2], 0)
     assert states_of(report) == {"lamp": "error"}
-    assert share_of(render(report, scene), FAILS) > 0.01
+    assert share_of(render(report, scene, SIZE), FAILS) > 0.01
 
 
 def test_the_page_starts_with_all_bodies(tmp_path: Path) -> None:
@@ -76,5 +77,5 @@ def test_a_region_hides_nothing(tmp_path: Path) -> None:
     report, scene = checked(tmp_path, [room, *bodies], {"bodies": "room", "region": True})
     assert [body.id for body in without_regions(scene).bodies] == ["floor", "lamp"]
     assert picture_data(report, scene)["bodies"]["ids"] == ["floor", "lamp"]
-    assert share_of(render(report, scene), FAILS) > 0.01
+    assert share_of(render(report, scene, SIZE), FAILS) > 0.01
     assert KINDS[ARROW].in_front

@@ -27,9 +27,9 @@ def pixels(content: bytes) -> np.ndarray:
     return np.asarray(image, dtype=float)
 
 
-def image_of(*names: str) -> np.ndarray:
+def image_of(*names: str, size: tuple[int, int] = SIZE) -> np.ndarray:
     scene = load_scene([str(SAMPLES / name) for name in names])
-    return pixels(render(check(scene, DEPTH), scene))
+    return pixels(render(check(scene, DEPTH), scene, size))
 
 
 def near(image: np.ndarray, colour: tuple[float, ...], off: float = 0.12) -> np.ndarray:
@@ -131,7 +131,7 @@ def test_bodies_in_contact_share_nothing_red() -> None:
 
 
 def test_without_a_finding_all_bodies_are_seen() -> None:
-    image = image_of(*APART)
+    image = image_of(*APART, size=(400, 300))
     assert not (image[..., 0] > image[..., 2] + 0.2).any()
     assert near(image, WHITE).mean() < 0.9
 

@@ -94,7 +94,6 @@ def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
 
 
 def test_the_document_follows_its_schema(tmp_path: Path) -> None:
-    Draft202012Validator.check_schema(SCHEMA)
     output = tmp_path / "moved.json"
     ran = satcheck("resolve", *(str(SAMPLES / name) for name in PUSHED), "--format", "json")
     assert ran.code == 0, ran.err

@@ -18,7 +18,6 @@ JSON = ("--format", "json", "--no-timings")
 
 def test_the_schema_describes_the_sample() -> None:
     schema = satcheck("schema", "scene").document
-    Draft202012Validator.check_schema(schema)
     sample = tomllib.loads((SAMPLES / "cell.toml").read_text(encoding="utf-8"))
     Draft202012Validator(schema).validate(sample)
 

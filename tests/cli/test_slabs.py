@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.cli.formats.picture import render
+from satcheck.cli.formats.picture import png, render
 from satcheck.cli.formats.picture.slabs import with_slabs
 from satcheck.scene import Scene, load_scene
 
@@ -55,7 +56,8 @@ def test_one_without_other_bodies_has_a_size(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", ["png", "glb", "html"])
-def test_pictures_have_it(tmp_path: Path, form: str) -> None:
+def test_pictures_have_it(tmp_path: Path, form: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(png, "render", partial(png.render, size=(120, 90)))
     floor = {"id": "floor", "shape": {"type": "half-space"}}
     scene = scene_of(tmp_path, floor, CUBE)
     report = check(scene, Settings(depth=True))

@@ -7,10 +7,10 @@ before it is committed. Truth is tested apart from them, so that a wrong golden 
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
+
+from tests.cli.process import satcheck
 
 HERE = Path(__file__).resolve().parent
 SAMPLES = HERE.parent.parent / "sample_meshes"
@@ -18,7 +18,6 @@ INDEX: dict[str, Any] = json.loads((SAMPLES / "index.json").read_text(encoding="
 PAIRS: dict[str, dict[str, Any]] = {pair["name"]: pair for pair in INDEX["pairs"]}
 SCENES: dict[str, dict[str, Any]] = {scene["name"]: scene for scene in INDEX["scenes"]}
 SAMPLE_CALLS = PAIRS | SCENES
-SECONDS = 300
 
 
 def golden_file(name: str) -> Path:
@@ -29,15 +28,9 @@ def report(name: str) -> tuple[int, bytes]:
     """Exit code and JSON document of the command for one pair or scene, run in their folder. It
     writes nothing to stderr, except what `told` says."""
     pair = SAMPLE_CALLS[name]
-    command = [sys.executable, "-m", "satcheck.cli", "--format", "json", "--no-timings"]
-    done = subprocess.run(
-        [*command, "--no-cache", *pair.get("options", []), *pair["inputs"]],
-        cwd=SAMPLES,
-        capture_output=True,
-        timeout=SECONDS,
-        check=False,
-    )
-    said, told = done.stderr.decode(errors="replace"), pair.get("told", "")
-    if told not in said or (said and not told):
-        raise AssertionError(f"{name}: {said}")
-    return done.returncode, done.stdout
+    options = ("--format", "json", "--no-timings", "--no-cache", *pair.get("options", []))
+    ran = satcheck(*options, *pair["inputs"], cwd=SAMPLES)
+    told = pair.get("told", "")
+    if told not in ran.err or (ran.err and not told):
+        raise AssertionError(f"{name}: {ran.err}")
+    return ran.code, ran.out.encode()

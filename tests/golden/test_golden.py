@@ -8,9 +8,8 @@ from functools import cache
 from typing import Any
 
 import pytest
-from jsonschema import Draft202012Validator
 
-from satcheck.cli.commands.schema import text
+from tests.cli.process import VALIDATOR
 from tests.golden import HERE, INDEX, PAIRS, SAMPLE_CALLS, SAMPLES, SCENES, golden_file, report
 from tests.plugin_marks import skip_without
 
@@ -37,7 +36,7 @@ def test_report_is_the_golden_one(name: str) -> None:
 
 @pytest.mark.parametrize("name", SAMPLE_CALLS)
 def test_report_follows_the_schema(name: str) -> None:
-    Draft202012Validator(json.loads(text())).validate(json.loads(answer(name)[1]))
+    VALIDATOR.validate(json.loads(answer(name)[1]))
 
 
 @pytest.mark.parametrize("name", NAMES)

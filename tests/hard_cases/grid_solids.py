@@ -59,7 +59,8 @@ def squared_distance(a: VoxelSolid, b: VoxelSolid, lines: Lines) -> Fraction:
     rough = (np.maximum(gaps, 0.0) ** 2).sum(axis=-1)
     # The coordinates are exact: differences, squares and sums are off by 4 roundoffs at most.
     near = np.argwhere(rough <= rough.min() * (1 + 1e-14))
-    return min(_squared_gap(boxes_a[i], boxes_b[j]) for i, j in near)
+    # Most of them are as far apart as others.
+    return min(map(_squared, {_ends_of_gap(boxes_a[i], boxes_b[j]) for i, j in near}))
 
 
 Corner = tuple[float, float, float]
@@ -76,10 +77,17 @@ def _rectangles(solid: VoxelSolid, lines: Lines) -> list[Rectangle]:
     return boxes
 
 
-def _squared_gap(one: Rectangle, other: Rectangle) -> Fraction:
-    total = Fraction(0)
-    for i in range(3):
-        over = Fraction(other[0][i]) - Fraction(one[1][i])
-        under = Fraction(one[0][i]) - Fraction(other[1][i])
-        total += max(Fraction(0), over, under) ** 2
-    return total
+def _ends_of_gap(one: Rectangle, other: Rectangle) -> tuple[tuple[float, float], ...]:
+    """Two coordinates along each axis, as far apart as the rectangles are along it."""
+    return tuple(
+        (one[1][i], other[0][i])
+        if one[1][i] < other[0][i]
+        else (other[1][i], one[0][i])
+        if other[1][i] < one[0][i]
+        else (0.0, 0.0)
+        for i in range(3)
+    )
+
+
+def _squared(gap: tuple[tuple[float, float], ...]) -> Fraction:
+    return sum(((Fraction(high) - Fraction(low)) ** 2 for low, high in gap), Fraction(0))

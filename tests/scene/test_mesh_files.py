@@ -14,6 +14,7 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native_formats import read_native
 from satcheck.scene.loading.readers import ReadLimits
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.opening import open_file
 from satcheck.scene.paths import ANYWHERE
 from tests.scene import files, graphs
@@ -180,6 +181,7 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
 def test_the_children_end_when_the_scene_is_loaded(tmp_path, monkeypatch):
     """Also those whose file was refused, and before anything is collected."""
     (tmp_path / "a.dae").write_text("no XML")
+    monkeypatch.setattr(mesh_files, "ReadingChildren", ReadingChildren)  # none that others share
     monkeypatch.setattr(worker, "_children", set())
     gc.disable()
     try:

@@ -50,7 +50,7 @@ def client(cluster: LocalCluster) -> Iterator[Client]:
 
 @pytest.fixture(scope="module")
 def worlds(tmp_path_factory: pytest.TempPathFactory) -> list[World]:
-    return make_worlds(tmp_path_factory.mktemp("worlds"), 120)
+    return make_worlds(tmp_path_factory.mktemp("worlds"), 60)
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +137,7 @@ def test_a_world_that_ends_every_worker_is_named(
     client.register_plugin(Poisoning(), "poison")
     poison = ("poison.toml",)
     try:
-        found = by_world(through(cluster, [*worlds[:60], poison, *worlds[60:]]))
+        found = by_world(through(cluster, [*worlds[:30], poison, *worlds[30:]]))
     finally:
         client.unregister_worker_plugin("poison")
     line = found.pop(poison)

@@ -71,7 +71,10 @@ def cases(kind: str, seed: int, count: int) -> Iterator[tuple[Mesh, Mesh, float,
 def test_the_band_ends_at_the_tolerance(tmp_path, kind, depth):
     """Never a wrong word. Where every way out of a concave body rounds, that may be no word, and so
     may a tolerance that is less than an overlap by less than coordinates of points resolve."""
-    for a, b, distance, is_turned in cases(kind, seed=0, count=4):
+    drawn = list(cases(kind, seed=0, count=4))
+    if kind.startswith(("arm", "end")):  # they take seconds: each is checked in one way
+        drawn = drawn[:2] if depth else drawn[2:]
+    for a, b, distance, is_turned in drawn:
         scene, length = scene_of(tmp_path, a=a, b=b), abs(distance)
         beyond = "separated" if distance > 0 else "penetrating"
         may_hide = is_turned and distance < 0 and kind.startswith(("arm", "end"))

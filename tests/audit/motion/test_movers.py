@@ -7,19 +7,18 @@ import math
 import sys
 from pathlib import Path
 
-import jsonschema
 import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.motion import worst
-from satcheck.cli.commands.schema import text as schema_text
 from satcheck.cli.formats import table
 from satcheck.cli.output import Page
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Rule, Selector
 from satcheck.verify import verify
 from tests.audit.shapes import box, bracket, moved, scene_of, unit_box, write
+from tests.cli.process import VALIDATOR
 
 RIGHT = Translation((5.0, 0.0, 0.0))
 
@@ -27,7 +26,7 @@ RIGHT = Translation((5.0, 0.0, 0.0))
 def checked(folder, motions, rules=(), settings=None, **meshes):
     scene = replace(scene_of(folder, **meshes), motions=tuple(motions), rules=tuple(rules))
     report = check(scene, settings or Settings())
-    jsonschema.validate(json.loads(json.dumps(report.to_dict())), json.loads(schema_text()))
+    VALIDATOR.validate(json.loads(json.dumps(report.to_dict())))
     return report
 
 

@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline, known_findings
+from satcheck.plugins.ifc.bcf import archive as bcf_archive
 from satcheck.plugins.ifc.bcf.archive import render
 from satcheck.report.baseline import Baseline
 from satcheck.scene import Scene, load_scene
@@ -23,6 +24,12 @@ from tests.plugins.ifc.models import MILLIMETRES, Model
 
 WALL, PIPE, SLAB = (f"{name:0<22}" for name in ("1wall", "2pipe", "3slab"))
 PROJECT = "0000000000000000000001"  # of every Model
+
+
+@pytest.fixture(autouse=True)
+def _small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of the command alone have their size."""
+    monkeypatch.setattr(bcf_archive, "SIZE", (80, 60))
 
 
 @pytest.fixture

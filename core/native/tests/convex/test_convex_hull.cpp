@@ -128,7 +128,7 @@ void order_does_not_matter() {
 void slivers_and_random_clouds() {
   std::mt19937 generator(6);
   std::uniform_int_distribution<int> coordinate(-2, 2);
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < testing::rounds(500); ++round) {
     Points points;
     for (int i = 0; i < 14; ++i) {
       points.push_back({coordinate(generator) * 1.0, coordinate(generator) * 0.1, coordinate(generator) * 1e-17 + 0.3});
@@ -152,7 +152,7 @@ void slivers_and_random_clouds() {
 void random_lattice_clouds() {
   std::mt19937 generator(8);
   std::uniform_int_distribution<int> coordinate(-2, 2);
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < testing::rounds(2000); ++round) {
     Points points;
     for (int i = 0; i < 4 + round % 30; ++i) {
       points.push_back(Vec3{coordinate(generator) * 1.0, coordinate(generator) * 1.0, coordinate(generator) * 1.0});
@@ -173,15 +173,15 @@ void large_inputs() {
                 elapsed.count());
     check_structure(hull, points);
   };
-  timed("sphere", sphere(100000, 9));
+  timed("sphere", sphere(testing::rounds(100000), 9));
   timed("grid", cube_grid(46, 3.0));
-  Points ball = sphere(100000, 10);
+  Points ball = sphere(testing::rounds(100000), 10);
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> radius(0, 1);
   for (Vec3& p : ball) p = p * std::cbrt(radius(generator));
   timed("ball", ball);
   Points tube;
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < testing::rounds(50000); ++i) {
     const double angle = i * 0.000125663706143592;
     tube.push_back({std::cos(angle), std::sin(angle), 0});
     tube.push_back({std::cos(angle), std::sin(angle), 1});
@@ -193,7 +193,7 @@ void triangles_without_faces() {
   std::mt19937 generator(12);
   std::uniform_int_distribution<int> coordinate(-3, 3);
   const auto point = [&] { return Vec3{coordinate(generator) * 0.1, coordinate(generator) * 0.1, coordinate(generator) * 0.1}; };
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < testing::rounds(3000); ++i) {
     const std::array<Vec3, 3> t{point(), point(), point()};
     if (collinear(t[0], t[1], t[2])) continue;
     const Shape shape = make_triangle(t), hull = make_hull(Points(t.begin(), t.end()));
@@ -205,7 +205,7 @@ void triangles_without_faces() {
 void triangles_of_the_hull() {
   std::mt19937 generator(13);
   std::uniform_int_distribution<int> coordinate(-3, 3);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < testing::rounds(300); ++i) {
     Points points;
     for (int k = 0; k < 12; ++k) points.push_back(Vec3{coordinate(generator) * 0.1, coordinate(generator) * 0.1, coordinate(generator) * 0.1});
     const Polytope hull = convex_hull(points);

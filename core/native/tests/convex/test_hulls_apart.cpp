@@ -36,7 +36,7 @@ void random_balls() {
   testing::Source source(5);
   const std::vector<Vec3> a = source.sphere_points(3000), b = source.sphere_points(2000);
   for (const double apart : {0.0, 1.5, 1.97, 2.03, 2.5, 9.0}) {
-    for (int k = 0; k < 10; ++k) compare(a, moved(b, source.on_sphere() * apart));
+    for (int k = 0; k < testing::rounds(10); ++k) compare(a, moved(b, source.on_sphere() * apart));
   }
 }
 

@@ -32,7 +32,7 @@ std::vector<Vec3> grid_points(testing::Source& source, int count) {
 void test_grids_against_exact_signs() {
   testing::Source source(3);
   int found[3][4] = {};
-  for (int round = 0; round < 4000; ++round) {
+  for (int round = 0; round < testing::rounds(4000); ++round) {
     const std::vector<Vec3> pa = grid_points(source, 1 + round % 11);
     std::vector<Vec3> pb = grid_points(source, 1 + round % 7);
     const Vec3 shift = grid_points(source, 1)[0];
@@ -45,15 +45,15 @@ void test_grids_against_exact_signs() {
     ++found[static_cast<int>(finding)][static_cast<int>(truth)];
   }
   const int apart = static_cast<int>(PortalFinding::apart), overlaps = static_cast<int>(PortalFinding::overlaps);
-  CHECK(found[apart][static_cast<int>(Outcome::separated)] > 1000);
-  CHECK(found[overlaps][static_cast<int>(Outcome::penetrating)] > 200);
+  CHECK(found[apart][static_cast<int>(Outcome::separated)] > testing::rounds(1000));
+  CHECK(found[overlaps][static_cast<int>(Outcome::penetrating)] > testing::rounds(200));
 }
 
 // Of pairs in general position that lie farther than rounding from touching, none is left open.
 void test_general_pairs_are_settled() {
   testing::Source source(5);
   int overlaps = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < testing::rounds(2000); ++round) {
     const Shape a = make_hull(source.sphere_points(4 + round % 90)), b = make_hull(source.sphere_points(4 + round % 70));
     const Pose pa = source.pose(0.9), pb = source.pose(0.9);
     const PortalFinding finding = find(a, pa, b, pb);
@@ -61,7 +61,7 @@ void test_general_pairs_are_settled() {
     CHECK(finding == (truth == Outcome::separated ? PortalFinding::apart : PortalFinding::overlaps));
     overlaps += truth == Outcome::penetrating;
   }
-  CHECK(overlaps > 500 && overlaps < 1900);
+  CHECK(overlaps > testing::rounds(500) && overlaps < testing::rounds(1900));
 }
 
 void test_curved_shapes() {

@@ -67,7 +67,7 @@ void lattice_triangles() {
   std::mt19937 generator(1);
   std::uniform_int_distribution<int> coordinate(0, 2);
   int meeting = 0, crossing = 0;
-  for (int round = 0; round < 30000; ++round) {
+  for (int round = 0; round < testing::rounds(30000); ++round) {
     Sheet a, b;
     for (Sheet* t : {&a, &b})
       for (Lattice& p : *t) p = {coordinate(generator), coordinate(generator), coordinate(generator)};
@@ -98,8 +98,8 @@ void lattice_triangles() {
       CHECK(std::fabs(dot(normal, p - to_corners(*t, 1)[0])) < 1e-14 * norm(normal));
     }
   }
-  std::printf("%d of 30000 meet, %d cross\n", meeting, crossing);
-  CHECK(meeting > 3000 && crossing > 300);
+  std::printf("%d of %d meet, %d cross\n", meeting, testing::rounds(30000), crossing);
+  CHECK(meeting > testing::rounds(3000) && crossing > testing::rounds(300));
 }
 
 void named_cases() {

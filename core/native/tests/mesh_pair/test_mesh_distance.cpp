@@ -41,7 +41,7 @@ void triangle_distances() {
     for (Vec3& p : t) p = Vec3{coordinate(generator), coordinate(generator), coordinate(generator)} + offset;
     return t;
   };
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < testing::rounds(2000); ++i) {
     const Corners a = triangle({}), b = triangle({i % 3 * 1.0, 0, 0});
     const NearestPoints w = triangle_distance(a, b);
     const double distance = std::sqrt(w.distance_squared), sampled = sampled_distance(a, b);

@@ -72,7 +72,7 @@ constexpr std::uint64_t kNoLimit = 1u << 30;
 void promises_hold() {
   const Surface a = make_surface(uv_sphere(3), true), b = make_surface(box({-1, -0.5, -0.2}, {1, 0.5, 0.2}), true);
   int useful = 0, moments = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < testing::rounds(200); ++i) {
     const Two two = random_two(4, i);
     const Moving &ma = two.a, &mb = two.b;
     const double now = distance(a, ma, b, mb, 0);
@@ -100,7 +100,7 @@ void promises_hold() {
     CHECK(std::fabs(instant.value - now) <= kRounding);
     CHECK(std::fabs(instant.upper - now) <= kRounding);
   }
-  CHECK(moments > 100);
+  CHECK(moments > testing::rounds(100));
   CHECK(useful > moments / 4);
 }
 
@@ -129,7 +129,7 @@ void sliding_is_not_slowed_down() {
 // Long edges that cross at a gap of 1e-9, while one slides along the other. The nearest points are rounded by 1e-15, so
 // that the axis between them is off by more than the gap at the ends of the edges.
 void a_small_gap_between_edges_is_kept() {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < testing::rounds(300); ++i) {
     const Vec3 e = random_vector(9), f = random_vector(9), at = random_vector(9), n = unit_along(cross(e, f));
     const Vec3 above = at + n * 1e-9;
     const Surface a = make_surface({{at - e, at + e, at - n * 3 + random_vector(2)}, {{0, 1, 2}}}, false);
@@ -156,7 +156,7 @@ void an_opening_door_is_not_held() {
 // The heights of a turning point, sampled: below the height until then, and at it then.
 void a_turning_point_stays_below() {
   int never = 0, later = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < testing::rounds(2000); ++i) {
     const Moving turning{{}, random_vector(2), {}, random_vector(4)};
     const Vec3 p = i % 5 ? random_vector(2) : turning.centre + turning.spin, n = unit_along(random_vector(1));
     const double height = dot(n, p) + uniform(0, 2), limit = uniform(0, 5);
@@ -168,7 +168,7 @@ void a_turning_point_stays_below() {
     never += time == limit;
     later += time > 0 && time < limit;
   }
-  CHECK(never > 500 && later > 300);
+  CHECK(never > testing::rounds(500) && later > testing::rounds(300));
   // Where sine or cosine vanish: points of a lattice about a coordinate axis, seen along another.
   for (int i = 0; i < 27 * 4; ++i) {
     const Vec3 p{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 % 3 - 1.0}, along = i / 27 % 2 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
@@ -208,7 +208,7 @@ void shapes_keep_their_promises() {
   const Shape ball = make_sphere(0.5), cone = make_cone(0.7, 1.0);
   const Shape hull = make_hull(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
   int overlapping = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < testing::rounds(300); ++i) {
     const Shape& a = i % 2 ? hull : ball;
     const Shape& b = i % 3 ? hull : cone;
     const Two two = random_two(1.5, i / 6);
@@ -233,7 +233,7 @@ void shapes_keep_their_promises() {
     CHECK(time.value >= window * (1 - 1e-9));
     for (int k = 0; k <= 20; ++k) CHECK(signed_distance(time.value * k / 20) >= level - kRounding);
   }
-  CHECK(overlapping > 20);
+  CHECK(overlapping > testing::rounds(20));
 }
 
 // A ball, and the hull of a box, against a surface: as the distance of the surfaces.
@@ -242,7 +242,7 @@ void a_shape_and_a_surface_keep_theirs() {
   const Shape shape = make_hull(ball_mesh.vertices);
   const Surface a = make_surface(ball_mesh, true), b = make_surface(uv_sphere(4), true);
   int moments = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < testing::rounds(200); ++i) {
     const Two two = random_two(3, i);
     const double now = distance(a, two.a, b, two.b, 0);
     if (now == 0 || check_pair(shape, two.a.pose, make_hull(b.mesh.vertices), two.b.pose, Query::overlap).outcome !=
@@ -260,7 +260,7 @@ void a_shape_and_a_surface_keep_theirs() {
     CHECK(std::fabs(instant.value - now) <= kRounding);
     CHECK(std::fabs(instant.upper - now) <= kRounding);
   }
-  CHECK(moments > 50);
+  CHECK(moments > testing::rounds(50));
 }
 
 }  // namespace
