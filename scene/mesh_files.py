@@ -50,7 +50,8 @@ class MeshFiles:
     """Reads each file once, even if several paths lead to it and many bodies use it. known: files
     that earlier scenes have read.
 
-    Formats that need large parsers are read in child processes, which `close` ends.
+    Formats that need large parsers are read in child processes, which `close` ends, unless they are
+    those of `known`.
     """
 
     def __init__(
@@ -64,11 +65,13 @@ class MeshFiles:
 
     @cached_property
     def _children(self) -> ReadingChildren:
-        return ReadingChildren(self.allowed.megabytes)
+        make = ReadingChildren if self._known is None else self._known.children
+        return make(self.allowed.megabytes)
 
     def close(self) -> None:
         # An error that is kept holds this object in a cycle, which may live for long.
-        self._children.close()
+        if self._known is None:
+            self._children.close()
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
@@ -223,13 +226,21 @@ class _Known(Struct, frozen=True):
 
 class KnownMeshes:
     """The files that were used last, of this many triangles together. A file that has changed is
-    read again."""
+    read again. The child processes that read files stay, too: one reads those of many scenes."""
 
     def __init__(self, triangles: int) -> None:
         self._most = triangles
         self._held = 0
         self._known: OrderedDict[Hashable, _Known] = OrderedDict()
+        self._children: dict[int, ReadingChildren] = {}
         self._lock = Lock()
+
+    def children(self, megabytes: int) -> ReadingChildren:
+        """Return the child processes with this limit."""
+        with self._lock:
+            if megabytes not in self._children:
+                self._children[megabytes] = ReadingChildren(megabytes)
+            return self._children[megabytes]
 
     def recall(self, key: Hashable, load: Callable[[], Document]) -> Document:
         """The result of `load`, or of an earlier one with this key. Raises what it raises."""

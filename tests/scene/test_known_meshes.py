@@ -9,10 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import Scene, load_scene
+from satcheck.core import worker
+from satcheck.scene import Scene, load_scene, mesh_files
 from satcheck.scene.files_read import files_read
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES
+from tests.scene import files
 
 
 @pytest.fixture(autouse=True)
@@ -99,3 +102,18 @@ def test_a_file_that_fails_fails_again() -> None:
     assert load(known, "box.obj", "cube.off").unreadable == first
     copied("box.obj")
     assert not load(known, "box.obj", "cube.off").unreadable
+
+
+def test_scenes_share_the_child_that_reads_their_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It ends with what is known of them."""
+    monkeypatch.setattr(mesh_files, "ReadingChildren", ReadingChildren)  # none that others share
+    monkeypatch.setattr(worker, "_children", set())
+    known = KnownMeshes(1000)
+    seen = set()
+    for name in ("a.dae", "b.dae"):
+        Path(name).write_bytes(files.collada())
+        assert len(load(known, name).bodies) == 1
+        seen |= worker._children
+    assert len(seen) == 1
+    del known
+    assert not worker._children

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from satcheck.audit.batch import slot_server
 from satcheck.audit.batch.key import digest
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
@@ -19,6 +20,7 @@ from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
 from satcheck.scene import mesh_files
 from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES, on_posix
 from tests.plugin_marks import needs
 
@@ -248,6 +250,7 @@ def test_an_answer_without_a_reader_does_not_hold(
     """Once the reader is installed, its files are read."""
     # A child of an earlier test has the library already (tests/conftest.py).
     monkeypatch.setattr(mesh_files, "ReadingChildren", ReadingChildren)
+    monkeypatch.setattr(slot_server, "_meshes", KnownMeshes(0))
     (tmp_path / "pxr.py").write_text('raise ModuleNotFoundError("no pxr", name="pxr")')
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     worlds = [(copied("../docs/bench.usda", "bench.usda"),), _other_scene()]

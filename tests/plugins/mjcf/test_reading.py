@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.plugins.mjcf.child import model as read_model
 from satcheck.scene import MeshFile, Refused, load_scene
+from satcheck.scene.document import FilePart
 from satcheck.scene.loading import extras
 from satcheck.scene.loading.readers import File
 from satcheck.scene.mesh_files import MeshFiles
@@ -127,9 +128,9 @@ def test_a_part_is_read_again_by_its_name(tmp_path: Path, part: str) -> None:
     options = ReadOptions(mesh_hulls=part.endswith("hull"))
     (only,) = load_scene([write(tmp_path, text)], reading=options).bodies
     assert only.path == part
-    again = MeshFiles().node(only.file.path, Path(only.file.path), part)
-    assert isinstance(again.file, MeshFile)
-    assert again.file.mesh.to_bytes() == only.file.mesh.to_bytes()
+    again = MeshFiles().mesh(FilePart(only.file.path, only.file.path, part))
+    assert isinstance(again, MeshFile)
+    assert again.mesh.to_bytes() == only.file.mesh.to_bytes()
 
 
 def test_a_flex_may_not_read_files_elsewhere(tmp_path: Path) -> None:
