@@ -69,7 +69,6 @@ def usd_names() -> Iterator[str]:
 
 
 def step_names() -> Iterator[str]:
-    yield from _item("refused solids", step.UNREAD_SOLIDS)
     yield from _item("refused if the file has no other faces", step.TESSELLATED)
 
 

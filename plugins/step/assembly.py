@@ -182,7 +182,8 @@ class _Assembly:
             refusal = self._missing(names[0])
             raise Refused(refusal.code, refusal.message)
         what = "curves alone" if curves else f"products without a shape: {listed(names)}"
-        raise Refused("empty-mesh", f"empty mesh: the file has {what}")
+        message = "; ".join((f"empty mesh: the file has {what}", *self._exchange.unread))
+        raise Refused("empty-mesh", message)
 
     def _missing(self, name: str) -> Refusal:
         documents = self._exchange.documents
@@ -217,8 +218,8 @@ class _Assembly:
         if curves:
             words = f"{len(curves)} products of curves alone have no body: {listed(curves)}"
             yield "ignored-geometry", words
-        if lost is not None:
-            yield "unread", lost
+        for message in (*self._exchange.unread, *filter(None, [lost])):
+            yield "unread", message
         meshes = [part.mesh for part in scene.parts if isinstance(part.mesh, RawMesh)]
         faceted = sum(mesh.surface_tolerance > 0 for mesh in meshes)
         if faceted:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 
@@ -56,27 +56,6 @@ _CURVED = re.compile(
     rb"(?:CYLINDRICAL|CONICAL|SPHERICAL|TOROIDAL|B_SPLINE|BEZIER|UNIFORM|OFFSET|SWEPT)_SURFACE"
     rb"|SURFACE_OF_|TESSELLATED_|TRIANGULATED_"
 )
-# Solids that OpenCascade does not make from a STEP file.
-UNREAD_SOLIDS = frozenset(
-    {
-        "CSG_SOLID",
-        "BOOLEAN_RESULT",
-        "BLOCK",
-        "RIGHT_ANGULAR_WEDGE",
-        "RIGHT_CIRCULAR_CONE",
-        "RIGHT_CIRCULAR_CYLINDER",
-        "SPHERE",
-        "TORUS",
-        "EXTRUDED_AREA_SOLID",
-        "REVOLVED_AREA_SOLID",
-        "EXTRUDED_FACE_SOLID",
-        "REVOLVED_FACE_SOLID",
-        "SWEPT_DISK_SOLID",
-        "HALF_SPACE_SOLID",
-        "BOXED_HALF_SPACE",
-        "SOLID_REPLICA",
-    }
-)
 # Of AP242. OpenCascade leaves them out.
 TESSELLATED = frozenset(
     ("TESSELLATED_SOLID", "TESSELLATED_SHELL", "TESSELLATED_GEOMETRIC_SET", "TRIANGULATED_FACE",
@@ -113,6 +92,38 @@ _KINDS = Names(
     ),
     alike=0.9,
 )  # fmt: skip
+# What the records of a list should be, and where such lists stand. A record of several kinds is of
+# the kind "".
+_NO_SURFACE = """AXIS*_PLACEMENT* CARTESIAN_* DIRECTION VECTOR *CURVE* LINE CIRCLE ELLIPSE *POLYLINE
+    *EDGE* *POINT* *WIREFRAME* *VERTEX* PLANE *_SURFACE *_ITEM *TEXT* *CALLOUT* *DIMENSION* *SYMBOL*
+    ANNOTATION_* DRAUGHTING_* CAMERA_* TESSELLATED_* *TRIANGULATED_* COORDINATES_LIST"""
+_BODIES = """MANIFOLD_SOLID_BREP BREP_WITH_VOIDS FACETED_BREP SHELL_BASED_SURFACE_MODEL MAPPED_ITEM
+    FACE_BASED_SURFACE_MODEL GEOMETRIC_SET ADVANCED_FACE FACE_SURFACE"""
+_ITEMS = Names(
+    frozenset(["", *_BODIES.split()]),
+    dict.fromkeys(_NO_SURFACE.split(), "no surface with bounds, or a copy of one"),
+)
+_FACES = Names(frozenset(("", "ADVANCED_FACE", "FACE_SURFACE", "FACE", "ORIENTED_FACE", "SUBFACE")))
+_PLACES = Names(frozenset(("", "CARTESIAN_TRANSFORMATION_OPERATOR_3D", "AXIS2_PLACEMENT_2D",
+                           "AXIS2_PLACEMENT_3D", "FEA_AXIS2_PLACEMENT_3D")))  # fmt: skip
+_LISTS = (
+    ("a shape", _ITEMS, re.compile(rb"SHAPE_REPRESENTATION\s*\(\s*\$?\s*,\s*\(([^)]*)\)")),
+    ("a shell", _FACES, re.compile(rb"(?:_SHELL|FACE_SET)\s*\(\s*\$?\s*,\s*\(([^)]*)\)")),
+    ("an occurrence", _PLACES, re.compile(rb"ITEM_DEFINED_TRANSFORMATION\s*\(([^;)]*)\)")),
+)
+# Occurrences that OpenCascade does not place.
+_UNREAD_USES = ("QUANTIFIED_ASSEMBLY_COMPONENT_USAGE", "PROMISSORY_USAGE_OCCURRENCE")
+_SHAPE_OF = re.compile(rb"(#\d+)\s*=\s*PRODUCT_DEFINITION_SHAPE\s*\([^#;]*(#\d+)")
+_PLACED = re.compile(rb"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION\s*\(\s*#\d+\s*,\s*(#\d+)")
+_USE = re.compile(rb"(#\d+)\s*=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(")
+_NO_PLACE = re.compile(rb"ITEM_DEFINED_TRANSFORMATION\s*\([^;)]*\$\s*(?:,\s*#\d+\s*)?\)")
+_NUMBER = rb"\s*[-+]?\d+\.?\d*(?:[Ee][-+]?\d+)?\s*"
+_NO_POINT = re.compile(
+    rb"(?<!\w)(?:CARTESIAN_POINT|DIRECTION)\s*\("
+    rb"(?!(?:\s*\$?\s*,)?\s*\(%b(?:,%b){0,2}\)\s*\))[^;]*" % (_NUMBER, _NUMBER)
+)
+_LENGTH = re.compile(rb"(#\d+)\s*=\s*\([^;]*\bLENGTH_UNIT\b")
+_UNITS = re.compile(rb"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([^)]*)\)")
 _COMPLEX = re.compile(rb"=\s*\(([^;]*);")
 _KIND = re.compile(rb"([A-Za-z_]\w*)\s*\(")
 _SURFACES = frozenset(("ADVANCED_FACE", "FACE_SURFACE"))
@@ -121,13 +132,15 @@ _SURFACES = frozenset(("ADVANCED_FACE", "FACE_SURFACE"))
 class Exchange(Struct, frozen=True):
     """kinds: how many records of each kind there are. products: occurrences without a name of
     their own, by their identifiers -> the names of their products. documents: the other files that
-    the file names. has_unit: it states a unit of length. is_curved: it has curved surfaces."""
+    the file names. has_unit: it states a unit of length. is_curved: it has curved surfaces. unread:
+    words about what OpenCascade loses."""
 
     kinds: Mapping[str, int]
     products: Mapping[str, str]
     documents: tuple[str, ...]
     has_unit: bool
     is_curved: bool
+    unread: tuple[str, ...]
 
     @property
     def faces(self) -> int:
@@ -135,9 +148,8 @@ class Exchange(Struct, frozen=True):
 
 
 def read_exchange(data: bytes) -> Exchange:
-    """Raises SatcheckError for a file that is cut off, that names records which it lacks, that has
-    values or units which are none, kinds
-    that are misspelt, or solids which are not read."""
+    """Raises SatcheckError for a file that is cut off, that names records which it lacks or has
+    twice, that has values, units or placements which are none, or kinds that are misspelt."""
     if not data.lstrip().startswith(_BEGIN.encode()):
         raise Refused("not-this-format", f"not a STEP file: it does not start with {_BEGIN}")
     schema = _SCHEMA.search(data)
@@ -148,11 +160,7 @@ def read_exchange(data: bytes) -> Exchange:
         message = f"the file ends before {_END}, or within a text"
         raise Refused("truncated", message)
     _refuse_values(bare)
-    kinds = _kinds(bare)
-    unread = sorted(UNREAD_SOLIDS & kinds.keys())
-    if unread:
-        message = f"solids of kind {', '.join(unread)} are not read: write their boundaries instead"
-        raise Refused("unsupported-feature", message)
+    kinds, unread = _kinds(bare)
     if not kinds.keys() & _SURFACES and (facets := sorted(TESSELLATED & kinds.keys())):
         message = f"it has only facets ({', '.join(facets)}), which are not read: export surfaces"
         raise Refused("unsupported-feature", message)
@@ -165,8 +173,9 @@ def read_exchange(data: bytes) -> Exchange:
         kinds,
         _unnamed(data),
         tuple(filter(None, documents)),
-        has_unit=b"LENGTH_UNIT" in bare,
+        has_unit=not _references(_UNITS, bare).isdisjoint(_LENGTH.findall(bare)),
         is_curved=_CURVED.search(bare) is not None,
+        unread=(*unread, *_unplaced(bare, kinds)),
     )
 
 
@@ -175,25 +184,62 @@ def _refuse_values(bare: bytes) -> None:
     if (wrong := _NO_VALUE.search(bare)) is not None:
         message = f"{wrong[1].decode('ascii', 'replace')!r} is no value of a record"
         raise Refused("bad-record", message)
+    if (wrong := _NO_POINT.search(bare) or _NO_PLACE.search(bare)) is not None:
+        what = wrong[0].decode("ascii", "replace")
+        raise Refused("bad-record", f"{what[:60]} is no place: a value is missing or no number")
     for prefix, unit in _SI_UNIT.findall(bare):
         if not (_PREFIX.fullmatch(prefix) and _UNIT.fullmatch(unit)):
             named = f"{prefix.decode()} {unit.decode()}".strip()
             raise Refused("bad-record", f"SI_UNIT: {named} is no unit")
 
 
-def _kinds(bare: bytes) -> Counter[str]:
-    """The kinds of records of a text without comments and texts."""
+def _kinds(bare: bytes) -> tuple[Counter[str], list[str]]:
+    """The kinds of records of a text without comments and texts, and words about those in lists
+    that nobody knows."""
     kinds: Counter[str] = Counter()
     defined: set[bytes] = set()
+    listed: list[tuple[str, Names, set[bytes], set[str]]] = [
+        (what, names, _references(regex, bare), set()) for what, names, regex in _LISTS
+    ]
     for match in _RECORD.finditer(bare):
-        defined.add(match[1])
-        kinds[(match[2] or b"").decode("ascii").upper()] += 1
+        id_, kind = match[1], (match[2] or b"").decode("ascii").upper()
+        if id_ in defined:
+            raise Refused("bad-record", f"the file has two records {id_.decode()}")
+        defined.add(id_)
+        kinds[kind] += 1
+        for _, _, wanted, found in listed:
+            if id_ in wanted:
+                found.add(kind)
     missing = {match[0] for match in _REFERENCE.finditer(bare)} - defined
     if missing:
         first = min(missing, key=lambda name: (len(name), name)).decode()
         message = f"the file names {len(missing)} records that it lacks, such as {first}"
         raise Refused("index-out-of-range", message)
-    return kinds
+    unread = [
+        issue.message
+        for what, names, _, found in listed
+        for issue in names.unread(sorted(found), what)
+    ]
+    return kinds, unread
+
+
+def _references(lists: re.Pattern[bytes], bare: bytes) -> set[bytes]:
+    """Return the records that lists name."""
+    return {id_ for inside in lists.findall(bare) for id_ in _REFERENCE.findall(inside)}
+
+
+def _unplaced(bare: bytes, kinds: Mapping[str, int]) -> Iterator[str]:
+    """Yield words about occurrences that OpenCascade leaves out."""
+    for kind in _UNREAD_USES:
+        if kind in kinds:
+            yield f"occurrences of the kind {kind} are not read"
+    if "MAPPED_ITEM" in kinds:  # they place occurrences too
+        return
+    shapes = dict(_SHAPE_OF.findall(bare))
+    placed = {shapes.get(shape) for shape in _PLACED.findall(bare)}
+    if lost := [use for use in _USE.findall(bare) if use not in placed]:
+        named = lost[0].decode()
+        yield f"{len(lost)} occurrences without a placement are not read, such as {named}"
 
 
 def _unnamed(data: bytes) -> dict[str, str]:

@@ -150,7 +150,7 @@ class _Scene:
         bare = [one.path for one in placed if _without_surface(meshes[one.key])]
         if not bare:
             return scene
-        message = f"{listed(bare)} of lines or points alone, which have no area"
+        message = f"{listed(bare)} without triangles: lines, points or nothing"
         return replace(scene, warnings=(("left-out", message),))
 
     def colliders(self, colliders: Colliders) -> RawScene:

@@ -53,8 +53,10 @@ def items(owner: Any, key: str) -> list[Any]:
 
 def integer(owner: Any, key: str, default: int) -> int:
     """The non-negative integer `owner[key]`."""
-    value = owner.get(key, default) if isinstance(owner, dict) else None
-    if type(value) is not int or (value < 0 and value != default):
+    if isinstance(owner, dict) and key not in owner:
+        return default
+    value = owner[key] if isinstance(owner, dict) else None
+    if type(value) is not int or value < 0:
         raise Refused("bad-record", f"glTF: {key} should be a non-negative integer")
     return value
 

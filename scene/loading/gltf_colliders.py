@@ -25,6 +25,7 @@ from satcheck.scene.vocabulary import Names
 UPRIGHT: Transform = (1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1)
 
 _DATA = {"extras": "data of an application"}
+_KINDS = frozenset({"box", "sphere", "capsule", "cylinder", "convex", "trimesh"})
 # What each object is called, and its names.
 PLACES = {
     "rigid body": Names(
@@ -41,7 +42,7 @@ PLACES = {
     ),
     "geometry": Names(frozenset({"shape", "mesh", "node", "convexHull"}), _DATA),
     "shape": Names(
-        frozenset({"type", "box", "sphere", "capsule", "cylinder", "convex", "trimesh"}),
+        _KINDS | {"type"},
         {"name": "a name", **_DATA},
     ),
     "sizes": Names(
@@ -60,12 +61,15 @@ class Collider(Struct, frozen=True):
 
 
 class Colliders:
-    """The colliders of a document. Raises Refused for a misspelt name."""
+    """The colliders of a document. Raises Refused for a misspelt name of a rigid body."""
 
     def __init__(self, document: dict[str, Any], unknown: UnknownNames) -> None:
         self._document = document
         self._nodes = items(document, "nodes")
         self._unknown = unknown
+        for number in range(len(self._nodes)):
+            for name, body in self._bodies(number):
+                unknown.look(PLACES["rigid body"], body.keys(), name, f"node {number}")
 
     def any(self) -> bool:
         """Say whether a node of the file has a collider."""
@@ -87,7 +91,6 @@ class Colliders:
             ]
             if others:
                 raise Refused("unsupported-feature", f"{where}: two colliders")
-            self._unknown.look(PLACES["rigid body"], body.keys(), name, where)
             collider = member([body["collider"]], 0, "collider")
             self._unknown.look(PLACES["collider"], collider.keys(), "collider", where)
             if name == OMI_BODIES:
@@ -115,6 +118,9 @@ class Colliders:
         shape = member(shapes, number, "shape")
         kind = shape.get("type")
         self._unknown.look(PLACES["shape"], shape.keys(), "shape", f"shape {number}")
+        if others := sorted(shape.keys() & _KINDS - {kind}):
+            message = f"shape {number} is a {kind}, and has sizes of a {others[0]}"
+            raise Refused("bad-record", message)
         sizes = shape.get(kind, {}) if isinstance(kind, str) else {}
         if not isinstance(sizes, dict):
             raise Refused("bad-record", f"the sizes of shape {number} are no object")

@@ -75,7 +75,10 @@ class Meshes:
         where = f"mesh {shape.mesh}"
         parts: list[tuple[Block, Block, None]] = []
         rounding = 0.0
-        for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives"):
+        mesh = member(self._meshes, shape.mesh, "mesh")
+        if "primitives" not in mesh:
+            raise Refused("bad-record", f"{where} has no primitives")
+        for primitive in items(mesh, "primitives"):
             part = self._primitive(primitive, shape, skin, where, warnings)
             if part is not None:
                 parts.append((part[0].cast("B"), part[1].cast("B"), None))

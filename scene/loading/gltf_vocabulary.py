@@ -73,7 +73,7 @@ HARMLESS_EXTENSIONS = _reasons(
     lines="""
         CESIUM_primitive_outline CESIUM_primitive_edges CESIUM_tile_edges
         EXT_mesh_primitive_edge_visibility""",
-    order_of_triangles="FB_ngon_encoding EXT_mesh_polygon",
+    order_of_triangles="FB_ngon_encoding EXT_mesh_polygon EXT_mesh_manifold",
     an_index_beyond_the_vertices_is_refused="EXT_mesh_primitive_restart KHR_mesh_primitive_restart",
     sound="""
         KHR_audio KHR_audio_emitter KHR_audio_graph OMI_audio_emitter OMI_audio_ogg_vorbis
@@ -198,6 +198,9 @@ class _Look:
             instances = _inside(node, "extensions", INSTANCING)
             self._object(instances, INSTANCING, f"node {number}: {INSTANCING}")
             self._names(instances.get("attributes"), "instance", f"node {number}")
+            if instances and "mesh" not in node:
+                message = f"node {number}: {INSTANCING} is not read on a node without a mesh"
+                self._unknown.note((INSTANCING, "mesh"), message)
         for number, view in enumerate(_list(document.get("bufferViews"))):
             for name in MESHOPT:
                 place = f"buffer view {number}: {name}"

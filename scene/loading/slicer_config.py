@@ -1,4 +1,4 @@
-"""Which volumes of a 3MF project are no material, as the configs of slicers state.
+"""The parts of a 3MF package beside its models, and which volumes the configs of slicers leave out.
 
 PrusaSlicer and SuperSlicer write Metadata/Slic3r_PE_model.config, with volumes as ranges of
 triangles of an object; SuperSlicer has further names for it. Bambu Studio and OrcaSlicer write
@@ -10,26 +10,44 @@ from __future__ import annotations
 from msgspec import Struct
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.unknown_names import refuse_misspelt
+from satcheck.scene.loading.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.vocabulary import Names
 
 CONFIGS = "metadata/*model*.config"  # in lower case
-HOLES = "metadata/*drain_holes*"
-# The parts of a package that place or exempt bodies; the others are the programs' own.
+# The parts of a package, in lower case. Programs put their own into folders of their own; those of
+# slicers are in the folder Metadata.
+_PRINTING = """slic3r.config slic3r_pe.config superslicer.config print_profile.config
+    project_settings.config slice_info.config print_setting_*.config process_settings_*.config
+    filament_settings_*.config machine_settings_*.config *layer_heights_profile.txt
+    *layer_config_ranges.xml *sla_support_points.txt *custom_gcode_per_* *cut_information.xml
+    *wipe_tower_information.xml *brim_ear_points.txt filament_sequence.json plate_*.json *.gcode
+    *.gcode.md5 *_pt*.xml cura/*"""
 SIDE_FILES = Names(
     frozenset({"_rels/.rels", "metadata/slic3r_pe_model.config", "metadata/model_settings.config"}),
     {
         CONFIGS: "read",
-        **dict.fromkeys(
-            (f"metadata/{name}.config" for name in ("slic3r_pe", "project_settings", "slice_info")),
-            "printing",
-        ),
         "*/_rels/*": "of other parts",
+        "*.model": "it counts where a model names it",
+        **dict.fromkeys((f"metadata/{name}" for name in _PRINTING.split()), "printing"),
+        **dict.fromkeys(("*.png", "*.jpg", "*.jpeg", "*.svg", "*.webp"), "a picture"),
+        **dict.fromkeys(("*.prop", "metadata/*core*.xml"), "about the file"),
     },
 )
-# What is read in a config; slicers write many other names there.
-_ELEMENTS = Names(frozenset({"object", "volume", "part", "metadata"}))
+# What the elements of a config may hold.
+_METADATA = {"metadata": "data"}
+_ELEMENTS = {
+    "config": Names(frozenset({"object"}), dict.fromkeys(("plate", "assemble"), "printing")),
+    "object": Names(frozenset({"volume", "part"}), _METADATA),
+    **dict.fromkeys(
+        ("volume", "part"),
+        Names(
+            frozenset({"metadata"}),
+            dict.fromkeys(("mesh", "mesh_stat"), "of the repair")
+            | dict.fromkeys(("*text*", "*shape"), "what the mesh was made of"),
+        ),
+    ),
+}
 _ATTRIBUTES = Names(frozenset({"id", "firstid", "lastid", "subtype", "key", "value"}))
 _KEYS = Names(frozenset({"volume_type", "modifier"}))
 _SOLID = frozenset({"ModelPart", "normal_part"})
@@ -52,12 +70,12 @@ class Volume(Struct, frozen=True):
     negative: bool
 
 
-def volumes(config: Element) -> list[Volume]:
+def volumes(config: Element, unknown: UnknownNames) -> list[Volume]:
     """Return the volumes that are no material. Raises Refused for an unknown kind or a misspelt
     name."""
     if config.tag != "config":
         config.refuse("the outermost element of the config of a slicer should be <config>")
-    _refuse_misspelt(config)
+    _look(config, unknown)
     return [
         volume
         for owner in config.all("object")
@@ -66,15 +84,15 @@ def volumes(config: Element) -> list[Volume]:
     ]
 
 
-def _refuse_misspelt(element: Element) -> None:
+def _look(element: Element, unknown: UnknownNames) -> None:
     place = f"config of a slicer, line {element.line}: <{element.tag}>"
     refuse_misspelt(_ATTRIBUTES, element.attributes, place)
-    refuse_misspelt(_ELEMENTS, [child.tag for child in element.children], place)
     if element.tag == "metadata":
         refuse_misspelt(_KEYS, [element.attributes.get("key", "")], place)
-    for child in element.children:
-        if child.tag in _ELEMENTS.read:
-            _refuse_misspelt(child)
+    if names := _ELEMENTS.get(element.tag):
+        unknown.look(names, [child.tag for child in element.children], element.tag, place)
+        for child in element.children:
+            _look(child, unknown)
 
 
 def _volume(owner: Element, element: Element) -> Volume | None:

@@ -27,8 +27,8 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.loading.readers import File
-from satcheck.scene.loading.slicer_config import CONFIGS, HOLES, SIDE_FILES, Volume, volumes
+from satcheck.scene.loading.readers import File, mesh_reader
+from satcheck.scene.loading.slicer_config import CONFIGS, SIDE_FILES, Volume, volumes
 from satcheck.scene.loading.threemf_vocabulary import (
     ATTRIBUTES,
     CHILDREN,
@@ -142,12 +142,12 @@ class _Package:
         """Leave out the volumes that the config of a slicer makes settings; refuse an object that
         one of them is taken away from."""
         refuse_misspelt(SIDE_FILES, self._names, "the package")
-        for name in fnmatch.filter(self._names, HOLES):
-            self._unknown.note((HOLES, ""), f"{name} is not read; it makes holes in bodies")
+        shown = [name for name in self._names if name.startswith("metadata/") or _is_mesh(name)]
+        self._unknown.look(SIDE_FILES, shown, "part", "the package")
         for name in fnmatch.filter(self._names, CONFIGS):
             with self._open(name) as stream:
                 config = read_elements(stream)
-            for volume in volumes(config):
+            for volume in volumes(config, self._unknown):
                 object_ = root.objects.get(volume.owner)
                 if object_ is None or volume.negative or not object_.leave_out(volume):
                     what = "has a negative volume" if volume.negative else "has a modifier"
@@ -220,15 +220,15 @@ class _Package:
                 object_.refusal = Refused("unsupported-feature", message)
 
     def _object(self, part: str, id_: str) -> Object:
-        self._used.add((part, id_))
         object_ = self._model(part).objects.get(id_)
         if object_ is None:
             raise Refused("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
-        if object_.kind not in TYPES - {"other"}:
+        if (part, id_) not in self._used and object_.kind not in TYPES - {"other"}:
             message = (
                 f"object {id_!r} of the build has the type {object_.kind!r}, which has no place"
             )
             self._unknown.note(("type", id_), f"{message} there; it is checked as a model")
+        self._used.add((part, id_))
         return object_
 
 
@@ -264,6 +264,8 @@ class Object:
             return False
         # The triangles after it keep their numbers: a triangle of one corner has no area.
         self.corners[3 * first : 3 * last + 3] = ["0"] * (3 * (last - first + 1))
+        if all(corner == "0" for corner in self.corners):
+            self.corners = []
         return True
 
     def mesh(self, unit: str) -> RawMesh | Refusal:
@@ -324,6 +326,10 @@ def read_model(part: str, stream: IO[bytes]) -> Model:
     Raises Refused. An error in the mesh of one object is stored in this object.
     """
     return _ModelReader(part).read(stream)
+
+
+def _is_mesh(part: str) -> bool:
+    return mesh_reader(posixpath.splitext(part)[1]) is not None
 
 
 def part_name(target: str) -> str:
@@ -396,6 +402,9 @@ class _ModelReader:
         attributes = dict(zip(given[::2], given[1::2], strict=True))
         namespace, local = split_name(name)
         if not self._around:
+            if namespace not in CORE or local != "model":
+                what = f"the outermost element is {short_element(name)}, and no model that is read"
+                raise self._fail("unsupported-feature", what)
             self._ignorable = ignorable(attributes, self._prefixes)
         self._look(short_element(name), namespace in self._ignorable, attributes)
         if local in _ONCE and namespace in CORE and self._object:

@@ -116,6 +116,7 @@ def test_a_scene_of_another_version_is_an_asset(tmp_path: Path, schema: str) -> 
         ("part.FBX.xz", True),
         ("arm.urdf.bz2", True),
         ("level.tscn", True),
+        ("house.xkt", True),
         ("parts.tar.gz", True),
         ("parts.zip", True),
         ("town.city.json", True),

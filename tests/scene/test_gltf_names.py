@@ -88,6 +88,9 @@ UNREAD: dict[str, Callable[[Json], object]] = {
     "vertex shader": lambda made: made.update(extensionsUsed=["KHR_techniques_webgl"]),
     "attribute": lambda made: made["meshes"][0]["primitives"][0]["attributes"].update(RADIUS=0),
     "which of two scenes": lambda made: (made.pop("scene", None), made["scenes"].append({})),
+    "instances of a group": lambda made: made["nodes"].append(
+        {"extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}
+    ),
 }
 
 
@@ -119,6 +122,7 @@ HARMLESS = (
     "NV_materials_mdl",
     "ADOBE_materials_thin_transparency",
     "FB_ngon_encoding",
+    "EXT_mesh_manifold",
     "3DTILES_content_gltf",
     "EXT_structural_metadata",
     "MSFT_texture_dds",
@@ -194,6 +198,34 @@ def test_a_collider_that_is_not_read_is_a_body_that_cannot_be_checked(tmp_path: 
     scene = read(tmp_path, with_colliders(KHR, 0, 2), "collision")
     (lost,) = scene.unreadable
     assert (lost.id, lost.issue.code) == ("b", "unsupported-feature")
+
+
+def test_a_shape_with_sizes_of_another_kind_cannot_be_checked(tmp_path: Path) -> None:
+    made = with_colliders(KHR, 0, 1)
+    made["extensions"]["KHR_implicit_shapes"]["shapes"] = [SHAPES[0], {**SHAPES[0], "sphere": {}}]
+    (lost,) = read(tmp_path, made, "collision").unreadable
+    assert (lost.id, "a sphere" in lost.issue.message) == ("b", True)
+
+
+@pytest.mark.parametrize("name", ["colider", "colliders"])
+def test_a_misspelt_collider_is_refused(tmp_path: Path, name: str) -> None:
+    made = with_colliders(KHR, 0, 1)
+    made["nodes"][1]["extensions"][KHR] = {name: {}}
+    assert refused(tmp_path, made)[0] == "misspelt"
+
+
+def test_a_node_with_a_negative_mesh_is_refused(tmp_path: Path) -> None:
+    made = document()
+    made["nodes"][1]["mesh"] = -1
+    assert refused(tmp_path, made)[0] == "bad-record"
+
+
+def test_a_mesh_without_primitives_cannot_be_checked(tmp_path: Path) -> None:
+    made = document()
+    made["meshes"].append({"name": "lost"})
+    made["nodes"][1]["mesh"] = 1
+    (lost,) = read(tmp_path, made).unreadable
+    assert (lost.id, lost.issue.code) == ("b", "bad-record")
 
 
 def test_colliders_of_one_rigid_body_may_touch(tmp_path: Path) -> None:

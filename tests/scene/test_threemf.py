@@ -439,14 +439,60 @@ def test_a_misspelt_side_file_is_refused(tmp_path, name):
 
 
 def test_side_files_of_slicers_for_printing_are_harmless(tmp_path):
-    names = ("slice_info.config", "project_settings.config", "Slic3r_PE.config")
-    parts = {f"Metadata/{name}": "" for name in (*names, "_rels/model_settings.config.rels")}
+    names = """slice_info.config project_settings.config Slic3r_PE.config process_settings_1.config
+        _rels/model_settings.config.rels Slic3r_PE_layer_heights_profile.txt plate_1.gcode.md5
+        Prusa_Slicer_custom_gcode_per_print_z.xml cut_information.xml top_1.png thumbnail.jpg"""
+    parts = {f"Metadata/{name}": "" for name in names.split()} | {"History/history.xml": ""}
     assert warnings(loaded(tmp_path, "a.3mf", more(package(), **parts))) == {}
 
 
-def test_holes_that_a_slicer_drills_block_a_pass(tmp_path):
-    content = more(package(), **{"Metadata/Slic3r_PE_sla_drain_holes.txt": "object_id=1|0 0 0"})
+@pytest.mark.parametrize(
+    "name",
+    [
+        "Metadata/Slic3r_PE_sla_drain_holes.txt",
+        "Metadata/geometry.xml",
+        "Metadata/moves.json",
+        "3D/more.stl",
+    ],
+)
+def test_a_side_file_that_nobody_knows_blocks_a_pass(tmp_path, name):
+    content = more(package(), **{name: "object_id=1|0 0 0"})
     assert set(warnings(loaded(tmp_path, "a.3mf", content))) == {"unread"}
+
+
+@pytest.mark.parametrize(
+    ("parent", "child", "known"),
+    [
+        ("<object ", "<boolean/>", False),
+        ("<config>", "<move/>", False),
+        ("<config>", "<plate/>", True),
+        ("<part ", "<mesh_stat/>", True),
+    ],
+)
+def test_elements_in_a_config_of_a_slicer(tmp_path, parent, child, known):
+    config = bambu_config("normal_part").replace('"/>', '"></part>')
+    end = config.index(">", config.index(parent)) + 1
+    config = config[:end] + child + config[end:]
+    content = with_config(CUBE, ITEM, "Metadata/model_settings.config", config)
+    assert set(warnings(loaded(tmp_path, "a.3mf", content))) == (set() if known else {"unread"})
+
+
+def test_an_object_of_modifiers_alone_is_no_body(tmp_path):
+    config = prusa_config("ParameterModifier").replace('"12"', '"0"')
+    content = with_config(TWO + files.object_3mf(2), ITEM + SECOND, SLIC3R, config)
+    scene = load(tmp_path, "a.3mf", content)
+    (body,) = scene.bodies
+    assert body.file.mesh.bounds == ((0, 0, 0), (1, 1, 1))
+    assert [issue.code for issue in scene.issues] == ["left-out"]
+
+
+@pytest.mark.parametrize(("old", "new"), [("/core/2015/02", "/core/2031/02"), ("model", "mdoel")])
+def test_another_outermost_element_is_refused(tmp_path, old, new):
+    model = files.model_3mf(CUBE, ITEM).decode().replace(old, new)
+    code, message = refusal(
+        tmp_path, "a.3mf", files.package_3mf({"3D/3dmodel.model": model.encode()})
+    )
+    assert (code, "outermost" in message) == ("unsupported-feature", True)
 
 
 def test_a_config_whose_outermost_element_is_another_is_refused(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -174,7 +175,10 @@ REFUSED = {
     "text": (GOOD.replace("'box'", "'box", 1), "truncated", "within a text"),
     "dangling": (GOOD.replace("#1=", "#9999=", 1), "index-out-of-range", "#1"),
     "ifc": (BOX.text("IFC4"), "format-mismatch", "IFC"),
-    "csg": (GOOD.replace("MANIFOLD_SOLID_BREP", "CSG_SOLID"), "unsupported-feature", "CSG_SOLID"),
+    "csg": (GOOD.replace("MANIFOLD_SOLID_BREP", "CSG_SOLID"), "empty-mesh", "CSG_SOLID"),
+    "text for a number": (GOOD.replace("(1.0,", "('1.0',", 1), "bad-record", "no number"),
+    "two places": (GOOD.replace("(1.0,", "(1,0,", 1), "bad-record", "no number"),
+    "twice": (GOOD.replace("#2=", "#1=", 1), "bad-record", "two records #1"),
     "facets": (
         GOOD.replace("ADVANCED_FACE", "TRIANGULATED_FACE"),
         "unsupported-feature",
@@ -225,8 +229,50 @@ def test_faces_that_are_not_read_are_counted(tmp_path: Path) -> None:
     assert "not-closed" in codes(scene)
 
 
-def test_a_file_without_a_unit_is_in_millimetres_and_says_so(tmp_path: Path) -> None:
-    scene = load(tmp_path, GOOD.replace("(LENGTH_UNIT()NAMED_UNIT", "(NAMED_UNIT"))
+def two_boxes() -> StepFile:
+    file = StepFile()
+    whole = file.product("rig", [], kind="")
+    box = file.product("box", [file.box((0, 0, 0), (1, 1, 1))])
+    for name, x in (("a", 0), ("b", 5), ("c", 10)):
+        file.occurrence(name, whole, box, (x, 0, 0))
+    return file
+
+
+UNREAD = {
+    "an item of a shape": (r"(#\d+=ADVANCED_BREP\w*\('',\()", r"#999=BLOB('');\n\1#999,", "BLOB"),
+    "a face": (r"ADVANCED_FACE", "CLEVER_FACE", "CLEVER_FACE"),
+    "a placement": (r"(ITEM_DEFINED_TRANSFORMATION\('',''),#\d+,", r"\1,#1,", "an occurrence"),
+    "no placement": (r"#\d+=CONTEXT_DEPENDENT\w*\(.*\n", "", "without a placement"),
+    "a quantity": ("NEXT_ASSEMBLY_USAGE_OCCURRENCE", "PROMISSORY_USAGE_OCCURRENCE", "PROMISSORY"),
+}
+
+
+@pytest.mark.parametrize("name", UNREAD)
+def test_what_opencascade_loses_blocks_a_pass(name: str) -> None:
+    old, new, words = UNREAD[name]
+    assert read_exchange(two_boxes().text().encode()).unread == ()
+    text, count = re.subn(old, new, two_boxes().text(), count=1)
+    assert count == 1
+    assert words in " ".join(read_exchange(text.encode()).unread)
+
+
+def test_an_occurrence_without_a_value_for_its_place_is_refused(tmp_path: Path) -> None:
+    text = re.sub(r"(ITEM_DEFINED_TRANSFORMATION\(.*),#\d+\)", r"\1,$)", two_boxes().text())
+    assert refusal(tmp_path, "a.step", text.encode())[0] == "bad-record"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("(LENGTH_UNIT()NAMED_UNIT", "(NAMED_UNIT"),
+        ("GLOBAL_UNIT_ASSIGNED_CONTEXT((#6,", "GLOBAL_UNIT_ASSIGNED_CONTEXT(("),
+    ],
+)
+def test_a_file_without_a_unit_is_in_millimetres_and_says_so(
+    tmp_path: Path, old: str, new: str
+) -> None:
+    assert old in GOOD
+    scene = load(tmp_path, GOOD.replace(old, new))
     assert scene.bodies[0].world_mesh().bounds == ((0, 0, 0), (1, 1, 1))
     assert "assumed-units" in codes(scene)
 
