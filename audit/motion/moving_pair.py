@@ -23,10 +23,13 @@ from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
+
+    Ask = Callable[..., core.MotionAnswer]
+    Side = tuple[core.Surface | core.Shape, Frame]
 
 
 class Unanswerable(Exception):
@@ -102,19 +105,18 @@ class MovingPair:
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
         is moved by `offset`. end: in the same pieces as t."""
-        hulls = self._shapes(core.safe_time, t, offset=offset, level=gap, limit=end - t)
+        hulls = self._hulls(core.safe_time, t, offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
-        result = self._surfaces(core.safe_time, t, offset=offset, level=gap, limit=end - t)
-        triangles = None if result.triangle_a < 0 else (result.triangle_a, result.triangle_b)
-        return Obstacle(max(hulls.value, result.value), triangles)
+        result = self._surfaces(core.safe_time, t, offset, level=gap, limit=end - t)
+        triangles = result.triangle_a, result.triangle_b
+        return Obstacle(max(hulls.value, result.value), None if min(triangles) < 0 else triangles)
 
     def shallow(self, t: float, end: float) -> float:
         """The time for which the hulls, and so the bodies, overlap by no more than the
         tolerance."""
-        level = -self.tolerance
-        return self._shapes(core.safe_time, t, level=level, limit=end - t).value
+        return self._hulls(core.safe_time, t, level=-self.tolerance, limit=end - t).value
 
     def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
         """(lower, upper) of the signed distance of two convex bodies, or of the distance of other
@@ -123,7 +125,7 @@ class MovingPair:
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
-            result = self._shapes(core.least_gap, middle, window=window)
+            result = self._hulls(core.least_gap, middle, window=window)
             return result.value, result.upper + self.pad
         result = self._surfaces(core.least_gap, middle, window=window, floor=floor)
         return max(result.value, 0.0), result.upper + self.pad
@@ -133,7 +135,7 @@ class MovingPair:
         their depth."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
-        return self._shapes(core.least_gap, middle, window=window).value
+        return self._hulls(core.least_gap, middle, window=window).value
 
     def placed(self, t: float) -> Pair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
@@ -156,57 +158,41 @@ class MovingPair:
         """The finding at t, exact for the poses rounded to float64."""
         return examine(self.placed(t), Trace()).finding
 
-    def _shapes(
-        self,
-        ask: Callable[..., core.MotionAnswer],
-        t: float,
-        *,
-        offset: Vector = ORIGIN,
-        **bounds: float,
+    def _hulls(
+        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
-        (a, frame_a), (b, frame_b) = _shape_of(self.pair.a), _shape_of(self.pair.b)
-        moving_a = self.track_a.moving_at(t, offset, frame_a)
-        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
-        self._count()
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
+        """Asks about the hulls of the bodies, or their curved shapes."""
+        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
 
     def _surfaces(
-        self,
-        ask: Callable[..., core.MotionAnswer],
-        t: float,
-        *,
-        offset: Vector = ORIGIN,
-        **bounds: float,
+        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
-        first = self._side(self.pair.a, self.track_a, t, offset)
-        second = self._side(self.pair.b, self.track_b, t, ORIGIN)
-        if self.pair.b.curved is not None:  # the shape comes first
-            first, second = second, first
-        self._count()
-        work, slack = VISITS - self.visits, self._slack(t)
-        result = ask(*first, *second, pad=self.pad, slack=slack, work=work, **bounds)
+        """Asks about the surfaces of the bodies, or their curved shapes."""
+        sides = [_shape_of(b) if b.curved else (b.surface(), WORLD) for b in self._bodies]
+        result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         return result
 
-    @staticmethod
-    def _side(
-        body: PlacedBody, track: Track, t: float, offset: Vector
-    ) -> tuple[core.Surface | core.Shape, core.Moving]:
-        if body.curved is None:
-            return body.surface(), track.moving_at(t, offset)
-        shape, frame = _shape_of(body)
-        return shape, track.moving_at(t, offset, frame)
+    def _asked(
+        self, ask: Ask, t: float, offset: Vector, sides: Sequence[Side], **bounds: float
+    ) -> core.MotionAnswer:
+        self.steps += 1
+        if self.steps > STEPS or self.visits >= VISITS:
+            raise BudgetSpent
+        (a, frame_a), (b, frame_b) = sides
+        moving_a = self.track_a.moving_at(t, offset, frame_a)
+        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
+
+    @property
+    def _bodies(self) -> tuple[PlacedBody, PlacedBody]:
+        return self.pair.a, self.pair.b
 
     def _slack(self, t: float) -> float:
         return sum(
             track.slack(track.piece_at(t), body.bounds)
             for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
         )
-
-    def _count(self) -> None:
-        self.steps += 1
-        if self.steps > STEPS or self.visits >= VISITS:
-            raise BudgetSpent
 
 
 def overlaps(finding: Finding) -> bool:
