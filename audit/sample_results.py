@@ -64,14 +64,14 @@ class SampleResults:
         for finding in findings:
             self.tally(finding.a, finding.b).count(finding, number, self.fail_on)
 
-    def keep_first_poses(self, scene: Scene, batch: PoseBatch) -> None:
+    def keep_first_poses(self, batch: PoseBatch) -> None:
         """States the poses of this batch in which a pair overlaps first."""
         poses: dict[int, StatedPose] = {}
         for tally in self._tallies.values():
             number = tally.first_overlap
             if number is not None and tally.first_pose is None:
                 if number not in poses:
-                    poses[number] = batch.posture(scene, number - batch.first).pose()
+                    poses[number] = batch.posture(number - batch.first).pose()
                 tally.first_pose = poses[number]
 
     def report(self, checks: SingleChecks, number: int) -> SamplesReport:

@@ -71,7 +71,7 @@ def check_poses(
             meter = stack.enter_context(volume_meter(settings)) if by_volume else None
             counted = sorted_and_counted(checks, batches, pairs, meter)
         for batch in counted:
-            results.keep_first_poses(scene, batch)
+            results.keep_first_poses(batch)
             for number in range(batch.first, batch.first + batch.count):
                 if progress is not None:
                     progress(number, len(poses))

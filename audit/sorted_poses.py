@@ -134,7 +134,7 @@ class _SortedBatch:
         return tuple(finding for _, finding in found if not is_plain(finding))
 
     def _sample(self, row: int) -> SampledPose:
-        posture = self._batch.posture(self._checks.scene, row)
+        posture = self._batch.posture(row)
         findings = self._findings(row)
         verdict = self._verdict(findings)
         number = self._batch.first + row
