@@ -12,7 +12,7 @@ from satcheck.audit.bodies.boxes import Box, corners
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.motion.limits import HALVINGS
 from satcheck.audit.motion.track import STANDS, Piece, Track, track_of
-from satcheck.audit.motion.turn import applied
+from satcheck.core.transform import Transform
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
@@ -165,19 +165,16 @@ def _boxes(bounds: Box, piece: Piece, start: float, end: float) -> list[Box]:
     angle = min(turned / count, 4.0)  # radians; the error is never more than twice the radius
     grown = radius * angle * angle / 8.0
     times = [start + length * k / count for k in range(count + 1)]
-    return [_box(bounds, piece, t, grown) for t in times]
+    return [_box(bounds, piece.pose_at(t), grown) for t in times]
 
 
-def _box(bounds: Box, piece: Piece, t: float, grown: float) -> Box:
-    turn, centre = piece.turn_at(t), piece.centre_at(t)
-    points = []
-    for corner in corners(bounds):
-        x, y, z = (c - p for c, p in zip(corner, piece.pivot, strict=True))
-        points.append(applied(turn, (x, y, z)))
+def _box(bounds: Box, pose: Transform, grown: float) -> Box:
+    rows = pose[0:4], pose[4:8], pose[8:12]
+    points = [
+        [p * x + q * y + r * z + shift for p, q, r, shift in rows] for x, y, z in corners(bounds)
+    ]
     low, high = (
-        tuple(
-            centre[axis] + pick(point[axis] for point in points) + way * grown for axis in range(3)
-        )
+        tuple(pick(along) + way * grown for along in zip(*points, strict=True))
         for pick, way in ((min, -1.0), (max, 1.0))
     )
     return low, high  # type: ignore[return-value]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -14,13 +15,15 @@ from satcheck.audit.bodies.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
-from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
+from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
 from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.core.transform import Transform, compose, placed
 from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
+from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -29,7 +32,7 @@ if TYPE_CHECKING:
     from satcheck.report.report import Finding
 
     Ask = Callable[..., core.MotionAnswer]
-    Side = tuple[core.Surface | core.Shape, Frame]
+    Side = tuple[core.Surface | core.Shape, Transform]
 
 
 class Unanswerable(Exception):
@@ -168,7 +171,7 @@ class MovingPair:
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the surfaces of the bodies, or their curved shapes."""
-        sides = [_shape_of(b) if b.curved else (b.surface(), WORLD) for b in self._bodies]
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in self._bodies]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         return result
@@ -200,12 +203,12 @@ def overlaps(finding: Finding) -> bool:
     return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
-def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
-    """The hull of a body, or its curved shape, with its frame."""
+def _shape_of(body: PlacedBody) -> Side:
+    """The hull of a body, or its curved shape, with its placement."""
     if body.curved is None:
-        return body.hull_shape(), WORLD
-    x, y, z = rows_of(body.curved.turn)
-    return body.curved.shape, ((x, y, z), body.curved.centre)
+        return body.hull_shape(), IDENTITY
+    turn = tuple(chain.from_iterable(rows_of(body.curved.turn)))
+    return body.curved.shape, placed(turn, body.curved.centre)
 
 
 def _placing(body: PlacedBody, track: Track) -> float:
@@ -225,16 +228,5 @@ def _placing(body: PlacedBody, track: Track) -> float:
 def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:
     if not track.moves:
         return body
-    moved = _composed(track.transform_at(t), body.body.transform)
+    moved = compose(track.pose_at(t), body.body.transform or IDENTITY)
     return PlacedBody(replace(body.body, transform=moved), body.shared)
-
-
-def _composed(outer: tuple[float, ...], inner: tuple[float, ...] | None) -> tuple[float, ...]:
-    """outer after inner, row-major 4x4, each entry rounded once."""
-    if inner is None:
-        return outer
-    return tuple(
-        math.fsum(outer[4 * row + k] * inner[4 * k + column] for k in range(4))
-        for row in range(4)
-        for column in range(4)
-    )
