@@ -192,9 +192,8 @@ def _posed(body: PlacedBody) -> core.PosedBody:
     from satcheck.core.shape_bounds import shape_bounds
     from satcheck.core.shape_mesh import meshes_beside
 
-    simple = shape_bounds(shape)
     around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
-    return core.PosedBody(simple.corners, simple.margin, simple.inner, around, within)
+    return core.PosedBody(*shape_bounds(shape), around, within)
 
 
 def _moved(body: Body, rows: Numbers) -> Body:

@@ -340,12 +340,7 @@ class PosedBody:
     def __init__(self, geometry: Geometry) -> None: ...
     @overload
     def __init__(
-        self,
-        corners: Sequence[Point],
-        margin: float,
-        inner: Sequence[tuple[Point, float]],
-        around: Geometry,
-        within: Geometry,
+        self, corners: Sequence[Point], margin: float, around: Geometry, within: Geometry
     ) -> None: ...
     @property
     def around(self) -> tuple[Point, float]: ...
