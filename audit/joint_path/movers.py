@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.boxes import Box, around_both
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.joint_path.search import Search, SweptPair
 from satcheck.audit.joint_path.travel import Interval, Travel
+from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
 from satcheck.audit.motion.sweep import swept
 from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import PosedPairs
@@ -48,23 +49,9 @@ class JointMovers:
         self._boxes = self._swept_boxes()
         self._sweeps: dict[tuple[str, str], Sweep] = {}
 
-    def bounds(self, body: str, placed: Box) -> Box:
-        """The world box of a body over the whole path."""
-        box = self._boxes.get(body)
-        if box is None:
-            return placed
-        low, high = (
-            tuple(pick(p, q) for p, q in zip(placed[side], box[side], strict=True))
-            for side, pick in ((0, min), (1, max))
-        )
-        return low, high  # type: ignore[return-value]
-
-    def may_meet(self, *_: object) -> bool:
-        """True: `sweep` asks."""
-        return True
-
-    def sweep(self, close: Collection[tuple[int, int]]) -> None:
-        """Sweeps these pairs, by the numbers of their bodies; `paths` then has the results."""
+    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+        """The pairs whose boxes over the whole path are close, swept; `paths` has the results."""
+        close = close_pairs(bodies, planner, self._bounds)
         wanted = set(close)
         places = self._pairs.places
         moves = np.array(
@@ -80,6 +67,10 @@ class JointMovers:
             self._search.narrow(near, found)
         for k in np.flatnonzero(moves).tolist():
             self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+        return close
+
+    def _bounds(self, body: str, placed: Box) -> Box:
+        return around_both(placed, self._boxes.get(body, placed))
 
     def paths(self, a: str, b: str) -> Paths | None:
         """The sweep of a pair; None: the bodies do not move relative to each other."""

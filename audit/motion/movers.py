@@ -8,10 +8,13 @@ from collections.abc import Sequence
 from msgspec import convert, to_builtins
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box, corners
+from satcheck.audit.bodies.boxes import Box, around_both, corners
 from satcheck.audit.bodies.pair import Paths
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
 from satcheck.audit.motion.limits import HALVINGS
 from satcheck.audit.motion.track import STANDS, Piece, Track, track_of
+from satcheck.audit.request.planner import Planner
 from satcheck.core.transform import Transform
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
@@ -45,23 +48,22 @@ class Movers:
         path_a, path_b = (None if motion is None else motion.path for motion in motions)
         return Paths(path_a, path_b, any(motion and motion.clear for motion in motions))
 
-    def sweep(self, close: Sequence[tuple[int, int]]) -> None:
-        """Nothing: each pair is swept when it is examined."""
+    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+        """The pairs that may be as close as they ask, as placed or at some t."""
+        placed, ids = bodies.placed, bodies.ids
+
+        def meet(i: int, j: int) -> bool:
+            limit = planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
+            if self._motion.get(ids[i]) is self._motion.get(ids[j]):
+                return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
+            swept = [self._swept(ids[k], placed[k].bounds) for k in (i, j)]
+            return may_meet(swept[0], swept[1], limit)
+
+        return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
-        low, high = self._swept(body, placed).over(0.0, 1.0)
-        return (
-            (min(low[0], placed[0][0]), min(low[1], placed[0][1]), min(low[2], placed[0][2])),
-            (max(high[0], placed[1][0]), max(high[1], placed[1][1]), max(high[2], placed[1][2])),
-        )
-
-    def may_meet(self, a: str, box_a: Box, b: str, box_b: Box, limit: float) -> bool:
-        """Whether the bodies may be as close as the limit, as placed or at some t. Boxes as
-        placed."""
-        if self._motion.get(a) is self._motion.get(b):
-            return core.box_gap(box_a, box_b) <= limit
-        return may_meet(self._swept(a, box_a), self._swept(b, box_b), limit)
+        return around_both(placed, self._swept(body, placed).over(0.0, 1.0))
 
     def _swept(self, body: str, placed: Box) -> SweptBoxes:
         if body not in self._boxes:
