@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 
 from msgspec import convert, to_builtins
 
@@ -143,21 +144,16 @@ def may_meet(a: SweptBoxes, b: SweptBoxes, limit: float) -> bool:
 
 def swept_box(bounds: Box, track: Track, start: float = 0.0, end: float = 1.0) -> Box:
     """Contains the body at every t from start to end. bounds: of the body as placed."""
-    boxes = []
+    pad, boxes = track.pad(bounds), []
     for piece in track.pieces:
         if piece.start < end and start < piece.end:
-            boxes += _boxes(bounds, piece, max(start, piece.start), min(end, piece.end))
-    pad = track.pad(bounds)
-    if not all(math.isfinite(c) for box in boxes for corner in box for c in (*corner, pad)):
+            boxes += _boxes(bounds, piece, max(start, piece.start), min(end, piece.end), pad)
+    if not all(math.isfinite(c) for box in boxes for corner in box for c in corner):
         return EVERYWHERE
-    low, high = (
-        tuple(pick(box[side][axis] for box in boxes) + way * pad for axis in range(3))
-        for side, pick, way in ((0, min, -1.0), (1, max, 1.0))
-    )
-    return low, high  # type: ignore[return-value]
+    return reduce(around_both, boxes)
 
 
-def _boxes(bounds: Box, piece: Piece, start: float, end: float) -> list[Box]:
+def _boxes(bounds: Box, piece: Piece, start: float, end: float, pad: float) -> list[Box]:
     """Between two poses a point moves along an arc about the moving centre. Its distance from the
     linear interpolation is at most angle squared / 8 of its radius."""
     length = end - start
@@ -165,18 +161,15 @@ def _boxes(bounds: Box, piece: Piece, start: float, end: float) -> list[Box]:
     count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
     radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
     angle = min(turned / count, 4.0)  # radians; the error is never more than twice the radius
-    grown = radius * angle * angle / 8.0
-    times = [start + length * k / count for k in range(count + 1)]
-    return [_box(bounds, piece.pose_at(t), grown) for t in times]
+    grown = radius * angle * angle / 8.0 + pad
+    poses = [piece.pose_at(start + length * k / count) for k in range(count + 1)]
+    return [_box(bounds, pose, grown) for pose in poses]
 
 
 def _box(bounds: Box, pose: Transform, grown: float) -> Box:
-    rows = pose[0:4], pose[4:8], pose[8:12]
-    points = [
-        [p * x + q * y + r * z + shift for p, q, r, shift in rows] for x, y, z in corners(bounds)
-    ]
-    low, high = (
-        tuple(pick(along) + way * grown for along in zip(*points, strict=True))
-        for pick, way in ((min, -1.0), (max, 1.0))
-    )
-    return low, high  # type: ignore[return-value]
+    low, high = [], []
+    for p, q, r, shift in (pose[0:4], pose[4:8], pose[8:12]):
+        along = [p * x + q * y + r * z + shift for x, y, z in corners(bounds)]
+        low.append(min(along) - grown)
+        high.append(max(along) + grown)
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
