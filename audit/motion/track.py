@@ -83,13 +83,13 @@ class Piece(Struct, frozen=True):
 
     def pose_at(self, t: float) -> Transform:
         """M(t)."""
-        turned, x, y, z = STILL, *self.pivot
-        if self.degrees:
-            share = (t - self.start) / (self.end - self.start)
-            turned = about(self.axis, cos_sin(self.degrees * share))
-        to_pivot = placed(STILL, (-x, -y, -z))
-        turn = compose(placed(turned, self.centre_at(t)), placed(self.turn, ORIGIN))
-        return compose(turn, to_pivot)
+        x, y, z = self.pivot
+        share = (t - self.start) / (self.end - self.start)
+        turned = about(self.axis, cos_sin(self.degrees * share)) if self.degrees else STILL
+        pose = placed(turned, self.centre_at(t))
+        if self.turn != STILL:
+            pose = compose(pose, placed(self.turn, ORIGIN))
+        return pose if self.pivot == ORIGIN else compose(pose, placed(STILL, (-x, -y, -z)))
 
     @property
     def spin(self) -> Vector:
@@ -125,7 +125,9 @@ class Track(Struct, frozen=True):
         """The place and the motion of the body at t, moved by `offset`. frame: places it before the
         motion."""
         piece = self.piece_at(t)
-        pose = compose(piece.pose_at(t), frame)
+        pose = piece.pose_at(t)
+        if frame != IDENTITY:
+            pose = compose(pose, frame)
         rows = pose[0:3], pose[4:7], pose[8:11]
         x, y, z = pose[3:12:4]
         centre = added(piece.centre_at(t), offset)
