@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit import Settings, sample_results, samples
+from satcheck.audit import Settings, check, sample_results, samples
 from satcheck.audit.samples import check_poses
 from satcheck.report.samples import SamplesReport
-from satcheck.scene import Scene
-from satcheck.scene.robot import RandomPoses
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.robot import Pose, RandomPoses, posed
 from tests.audit.test_posed_pairs import QUICK, SHAPES, meshes, open_cups, plain, spider
+from tests.scene.robot.robots import joint, link, robot_of
 
 
 @pytest.fixture
@@ -63,3 +64,32 @@ def test_the_number_of_jobs_changes_nothing(tmp_path: Path) -> None:
     assert one.summary == two.summary
     assert one.pairs == two.pairs
     assert listed(one, 5) == listed(two, 5)
+
+
+def test_a_listed_pose_climbs_only_what_the_sort_does_not_prove(tmp_path: Path) -> None:
+    """A block slides into a wall: across its face, and wholly inside. Only the boxes of the first
+    pose show that neither body holds the other."""
+    wall, block = (
+        '<geometry><box size="4 4 4"/></geometry>',
+        '<geometry><box size="1 1 1"/></geometry>',
+    )
+    slide = '<axis xyz="1 0 0"/><limit lower="0" upper="9"/>'
+    text = robot_of(
+        link("wall", f"<collision>{wall}</collision>"),
+        link("block", f"<collision>{block}</collision>"),
+        joint("slide", "wall", "block", "prismatic", slide),
+    )
+    (tmp_path / "r.urdf").write_text(text)
+    scene = load_scene([tmp_path / "r.urdf"])
+    poses: list[Pose] = [{"slide": (2.0,)}, {"slide": (0.5,)}, {"slide": (5.0,)}]
+    found = check_poses(scene, poses, QUICK)
+    first, second = (sample.findings[0] for sample in found.samples[:2])
+    assert [stage.stage for stage in first.plan] == ["sort"]
+    assert (first.relation, second.relation) == ("penetrating", "contains")
+    assert second.plan[0].stage == "aabb"
+    assert not found.samples[2].findings
+    for sample, pose in zip(found.samples[:2], poses, strict=False):
+        (own,) = check(posed(scene, pose), QUICK).findings
+        assert plain(sample.findings[0]) == plain(own)
+    measured = check_poses(scene, poses, Settings(depth=True)).samples[0].findings[0]
+    assert measured.depth == pytest.approx(0.5)
