@@ -128,10 +128,10 @@ class Track(Struct, frozen=True):
         pose = piece.pose_at(t)
         if frame != IDENTITY:
             pose = compose(pose, frame)
-        rows = pose[0:3], pose[4:7], pose[8:11]
-        x, y, z = pose[3:12:4]
+        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
+        turn, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
         centre = added(piece.centre_at(t), offset)
-        return core.Moving(rows, added((x, y, z), offset), centre, piece.velocity, piece.spin)
+        return core.Moving(turn, shift, centre, piece.velocity, piece.spin)
 
     def reach(self, bounds: Box) -> float:
         """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
