@@ -141,10 +141,17 @@ def placements(scene: Scene, frames: Sequence[Mapping[str, Transform]], count: i
     of_links = body_poses(scene, frames)
     placed = np.empty((count, len(scene.bodies), 12))
     for k, body in enumerate(scene.bodies):
-        matrix = of_links.get(body.id, body.transform or IDENTITY)
-        for entry in range(12):
-            placed[:, k, entry] = matrix[entry]
+        placed[:, k] = rows_of(of_links.get(body.id, body.transform or IDENTITY), count)
     return placed
+
+
+def rows_of(pose: Sequence[Any], count: int) -> Numbers:
+    """The upper three rows of a pose, shape (count, 12). Its entries are numbers, or arrays over
+    the poses."""
+    rows = np.empty((count, 12))
+    for entry in range(12):
+        rows[:, entry] = pose[entry]
+    return rows
 
 
 def require_joints(scene: Scene, poses: Sequence[Pose]) -> None:
