@@ -88,9 +88,7 @@ def _check(
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
-    close = close_pairs(bodies, planner) if movers is None else _close(bodies, planner, movers)
-    if movers is not None:
-        movers.sweep(close)
+    close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
     queue = PairQueue(settings.jobs, keep=keep)
     examined = _examine_all(bodies, close, planner, movers, queue, progress)
     findings = _findings(bodies, close, examined, planner)
@@ -172,24 +170,6 @@ def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | Jo
     from satcheck.audit.motion.movers import Movers
 
     return Movers(scene.motions)
-
-
-def _close(
-    bodies: PlacedBodies, planner: Planner, movers: Movers | JointMovers
-) -> list[tuple[int, int]]:
-    """The pairs of bodies that may come close while they move."""
-    placed, ids = bodies.placed, bodies.ids
-    return [
-        (i, j)
-        for i, j in close_pairs(bodies, planner, movers.bounds)
-        if movers.may_meet(
-            ids[i],
-            placed[i].bounds,
-            ids[j],
-            placed[j].bounds,
-            planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution),
-        )
-    ]
 
 
 def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:

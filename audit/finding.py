@@ -124,6 +124,15 @@ def apart_by_boxes(pair: Pair) -> Examined:
     return Examined(draft.finding(), draft)
 
 
+def deep_overlap(pair: Pair) -> Finding:
+    """Return the finding of bodies that are proven to overlap by more than the touch band, while
+    neither holds the other. No figure is requested."""
+    trace = Trace()
+    trace.record("sort", "penetrating", "an overlap beyond the touch band")
+    verdict = Verdict("penetrating", proven=True)
+    return _judged(Draft(pair, trace, verdict, "penetrating", "penetrating"))
+
+
 def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
     return Finding(
         id=finding_id(a, b),

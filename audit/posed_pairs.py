@@ -55,9 +55,9 @@ class PosedPair(Struct, frozen=True):
 
 
 class PosedPairs:
-    """The pairs of a scene that are checked and can be compared, sorted. names: their ids.
-    deep_fails: whether a deep overlap of each is a failure. bodies: as placed in any of the poses;
-    all those of the scene can be used."""
+    """The pairs of a scene that are checked and can be compared, sorted. names: their ids. places:
+    the numbers of their bodies in `Scene.bodies`. deep_fails: whether a deep overlap of each is a
+    failure. bodies: as placed in any of the poses; all those of the scene can be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         self._settings = planner.settings
@@ -73,17 +73,12 @@ class PosedPairs:
         )
         self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
         self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
-        self._places = [(place[i], place[j]) for i, j in checked]
+        self.places = [(place[i], place[j]) for i, j in checked]
         self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
 
     def _deep_fails(self, request: Request) -> bool:
         severity = by_rule(Judgement("error"), request).severity
         return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
-
-    @property
-    def places(self) -> list[tuple[int, int]]:
-        """The bodies of each pair, by their numbers in `Scene.bodies`."""
-        return self._places
 
     def around(self) -> list[tuple[Vector, float]]:
         """A ball that holds each body of the scene, in coordinates of its file, as large as the
@@ -96,12 +91,12 @@ class PosedPairs:
 
     def tolerance(self, number: int) -> float:
         """Half the width of the touch band of a pair, as the scene is placed."""
-        a, b = (self._bodies[k] for k in self._places[number])
+        a, b = (self._bodies[k] for k in self.places[number])
         return Pair(a, b, self._settings, self.pairs[number].request).tolerance
 
     def sizes(self) -> list[float]:
         """The size of the smaller body of each pair."""
-        return [min(self._bodies[k].diagonal for k in pair) for pair in self._places]
+        return [min(self._bodies[k].diagonal for k in pair) for pair in self.places]
 
     def sift(
         self,
@@ -115,7 +110,7 @@ class PosedPairs:
         they count, and no clearances."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for k, (pair, (a, b)) in enumerate(zip(self.pairs, self._places, strict=True)):
+        for k, (pair, (a, b)) in enumerate(zip(self.pairs, self.places, strict=True)):
             tolerance = pair.request.tolerance if tolerances is None else tolerances[k]
             if tolerance is None:
                 deviations = (self._bodies[body].body.file.deviation for body in (a, b))
@@ -137,7 +132,7 @@ class PosedPairs:
     def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""
         codes, balls = codes.copy(), self.around()
-        for column, pair in enumerate(self._places):
+        for column, pair in enumerate(self.places):
             for floor, other in (pair, pair[::-1]):
                 if not self._bodies[floor].endless:
                     continue
@@ -167,21 +162,21 @@ class PosedPairs:
     ) -> list[Pair]:
         """These pairs in one of the poses. Raises ValueError or OverflowError if a body cannot be
         placed there."""
-        needed = sorted({k for number in numbers for k in self._places[number]})
+        needed = sorted({k for number in numbers for k in self.places[number]})
         moved = [_moved(self._bodies[k].body, matrices[row, k]) for k in needed]
         bounds = world_bounds(moved, 1)
         placed = {
             k: PlacedBody(body, self._bodies[k].shared, box)
             for k, body, box in zip(needed, moved, bounds, strict=True)
         }
-        for a, b in (self._places[n] for n in numbers):
+        for a, b in (self.places[n] for n in numbers):
             for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
                 if floor.endless and not holds(floor.body, other.bounds):
                     raise ValueError(f"{other.id} lies beyond the reach of the half space")
         settings, pairs = self._settings, self.pairs
         return [
             Pair(placed[a], placed[b], settings, pairs[n].request, meter)
-            for n, (a, b) in ((n, self._places[n]) for n in numbers)
+            for n, (a, b) in ((n, self.places[n]) for n in numbers)
         ]
 
 
@@ -192,9 +187,8 @@ def _posed(body: PlacedBody) -> core.PosedBody:
     from satcheck.core.shape_bounds import shape_bounds
     from satcheck.core.shape_mesh import meshes_beside
 
-    simple = shape_bounds(shape)
     around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
-    return core.PosedBody(simple.corners, simple.margin, simple.inner, around, within)
+    return core.PosedBody(*shape_bounds(shape), around, within)
 
 
 def _moved(body: Body, rows: Numbers) -> Body:

@@ -4,21 +4,36 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import FailOn, Settings
-from satcheck.audit.sampled import LISTED_NOTED, VERDICTS, PairTally, Samples, StatedPose
 from satcheck.report.report import Finding, Issue, Report, Verdict
-from satcheck.report.samples import SampledPose
+from satcheck.report.samples import (
+    SampledBody,
+    SampledPair,
+    SampledPairCounts,
+    SampledPose,
+    SamplesReport,
+    SamplesSummary,
+    SamplesTruncated,
+    StatedPose,
+)
 from satcheck.scene.robot.assembly import posed
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
+
+# A report lists all samples up to this number. Of more samples it lists the first ones with a
+# finding, so many.
+LISTED_SAMPLES = 1000
+LISTED_NOTED = 100
+# The worst first.
+VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 
 
 class SampleResults:
@@ -29,15 +44,15 @@ class SampleResults:
         self.by_verdict: Counter[Verdict] = Counter()
         self.listed: list[SampledPose] = []
         self.issues: dict[Issue, None] = {}
-        self._tallies: dict[tuple[str, str], PairTally] = {}
+        self._tallies: dict[tuple[str, str], SampledPair] = {}
 
     @property
     def room(self) -> int:
         """How many more samples with a finding are listed."""
         return LISTED_NOTED - len(self.listed)
 
-    def tally(self, a: str, b: str) -> PairTally:
-        return self._tallies.setdefault((a, b), PairTally(a, b))
+    def tally(self, a: str, b: str) -> SampledPair:
+        return self._tallies.setdefault((a, b), SampledPair(a, b))
 
     def add(self, sample: SampledPose) -> None:
         self.count(sample.number, sample.verdict, sample.findings)
@@ -49,39 +64,55 @@ class SampleResults:
         for finding in findings:
             self.tally(finding.a, finding.b).count(finding, number, self.fail_on)
 
-    def keep_first_poses(self, scene: Scene, batch: PoseBatch) -> None:
+    def keep_first_poses(self, batch: PoseBatch) -> None:
         """States the poses of this batch in which a pair overlaps first."""
         poses: dict[int, StatedPose] = {}
         for tally in self._tallies.values():
             number = tally.first_overlap
             if number is not None and tally.first_pose is None:
                 if number not in poses:
-                    poses[number] = batch.posture(scene, number - batch.first).pose()
+                    poses[number] = batch.posture(number - batch.first).pose()
                 tally.first_pose = poses[number]
 
-    def samples(self, checks: SingleChecks, number: int) -> Samples:
-        """Nothing passes while an issue of all samples blocks it."""
-        report = checks.first
-        assert report is not None
+    def report(self, checks: SingleChecks, number: int) -> SamplesReport:
+        """Nothing passes while an issue of all samples blocks it. number: of the checked
+        samples."""
+        first, book = checks.first, checks.cache.book
+        assert first is not None
+        assert book is not None
         if any(issue.state == "blocking" for issue in self.issues):
             self.by_verdict["incomplete"] += self.by_verdict.pop("pass", 0)
             self.listed = [_incomplete_at_most(sample) for sample in self.listed]
-        assert checks.cache.book is not None
-        ids = [body.id for body in report.bodies]
-        return Samples(
-            tool=report.tool,
-            units=report.units,
-            settings=report.settings,
-            bodies=report.bodies,
-            exempt=report.exempt,
-            rules=report.rules,
-            number=number,
-            by_verdict={verdict: self.by_verdict[verdict] for verdict in VERDICTS},
+        ids = [body.id for body in first.bodies]
+        pairs = tuple(self.tally(ids[i], ids[j]) for i, j in book.checked_pairs())
+        counts, settled = first.summary.pairs, sum(pair.settled for pair in pairs)
+        return SamplesReport(
+            tool=first.tool,
+            units=first.units,
+            settings=first.settings,
+            seed=None,
+            summary=SamplesSummary(
+                next(verdict for verdict in VERDICTS if self.by_verdict[verdict]),
+                number,
+                {verdict: self.by_verdict[verdict] for verdict in get_args(Verdict)},
+                SampledPairCounts(counts.total, counts.allowed, counts.exempt, settled),
+            ),
+            bodies=tuple(SampledBody(b.id, b.file, b.sha256, b.shape) for b in first.bodies),
+            exempt=first.exempt,
+            rules=first.rules,
             samples=tuple(self.listed),
-            pairs=tuple(self.tally(ids[i], ids[j]) for i, j in checks.cache.book.checked_pairs()),
-            counts=report.summary.pairs,
+            pairs=pairs,
             issues=tuple(self.issues),
+            truncated=self._truncated(number),
         )
+
+    def _truncated(self, number: int) -> SamplesTruncated | None:
+        left_out = number - len(self.listed)
+        if not left_out:
+            return None
+        beyond = f", or come after the first {LISTED_NOTED:,} with one"
+        reason = f"they have no finding{beyond if len(self.listed) == LISTED_NOTED else ''}"
+        return SamplesTruncated(left_out, reason)
 
 
 def _incomplete_at_most(sample: SampledPose) -> SampledPose:

@@ -20,9 +20,9 @@ from satcheck.audit.doubtful_sizes import size_of
 from satcheck.audit.posed_pairs import PosedPair, PosedPairs, same_way
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
-from satcheck.audit.sample_results import SampleResults, SingleChecks
-from satcheck.audit.sampled import LISTED_SAMPLES, Samples
+from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, SingleChecks
 from satcheck.audit.sorted_poses import sorted_and_counted
+from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose
 from satcheck.scene.robot.assembly import posed
@@ -39,7 +39,7 @@ def check_poses(
     poses: Sequence[Pose],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Callable[[int, int], None] | None = None,
-) -> Samples:
+) -> SamplesReport:
     """Check the scene in each of these poses of its robots. At least one pose is needed.
 
     scene: loaded, with `robots`. poses: joint -> values, for instance `scene.robot`'s
@@ -47,9 +47,9 @@ def check_poses(
     read by `read_poses`. progress(done, total) counts poses. Facts that depend on a mesh alone
     (convexity, parts) are computed once for all poses.
 
-    Settings(depth=False) is much faster and decides only whether bodies meet. A pair in
-    `Samples.pairs` that is always in contact has `contacts == number`; a pair that is always
-    separated is `settled`.
+    Settings(depth=False) is much faster and decides only whether bodies meet. A pair that is always
+    in contact has as many `contacts` as there are poses; a pair that is always separated is
+    `settled`.
 
     Raises SatcheckError for a pose with unknown joints, and what `check` raises.
     """
@@ -71,11 +71,11 @@ def check_poses(
             meter = stack.enter_context(volume_meter(settings)) if by_volume else None
             counted = sorted_and_counted(checks, batches, pairs, meter)
         for batch in counted:
-            results.keep_first_poses(scene, batch)
+            results.keep_first_poses(batch)
             for number in range(batch.first, batch.first + batch.count):
                 if progress is not None:
                     progress(number, len(poses))
-    return results.samples(checks, len(poses))
+    return results.report(checks, len(poses))
 
 
 def _checked_alone(checks: SingleChecks, batches: Iterator[PoseBatch]) -> Iterator[PoseBatch]:

@@ -1,21 +1,22 @@
 """Poses whose pairs the core has sorted (`posed_pairs.py`), and what they add to the samples.
 
-Findings are made only for pairs that the core leaves open, and for poses that the report lists.
+Findings are made only for pairs that the core leaves open, and for poses that the report lists. A
+pair of these poses climbs the ladder only if the sort does not say all that its finding has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
 import numpy as np
-from msgspec import Struct
-from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from satcheck.audit.checked_pairs import examine_pairs
+from satcheck.audit.finding import deep_overlap
 from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
+from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SampledPose
@@ -23,6 +24,7 @@ from satcheck.report.verdict import fails
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:
+    from satcheck.audit.bodies.boxes import Box
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
     from satcheck.core.overlap_volume import VolumeMeter
@@ -53,27 +55,9 @@ def sorted_and_counted(
             yield waiting.count()
 
 
-class _Row(Struct):
-    """One pose. climbs: the pairs that climb the ladder, by their numbers; by_pair: the findings of
-    those that have climbed. others: whether other pairs overlap or are undecided. alone: the pose
-    needs a check of its own."""
-
-    row: int
-    climbs: list[int]
-    others: bool
-    by_pair: dict[int, Finding] = {}
-    alone: bool = False
-
-    @property
-    def is_noted(self) -> bool:
-        return self.others or self.alone or not all(map(is_plain, self.by_pair.values()))
-
-    def findings(self) -> tuple[Finding, ...]:
-        return tuple(f for _, f in sorted(self.by_pair.items()) if not is_plain(f))
-
-
 class _SortedBatch:
-    """Poses whose pairs the core has sorted."""
+    """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
+    numbers of the pairs. alone: poses that need a check of their own."""
 
     def __init__(
         self,
@@ -87,91 +71,91 @@ class _SortedBatch:
         self._checks, self._results, self._batch = checks, checks.results, batch
         self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
+        self._found: dict[int, dict[int, Finding]] = {}
+        self._alone: set[int] = set()
 
     def count(self) -> PoseBatch:
-        results = self._results
         self._sorted = _with_reasons(self._sorting.result())
-        climbing = np.flatnonzero((self._sorted == OPEN).any(axis=1)).tolist()
-        rows = {row: self._row(row) for row in climbing}
-        self._climb(rows.values())
-        listed = self._listed(rows)
-        self._climb(listed.values())
-        self._count_sorted(sorted({*range(self._batch.count)} - {*rows, *listed}))
-        for number, row in sorted((rows | listed).items()):
-            if row.alone:
-                results.add(self._checks.sample(self._batch, number))
-            elif number in listed:
-                results.add(self._sample(row))
+        self._find(self._sorted == OPEN)
+        listed = self._listed()
+        self._find(((self._sorted == DEEP) | (self._sorted == UNDECIDED)) & listed[:, None])
+        others = np.ones(self._batch.count, bool)
+        others[[*self._found, *self._alone]] = False
+        self._count_sorted(np.flatnonzero(others & ~listed))
+        for row in np.flatnonzero(listed | ~others).tolist():
+            if row in self._alone:
+                self._results.add(self._checks.sample(self._batch, row))
+            elif listed[row]:
+                self._results.add(self._sample(row))
             else:
                 self._count_unlisted(row)
         return self._batch
 
-    def _row(self, row: int) -> _Row:
-        codes = self._sorted[row]
-        others = bool(((codes == DEEP) | (codes == UNDECIDED)).any())
-        return _Row(row, np.flatnonzero(codes == OPEN).tolist(), others)
-
-    def _listed(self, rows: Mapping[int, _Row]) -> dict[int, _Row]:
-        """The poses to list, with all pairs that still have to climb. rows: those that have."""
+    def _listed(self) -> NDArray[np.bool_]:
+        """Whether each pose is listed."""
         if self._results.lists_all:
-            numbers = list(range(self._batch.count))
-        else:
-            sorted_out = ((self._sorted == DEEP) | (self._sorted == UNDECIDED)).any(axis=1)
-            noted = {*np.flatnonzero(sorted_out).tolist()}
-            noted |= {number for number, row in rows.items() if row.is_noted}
-            numbers = sorted(noted)[: self._results.room]
-        listed = {}
-        for number in numbers:
-            row = rows.get(number) or self._row(number)
-            others = np.flatnonzero(self._sorted[number] != APART).tolist()
-            listed[number] = replace(row, climbs=[k for k in others if k not in row.by_pair])
+            return np.ones(self._batch.count, bool)
+        noted = ((self._sorted == DEEP) | (self._sorted == UNDECIDED)).any(axis=1)
+        noted[[*self._alone, *(row for row in self._found if self._findings(row))]] = True
+        listed = np.zeros(self._batch.count, bool)
+        listed[np.flatnonzero(noted)[: self._results.room]] = True
         return listed
 
-    def _climb(self, rows: Iterable[_Row]) -> None:
-        """Makes the findings of the pairs that climb."""
-        climbing: list[tuple[_Row, int, Pair]] = []
-        for row in rows:
+    def _find(self, asked: NDArray[np.bool_]) -> None:
+        """Makes the findings of these pairs, of shape (poses, pairs)."""
+        climbing: list[tuple[int, int, Pair]] = []
+        for row in np.flatnonzero(asked.any(axis=1)).tolist():
+            numbers = np.flatnonzero(asked[row]).tolist()
             try:
-                pairs = self._pairs.at(self._matrices, row.row, row.climbs, self._meter)
+                pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
-                row.alone = True
+                self._alone.add(row)
                 continue
-            climbing += [(row, n, pair) for n, pair in zip(row.climbs, pairs, strict=True)]
+            found = self._found.setdefault(row, {})
+            for number, pair in zip(numbers, pairs, strict=True):
+                if self._sorted[row, number] == DEEP and proves_penetration(pair):
+                    found[number] = deep_overlap(pair)
+                else:
+                    climbing.append((row, number, pair))
             if len(climbing) >= TOGETHER:
-                self._examine(climbing)
+                self._climb(climbing)
                 climbing = []
-        self._examine(climbing)
+        self._climb(climbing)
 
-    def _examine(self, climbing: Sequence[tuple[_Row, int, Pair]]) -> None:
+    def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
         queue = PairQueue(self._checks.settings.jobs)
         checked = examine_pairs([pair for *_, pair in climbing], queue)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
-            row.by_pair[number] = pair.finding
+            self._found[row][number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _sample(self, row: _Row) -> SampledPose:
-        posture = self._batch.posture(self._checks.scene, row.row)
-        findings = row.findings()
+    def _findings(self, row: int) -> tuple[Finding, ...]:
+        found = sorted(self._found.get(row, {}).items())
+        return tuple(finding for _, finding in found if not is_plain(finding))
+
+    def _sample(self, row: int) -> SampledPose:
+        posture = self._batch.posture(row)
+        findings = self._findings(row)
         verdict = self._verdict(findings)
-        number = self._batch.first + row.row
+        number = self._batch.first + row
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
         return SampledPose(number, posture.pose(), verdict, findings, issues)
 
-    def _count_unlisted(self, row: _Row) -> None:
+    def _count_unlisted(self, row: int) -> None:
         """A pose with findings."""
-        number, findings = self._batch.first + row.row, row.findings()
+        number, findings = self._batch.first + row, self._findings(row)
         for finding in findings:
             a, b = finding.a, finding.b
             self._results.tally(a, b).count(finding, number, self._results.fail_on)
-        self._count_sorted([row.row], self._verdict(findings))
+        self._count_sorted([row], self._verdict(findings))
 
-    def _count_sorted(self, rows: Sequence[int], rest: Verdict = "pass") -> None:
+    def _count_sorted(self, rows: Sequence[int] | NDArray[np.intp], rest: Verdict = "pass") -> None:
         """Poses as the core has sorted their pairs. rest: their verdict without these pairs."""
         codes, names, failing = self._sorted[rows], self._pairs.names, self._pairs.deep_fails
         deep, undecided = codes == DEEP, codes == UNDECIDED
         for k in np.flatnonzero(deep.any(axis=0)).tolist():
             met = np.flatnonzero(deep[:, k])
-            first = self._batch.first + rows[met[0]]
+            first = self._batch.first + int(rows[met[0]])
             self._results.tally(*names[k]).count_overlaps(len(met), first, fails=bool(failing[k]))
         for k in np.flatnonzero(undecided.any(axis=0)).tolist():
             self._results.tally(*names[k]).undecided += int(undecided[:, k].sum())
@@ -197,3 +181,17 @@ def _with_reasons(codes: Codes) -> Codes:
     opened = codes.copy()
     opened[undecided[:, pairs].argmax(axis=0), pairs] = OPEN
     return opened
+
+
+def proves_penetration(pair: Pair) -> bool:
+    """Return whether a deep overlap of the pair is a whole finding: no figure of it is requested,
+    and the boxes show that neither body holds the other."""
+    if not pair.request.by.keys() <= {"overlap", "distance"} or pair.curved:
+        return False
+    a, b = pair.a.bounds, pair.b.bounds
+    return _sticks_out(a, b, pair.tolerance) and _sticks_out(b, a, pair.tolerance)
+
+
+def _sticks_out(inner: Box, outer: Box, margin: float) -> bool:
+    low = any(p < q - margin for p, q in zip(inner[0], outer[0], strict=True))
+    return low or any(p > q + margin for p, q in zip(inner[1], outer[1], strict=True))

@@ -24,7 +24,7 @@ from satcheck.report.suggestions import (
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
-    from satcheck.audit.sampled import PairTally, Samples
+    from satcheck.report.samples import SampledPair, SamplesReport
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
 
@@ -113,7 +113,7 @@ def suggest(
     )
 
 
-def _undecided(report: Report, samples: Samples | None) -> tuple[Undecided, ...]:
+def _undecided(report: Report, samples: SamplesReport | None) -> tuple[Undecided, ...]:
     """As placed, then in the poses."""
     first: dict[Names, Undecided] = {}
     for finding in report.findings:
@@ -146,7 +146,7 @@ def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchec
 def _suggestions(
     scene: Scene,
     report: Report,
-    samples: Samples | None,
+    samples: SamplesReport | None,
     asked: list[Names],
     left_out: set[Names],
 ) -> tuple[list[Suggestion], frozenset[frozenset[str]]]:
@@ -155,12 +155,13 @@ def _suggestions(
     may_meet = set()
     findings = {(f.a, f.b): f for f in report.findings}
     tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
+    poses = samples.summary.samples if samples else 0
     links, adjacent = _links(scene), _adjacent(scene)
     for a, b in asked:
         finding, tally = findings.get((a, b)), tallies.get((a, b))
         why = None
         if (a, b) not in left_out:
-            why = _why(finding, tally, samples, frozenset((a, b)) in adjacent)
+            why = _why(finding, tally, poses, frozenset((a, b)) in adjacent)
         carriers = _carriers(links, a, b)
         if carriers is not None and why != "never":
             may_meet.add(frozenset(carriers))
@@ -180,11 +181,11 @@ def _suggestions(
 
 
 def _why(
-    finding: Finding | None, tally: PairTally | None, samples: Samples | None, adjacent: bool
+    finding: Finding | None, tally: SampledPair | None, poses: int, adjacent: bool
 ) -> Why | None:
     if adjacent:
         return "adjacent"
-    if tally and samples and tally.contacts == samples.number:
+    if tally and tally.contacts == poses:
         return "always"
     if finding is not None and _in_contact(finding):
         return "contact"

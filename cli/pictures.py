@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from satcheck.audit.sampled import Samples
 from satcheck.cli.formats.registry import kind_of
 from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
 from satcheck.cli.output import write_file
+from satcheck.report.samples import SamplesReport
 
 if TYPE_CHECKING:
     from satcheck.report.report import Report
@@ -50,12 +50,12 @@ def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:
 
 
 def files_line(
-    report: Report | Samples, scene: Scene, form: str, output: Path | None, pictures: Pictures
+    report: Report | SamplesReport, scene: Scene, form: str, output: Path | None, pictures: Pictures
 ) -> str:
     """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file."""
     named = [] if output is None or form in _OPTIONS else [f"Report: {output}"]
     files = pictures if output is None or form not in _OPTIONS else {form: output, **pictures}
-    if not isinstance(report, Samples):
+    if not isinstance(report, SamplesReport):
         named += [f"{_what(kind, report, scene)}: {path}" for kind, path in files.items()]
     return ". ".join(named)
 

@@ -8,7 +8,6 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.audit import Report
-from satcheck.audit.sampled import Samples
 from satcheck.cli.formats.messages import next_step, verdict_line
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import counts_line
@@ -16,6 +15,7 @@ from satcheck.cli.formats.words import counted, in_one_line_each, issue_line, wi
 from satcheck.cli.output import Page, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
+from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 
 # With -o at most this many warnings are repeated on stderr.
@@ -38,10 +38,10 @@ class Delivery(Struct, frozen=True):
 
 
 def rendered(
-    result: Report | Samples, scene: Scene, to: Delivery, page: Page
+    result: Report | SamplesReport, scene: Scene, to: Delivery, page: Page
 ) -> str | bytes | Iterable[str]:
     """Return the document. Formats are imported here, as they are needed: a table brings rich."""
-    if isinstance(result, Samples):
+    if isinstance(result, SamplesReport):
         if to.form == "json":
             return json_document(result.to_dict(to.timings))
         from satcheck.cli.formats.samples import render as render_samples
@@ -63,7 +63,7 @@ def rendered(
     return render_table(shown, page, explain=to.explain, timings=to.timings, top=to.top)
 
 
-def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -> None:
+def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: bool) -> None:
     """Errors of the run on stderr, and the files it wrote. written: the report is in a file, so
     also the warnings and the summary."""
     told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
@@ -74,7 +74,7 @@ def tell(result: Report | Samples, scene: Scene, files: str, *, written: bool) -
         if files:
             talk(files)
         return
-    if isinstance(result, Samples):
+    if isinstance(result, SamplesReport):
         from satcheck.cli.formats.samples import samples_counts, samples_verdict
 
         talk(samples_counts(result))

@@ -1,10 +1,8 @@
-"""Simple bodies around a curved shape and inside it, in the frame of the shape."""
+"""A simple body around a curved shape, in the frame of the shape."""
 
 from __future__ import annotations
 
 import math
-
-from msgspec import Struct
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import (
@@ -18,52 +16,23 @@ from satcheck.core.shapes import (
 
 # Sides of the prism around a cylinder.
 _SIDES = 16
-# Outer bodies are larger, and inner balls smaller, by far more than any rounding.
-_LARGER, _SMALLER = 1 + 1e-9, 1 - 1e-9
-# The most balls along the axis of a shape.
-_MOST_BALLS = 16
+# Outer bodies are larger by far more than any rounding.
+_LARGER = 1 + 1e-9
 
 
-class ShapeBounds(Struct, frozen=True):
-    """The shape lies in the hull of the corners, grown by the margin; the balls (centre, radius)
-    lie in the shape."""
-
-    corners: list[Vector]
-    margin: float
-    inner: list[tuple[Vector, float]]
-
-
-def shape_bounds(shape: Primitive) -> ShapeBounds:
+def shape_bounds(shape: Primitive) -> tuple[list[Vector], float]:
+    """(corners, margin): the shape lies in the hull of the corners, grown by the margin."""
     a, b, c = half_sizes(shape)
     match shape:
         case Sphere():
-            return ShapeBounds([(0.0, 0.0, 0.0)], a * _LARGER, [((0.0, 0.0, 0.0), a * _SMALLER)])
+            return [(0.0, 0.0, 0.0)], a * _LARGER
         case Capsule():
-            ends = [(0.0, 0.0, -c * _LARGER), (0.0, 0.0, c * _LARGER)]
-            return ShapeBounds(ends, a * _LARGER, _along_axis(a, c))
-        case Cylinder():
-            return ShapeBounds(_prism(a, c), 0.0, _along_axis(min(a, c), c - min(a, c)))
-        case Cone():
-            # The largest inner ball touches the base and the mantle.
-            radius = 2 * a * c / (a + math.hypot(a, 2 * c))
-            return ShapeBounds(_prism(a, c), 0.0, [((0.0, 0.0, radius - c), radius * _SMALLER)])
+            return [(0.0, 0.0, -c * _LARGER), (0.0, 0.0, c * _LARGER)], a * _LARGER
+        case Cylinder() | Cone():
+            return _prism(a, c), 0.0
         case _:
-            corners = [
-                (x * a * _LARGER, y * b * _LARGER, z * c * _LARGER)
-                for x in (-1, 1)
-                for y in (-1, 1)
-                for z in (-1, 1)
-            ]
-            return ShapeBounds(corners, 0.0, [((0.0, 0.0, 0.0), min(a, b, c) * _SMALLER)])
-
-
-def _along_axis(radius: float, half: float) -> list[tuple[Vector, float]]:
-    """Balls with centres on the z axis, up to `half` from the origin."""
-    count = 1 + min(_MOST_BALLS - 1, math.ceil(2 * half / radius))
-    if count == 1:
-        return [((0.0, 0.0, 0.0), radius * _SMALLER)]
-    heights = [half * (2 * k / (count - 1) - 1) for k in range(count)]
-    return [((0.0, 0.0, height * _SMALLER), radius * _SMALLER) for height in heights]
+            x, y, z = a * _LARGER, b * _LARGER, c * _LARGER
+            return [(u, v, w) for u in (-x, x) for v in (-y, y) for w in (-z, z)], 0.0
 
 
 def _prism(radius: float, half: float) -> list[Vector]:

@@ -20,6 +20,12 @@ def corners(box: Box) -> list[Vector]:
     return [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
 
 
+def around_both(a: Box, b: Box) -> Box:
+    (x, y, z), (u, v, w) = a
+    (p, q, r), (f, g, h) = b
+    return (min(x, p), min(y, q), min(z, r)), (max(u, f), max(v, g), max(w, h))
+
+
 def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
     return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
 

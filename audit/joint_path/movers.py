@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from math import isinf
+from collections.abc import Sequence
 
 import numpy as np
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.boxes import Box, around_both
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.joint_path.search import Nearest, Search, SweptPair
+from satcheck.audit.joint_path.search import Search, SweptPair
 from satcheck.audit.joint_path.travel import Interval, Travel
+from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
+from satcheck.audit.motion.sweep import swept
+from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import PosedPairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
@@ -20,7 +22,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.motions import JointPath as StatedPath
 from satcheck.report.motions import JointWaypoint, StatedMotion
 from satcheck.report.report import Issue
-from satcheck.report.sweep import Place, Sweep, WorstPose
+from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene import Scene
 from satcheck.scene.robot import JointPath
 from satcheck.scene.robot.pose_batches import Numbers
@@ -47,23 +49,9 @@ class JointMovers:
         self._boxes = self._swept_boxes()
         self._sweeps: dict[tuple[str, str], Sweep] = {}
 
-    def bounds(self, body: str, placed: Box) -> Box:
-        """The world box of a body over the whole path."""
-        box = self._boxes.get(body)
-        if box is None:
-            return placed
-        low, high = (
-            tuple(pick(p, q) for p, q in zip(placed[side], box[side], strict=True))
-            for side, pick in ((0, min), (1, max))
-        )
-        return low, high  # type: ignore[return-value]
-
-    def may_meet(self, *_: object) -> bool:
-        """True: `sweep` asks."""
-        return True
-
-    def sweep(self, close: Collection[tuple[int, int]]) -> None:
-        """Sweeps these pairs, by the numbers of their bodies; `paths` then has the results."""
+    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+        """The pairs whose boxes over the whole path are close, swept; `paths` has the results."""
+        close = close_pairs(bodies, planner, self._bounds)
         wanted = set(close)
         places = self._pairs.places
         moves = np.array(
@@ -73,12 +61,16 @@ class JointMovers:
             ],
             dtype=bool,
         )
-        swept = self._search.first_overlaps(moves)
-        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(swept)], bool)
+        found = self._search.first_overlaps(moves)
+        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
         if near.any():
-            self._search.narrow(near, swept)
+            self._search.narrow(near, found)
         for k in np.flatnonzero(moves).tolist():
-            self._sweeps[self._pairs.names[k]] = self._swept(k, swept[k])
+            self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+        return close
+
+    def _bounds(self, body: str, placed: Box) -> Box:
+        return around_both(placed, self._boxes.get(body, placed))
 
     def paths(self, a: str, b: str) -> Paths | None:
         """The sweep of a pair; None: the bodies do not move relative to each other."""
@@ -95,48 +87,37 @@ class JointMovers:
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
 
-    def _asks_for_distance(self, k: int, swept: SweptPair) -> bool:
-        return bool(self._pairs.pairs[k].request.clearance) and _is_free(swept)
+    def _asks_for_distance(self, k: int, pair: SweptPair) -> bool:
+        return bool(self._pairs.pairs[k].request.clearance) and pair.impact.free
 
-    def _swept(self, k: int, swept: SweptPair) -> Sweep:
-        if not isinf(swept.hit):
-            lower = min(swept.free_until, swept.hit)
-            return Sweep(
-                relation="penetrating",
-                tolerance=swept.tolerance,
-                reached=lower,
-                time_of_impact=(lower, swept.hit),
-                at=self._places(k, swept.hit),
-                point=self._search.impact_point(k, lower, swept.hit),
-                joints=self._path.pose(swept.hit),
-                poses=self._path.poses_around(swept.hit),
-                contact=lower,
-                steps=swept.steps,
+    def _swept(self, k: int, pair: SweptPair) -> Sweep:
+        impact, nearest = pair.impact, pair.nearest
+        if impact.upper is not None:
+            return swept(
+                impact,
+                pair.tolerance,
+                pair.steps,
+                "penetrating",
+                at=self._places(k, impact.upper),
+                point=self._search.impact_point(k, impact.lower, impact.upper),
+                joints=self._path.pose(impact.upper),
+                poses=self._path.poses_around(impact.upper),
             )
-        if not _is_free(swept):
-            return Sweep(
-                relation="indeterminate",
-                tolerance=swept.tolerance,
-                reached=swept.free_until,
-                contact=swept.free_until,
-                reason=_reason(swept),
-                steps=swept.steps,
-            )
-        nearest, touches = swept.nearest, not isinf(swept.touch)
+        if impact.reason is not None:
+            return swept(impact, pair.tolerance, pair.steps)
         clearance = self._pairs.pairs[k].request.clearance or 0.0
         is_near = nearest is not None and nearest.upper < clearance
-        worst = self._worst(k, nearest) if nearest is not None and is_near else None
-        return Sweep(
-            relation="touching" if touches else "near" if is_near else "separated",
-            tolerance=swept.tolerance,
-            reached=1.0,
-            contact=swept.touch if touches else None,
-            worst=worst,
-            distance_at_least=nearest.lower if nearest and worst is None else None,
-            steps=swept.steps,
+        apart: SweptRelation = "near" if is_near else "separated"
+        return swept(
+            impact,
+            pair.tolerance,
+            pair.steps,
+            apart if impact.contact is None else "touching",
+            worst=self._worst(k, nearest) if nearest is not None and is_near else None,
+            distance_at_least=None if nearest is None or is_near else nearest.lower,
         )
 
-    def _worst(self, k: int, nearest: Nearest) -> WorstPose:
+    def _worst(self, k: int, nearest: Worst) -> WorstPose:
         return WorstPose(
             nearest.time,
             self._places(k, nearest.time),
@@ -167,17 +148,6 @@ def _require_answers(scene: Scene, settings: Settings) -> None:
     }
     for what in (what for what, given in refused.items() if given):
         raise SatcheckError("bad-pose", f"a path of joints cannot be checked with {what}")
-
-
-def _is_free(swept: SweptPair) -> bool:
-    return isinf(swept.hit) and isinf(swept.free_until)
-
-
-def _reason(swept: SweptPair) -> str:
-    at = f"t = {swept.free_until:.6g}"
-    if swept.is_spent:
-        return f"the budget of the sweep was spent, at {at}"
-    return f"nothing proves that the bodies stay apart, or within the tolerance, at {at}"
 
 
 def _parts(times: Numbers) -> Interval:

@@ -7,7 +7,7 @@ Schwarzer, Saha, Latombe (2005), see `travel.py`. All pairs are asked at once.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from math import inf
 
 import numpy as np
@@ -19,9 +19,10 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
-from satcheck.audit.motion.impact import impact_point
+from satcheck.audit.motion.impact import Impact, impact_point
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
@@ -54,27 +55,38 @@ MEASURED = 4
 NARROWED = 0.99
 
 
-class Nearest(Struct):
-    """The least distance on the way: at least `lower`, and `upper` at the time."""
-
-    lower: float
-    upper: float = inf
-    time: float = 0.0
-
-
 class SweptPair(Struct):
     """The knowledge of one pair. hit: a t with an overlap; free_until: before this t there is none.
     touch: the first t at which the bodies may touch. nearest: if a clearance asks for it.
     tolerance: half the width of the touch band. is_spent: whether the budget ended the search."""
 
+    tolerance: float
     hit: float = inf
     free_until: float = inf
     touch: float = inf
     steps: int = 0
     climbs: int = 0
     is_spent: bool = False
-    nearest: Nearest | None = None
-    tolerance: float = 0.0
+    nearest: Worst | None = None
+
+    @property
+    def impact(self) -> Impact:
+        since = min(self.free_until, self.hit)
+        if self.hit < inf:
+            return Impact(since, self.hit, since, since)
+        if since < inf:
+            return Impact(since, None, since, since, self._reason())
+        return Impact(1.0, None, 1.0, None if self.touch == inf else self.touch)
+
+    def _reason(self) -> str:
+        at = f"at t = {self.free_until:.6g}"
+        if self.is_spent:
+            return f"the budget of the sweep was spent, {at}"
+        return f"nothing proves that the bodies stay apart, or within the tolerance, {at}"
+
+
+# (the intervals whose earlier half stays unknown, those whose later half does)
+Settle = Callable[[Interval, Flags, Middle, list[SweptPair]], tuple[Flags, Flags]]
 
 
 class Search:
@@ -89,36 +101,39 @@ class Search:
 
     def first_overlaps(self, asked: Flags) -> list[SweptPair]:
         """asked: which pairs."""
-        intervals, active = self._whole(asked)
-        at = self._travel.middle(intervals)
+        at = self._travel.middle(Interval(self._path.times[:-1], self._path.times[1:]))
         swept = [
-            SweptPair(tolerance=max(self._pairs.tolerance(k), self._band(at, k)))
+            SweptPair(max(self._pairs.tolerance(k), self._band(at, k)))
             for k in range(len(self._pairs.pairs))
         ]
-        while len(intervals.start):
-            halves: list[tuple[Interval, Flags]] = []
-            for part, own, at in self._chunks(intervals, active):
-                unknown, right = self._settle(part, own, at, swept)
-                halves += _halved(part, unknown, right)
-            intervals, active = _joined(halves, len(swept))
-            active = self._worth_it(intervals, active, swept)
-            intervals, active = _kept(intervals, active)
+        self._bisect(asked, swept, self._settle)
         return swept
 
     def narrow(self, asked: Flags, swept: list[SweptPair]) -> None:
         """Narrows the least distances of these pairs, which do not overlap, as far as their
         clearances ask."""
         for k in np.flatnonzero(asked).tolist():
-            swept[k].nearest = Nearest(self._pairs.pairs[k].request.clearance or 0.0)
+            swept[k].nearest = Worst(0.0, self._pairs.pairs[k].request.clearance or 0.0, inf)
             swept[k].steps = 0
-        intervals, active = self._whole(asked)
+        self._bisect(asked, swept, self._compare)
+
+    def _bisect(self, asked: Flags, swept: list[SweptPair], settle: Settle) -> None:
+        """Halves the pieces of the path until all asked pairs are settled in all intervals."""
+        times = self._path.times
+        intervals, active = Interval(times[:-1], times[1:]), np.tile(asked, (len(times) - 1, 1))
         while len(intervals.start):
             halves: list[tuple[Interval, Flags]] = []
-            for part, own, at in self._chunks(intervals, active):
-                unknown = self._compare(part, own, at, swept)
-                halves += _halved(part, unknown, unknown)
-            intervals, active = _joined(halves, len(swept))
-            active = self._worth_it(intervals, active, swept, narrowing=True)
+            for k in range(0, len(intervals.start), TOGETHER):
+                rows = slice(k, k + TOGETHER)
+                part = Interval(intervals.start[rows], intervals.end[rows])
+                at = self._travel.middle(part)
+                earlier, later = settle(part, active[rows], at, swept)
+                halves += (
+                    (Interval(part.start, part.middle), earlier),
+                    (Interval(part.middle, part.end), later),
+                )
+            intervals, active = _joined(halves)
+            active = self._worth_it(intervals, active, swept)
             intervals, active = _kept(intervals, active)
 
     def impact_point(self, k: int, lower: float, hit: float) -> Vector | None:
@@ -129,19 +144,6 @@ class Search:
         at, way = (self._travel.middle(Interval(since, end)) for since in (end, start))
         moved = 2.0 * float(self._travel.between(way, *self._pairs.places[k])[0])
         return impact_point(self._pair(at, 0, k, self._pairs.tolerance(k), 0.0), moved)
-
-    def _whole(self, asked: Flags) -> tuple[Interval, Flags]:
-        """All pieces of the path."""
-        times = self._path.times
-        return Interval(times[:-1], times[1:]), np.tile(asked, (len(times) - 1, 1))
-
-    def _chunks(
-        self, intervals: Interval, active: Flags
-    ) -> Iterator[tuple[Interval, Flags, Middle]]:
-        for k in range(0, len(intervals.start), TOGETHER):
-            rows = slice(k, k + TOGETHER)
-            part = Interval(intervals.start[rows], intervals.end[rows])
-            yield part, active[rows], self._travel.middle(part)
 
     def _margins(self, active: Flags, at: Middle) -> Numbers:
         """Return how far each pair travels; NaN where it is not active."""
@@ -188,8 +190,10 @@ class Search:
         pair = self._pair(at, row, k, tolerance - travelled, 0.0)
         return examine(pair, Trace()).finding.relation in FREE
 
-    def _compare(self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]) -> Flags:
-        """The intervals in which the pairs may be nearer than the least known distance."""
+    def _compare(
+        self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]
+    ) -> tuple[Flags, Flags]:
+        """The intervals in which the pairs may be nearer than the least known distance, twice."""
         travelled = self._margins(active, at)
         limits = np.array([f.nearest.lower if f.nearest else 0.0 for f in swept])
         codes = self._pairs.sift(at.matrices, travelled + limits, [f.tolerance for f in swept])
@@ -205,9 +209,10 @@ class Search:
                 finding = examine(pair, Trace()).finding
                 unknown[row, k] = not _is_clear(finding)
                 if finding.distance is not None and finding.distance < nearest.upper:
-                    nearest.upper, nearest.time = finding.distance, float(part.middle[row])
-                    nearest.lower = min(nearest.lower, NARROWED * finding.distance)
-        return unknown
+                    lower = min(nearest.lower, NARROWED * finding.distance)
+                    nearest = Worst(float(part.middle[row]), lower, finding.distance)
+            swept[k].nearest = nearest
+        return unknown, unknown
 
     def _pair(self, at: Middle, row: int, k: int, tolerance: float, clearance: float) -> Pair:
         (pair,) = self._pairs.at(at.matrices, row, [k])
@@ -218,9 +223,7 @@ class Search:
     def _band(self, at: Middle, k: int) -> float:
         return max(PADS_IN_BAND * at.pad, FINEST * float(self._sizes[k]))
 
-    def _worth_it(
-        self, intervals: Interval, active: Flags, swept: list[SweptPair], *, narrowing: bool = False
-    ) -> Flags:
+    def _worth_it(self, intervals: Interval, active: Flags, swept: list[SweptPair]) -> Flags:
         """The intervals to ask about: no later than a known overlap, within the budget of the pair,
         and not too short. Others leave the pair open from their start on."""
         active = active & (intervals.start[:, None] < np.array([f.hit for f in swept]))
@@ -232,12 +235,11 @@ class Search:
             if not ends.any():
                 continue
             since = float(intervals.start[ends].min())
-            if narrowing:
-                nearest = swept[k].nearest
-                assert nearest is not None
-                nearest.lower = 0.0
-            else:
+            nearest = swept[k].nearest
+            if nearest is None:
                 swept[k].free_until = min(swept[k].free_until, since)
+            else:
+                swept[k].nearest = replace(nearest, lower=0.0)
             active[:, k] &= ~ends
         return active
 
@@ -246,16 +248,8 @@ def _is_clear(finding: Finding) -> bool:
     return finding.relation == "separated" and finding.undecided is None
 
 
-def _halved(part: Interval, earlier: Flags, later: Flags) -> Iterator[tuple[Interval, Flags]]:
-    middle = part.middle
-    yield Interval(part.start, middle), earlier
-    yield Interval(middle, part.end), later
-
-
-def _joined(halves: list[tuple[Interval, Flags]], pairs: int) -> tuple[Interval, Flags]:
+def _joined(halves: Sequence[tuple[Interval, Flags]]) -> tuple[Interval, Flags]:
     """The intervals with an open pair, in the order of t."""
-    if not halves:
-        return Interval(np.empty(0), np.empty(0)), np.empty((0, pairs), dtype=bool)
     start = np.concatenate([part.start for part, _ in halves])
     end = np.concatenate([part.end for part, _ in halves])
     active = np.concatenate([own for _, own in halves])

@@ -25,7 +25,7 @@ from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.robot import Joint, JointPath
 from satcheck.scene.robot.assembly import link_frames
 from satcheck.scene.robot.kinematics import motion
-from satcheck.scene.robot.pose_batches import placements
+from satcheck.scene.robot.pose_batches import placements, rows_of
 
 Numbers = NDArray[np.float64]
 Ball = tuple[tuple[float, float, float], float]
@@ -104,7 +104,7 @@ class Travel:
         frames = link_frames(self._scene, values)
         matrices = placements(self._scene, frames, count)
         placed = [
-            _entries(_moved(joint, frames[number], values), count) for number, joint in self._joints
+            rows_of(_moved(joint, frames[number], values), count) for number, joint in self._joints
         ]
         movers = [joint for _, joint in self._joints]
         axes = [_turned(entries, joint) for entries, joint in zip(placed, movers, strict=True)]
@@ -210,14 +210,6 @@ class Travel:
 def _moved(joint: Joint, links: Mapping[str, Transform], values: Mapping[str, Any]) -> Transform:
     """The frame of a joint after its own motion: a planar joint turns about where it has slid."""
     return compose(compose(links[joint.parent], joint.origin), motion(joint, values[joint.name]))
-
-
-def _entries(pose: Sequence[float | Numbers], count: int) -> Numbers:
-    """The upper three rows of poses, shape (count, 12)."""
-    entries = np.empty((count, 12))
-    for k in range(12):
-        entries[:, k] = pose[k]
-    return entries
 
 
 def _turned(entries: Numbers, joint: Joint) -> Numbers:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 
 from msgspec import convert, to_builtins
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box, corners
+from satcheck.audit.bodies.boxes import Box, around_both, corners
 from satcheck.audit.bodies.pair import Paths
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
 from satcheck.audit.motion.limits import HALVINGS
 from satcheck.audit.motion.track import STANDS, Piece, Track, track_of
-from satcheck.audit.motion.turn import applied
+from satcheck.audit.request.planner import Planner
+from satcheck.core.transform import Transform
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
@@ -45,23 +49,22 @@ class Movers:
         path_a, path_b = (None if motion is None else motion.path for motion in motions)
         return Paths(path_a, path_b, any(motion and motion.clear for motion in motions))
 
-    def sweep(self, close: Sequence[tuple[int, int]]) -> None:
-        """Nothing: each pair is swept when it is examined."""
+    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+        """The pairs that may be as close as they ask, as placed or at some t."""
+        placed, ids = bodies.placed, bodies.ids
+
+        def meet(i: int, j: int) -> bool:
+            limit = planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
+            if self._motion.get(ids[i]) is self._motion.get(ids[j]):
+                return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
+            swept = [self._swept(ids[k], placed[k].bounds) for k in (i, j)]
+            return may_meet(swept[0], swept[1], limit)
+
+        return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
-        low, high = self._swept(body, placed).over(0.0, 1.0)
-        return (
-            (min(low[0], placed[0][0]), min(low[1], placed[0][1]), min(low[2], placed[0][2])),
-            (max(high[0], placed[1][0]), max(high[1], placed[1][1]), max(high[2], placed[1][2])),
-        )
-
-    def may_meet(self, a: str, box_a: Box, b: str, box_b: Box, limit: float) -> bool:
-        """Whether the bodies may be as close as the limit, as placed or at some t. Boxes as
-        placed."""
-        if self._motion.get(a) is self._motion.get(b):
-            return core.box_gap(box_a, box_b) <= limit
-        return may_meet(self._swept(a, box_a), self._swept(b, box_b), limit)
+        return around_both(placed, self._swept(body, placed).over(0.0, 1.0))
 
     def _swept(self, body: str, placed: Box) -> SweptBoxes:
         if body not in self._boxes:
@@ -141,21 +144,16 @@ def may_meet(a: SweptBoxes, b: SweptBoxes, limit: float) -> bool:
 
 def swept_box(bounds: Box, track: Track, start: float = 0.0, end: float = 1.0) -> Box:
     """Contains the body at every t from start to end. bounds: of the body as placed."""
-    boxes = []
+    pad, boxes = track.pad(bounds), []
     for piece in track.pieces:
         if piece.start < end and start < piece.end:
-            boxes += _boxes(bounds, piece, max(start, piece.start), min(end, piece.end))
-    pad = track.pad(bounds)
-    if not all(math.isfinite(c) for box in boxes for corner in box for c in (*corner, pad)):
+            boxes += _boxes(bounds, piece, max(start, piece.start), min(end, piece.end), pad)
+    if not all(math.isfinite(c) for box in boxes for corner in box for c in corner):
         return EVERYWHERE
-    low, high = (
-        tuple(pick(box[side][axis] for box in boxes) + way * pad for axis in range(3))
-        for side, pick, way in ((0, min, -1.0), (1, max, 1.0))
-    )
-    return low, high  # type: ignore[return-value]
+    return reduce(around_both, boxes)
 
 
-def _boxes(bounds: Box, piece: Piece, start: float, end: float) -> list[Box]:
+def _boxes(bounds: Box, piece: Piece, start: float, end: float, pad: float) -> list[Box]:
     """Between two poses a point moves along an arc about the moving centre. Its distance from the
     linear interpolation is at most angle squared / 8 of its radius."""
     length = end - start
@@ -163,21 +161,15 @@ def _boxes(bounds: Box, piece: Piece, start: float, end: float) -> list[Box]:
     count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
     radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
     angle = min(turned / count, 4.0)  # radians; the error is never more than twice the radius
-    grown = radius * angle * angle / 8.0
-    times = [start + length * k / count for k in range(count + 1)]
-    return [_box(bounds, piece, t, grown) for t in times]
+    grown = radius * angle * angle / 8.0 + pad
+    poses = [piece.pose_at(start + length * k / count) for k in range(count + 1)]
+    return [_box(bounds, pose, grown) for pose in poses]
 
 
-def _box(bounds: Box, piece: Piece, t: float, grown: float) -> Box:
-    turn, centre = piece.turn_at(t), piece.centre_at(t)
-    points = []
-    for corner in corners(bounds):
-        x, y, z = (c - p for c, p in zip(corner, piece.pivot, strict=True))
-        points.append(applied(turn, (x, y, z)))
-    low, high = (
-        tuple(
-            centre[axis] + pick(point[axis] for point in points) + way * grown for axis in range(3)
-        )
-        for pick, way in ((min, -1.0), (max, 1.0))
-    )
-    return low, high  # type: ignore[return-value]
+def _box(bounds: Box, pose: Transform, grown: float) -> Box:
+    low, high = [], []
+    for p, q, r, shift in (pose[0:4], pose[4:8], pose[8:12]):
+        along = [p * x + q * y + r * z + shift for x, y, z in corners(bounds)]
+        low.append(min(along) - grown)
+        high.append(max(along) + grown)
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -14,19 +15,24 @@ from satcheck.audit.bodies.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
-from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
+from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
 from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.core.transform import Transform, compose, placed
 from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
+from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
+
+    Ask = Callable[..., core.MotionAnswer]
+    Side = tuple[core.Surface | core.Shape, Transform]
 
 
 class Unanswerable(Exception):
@@ -102,19 +108,18 @@ class MovingPair:
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
         is moved by `offset`. end: in the same pieces as t."""
-        hulls = self._shapes(core.safe_time, t, offset=offset, level=gap, limit=end - t)
+        hulls = self._hulls(core.safe_time, t, offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
-        result = self._surfaces(core.safe_time, t, offset=offset, level=gap, limit=end - t)
-        triangles = None if result.triangle_a < 0 else (result.triangle_a, result.triangle_b)
-        return Obstacle(max(hulls.value, result.value), triangles)
+        result = self._surfaces(core.safe_time, t, offset, level=gap, limit=end - t)
+        triangles = result.triangle_a, result.triangle_b
+        return Obstacle(max(hulls.value, result.value), None if min(triangles) < 0 else triangles)
 
     def shallow(self, t: float, end: float) -> float:
         """The time for which the hulls, and so the bodies, overlap by no more than the
         tolerance."""
-        level = -self.tolerance
-        return self._shapes(core.safe_time, t, level=level, limit=end - t).value
+        return self._hulls(core.safe_time, t, level=-self.tolerance, limit=end - t).value
 
     def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
         """(lower, upper) of the signed distance of two convex bodies, or of the distance of other
@@ -123,7 +128,7 @@ class MovingPair:
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
-            result = self._shapes(core.least_gap, middle, window=window)
+            result = self._hulls(core.least_gap, middle, window=window)
             return result.value, result.upper + self.pad
         result = self._surfaces(core.least_gap, middle, window=window, floor=floor)
         return max(result.value, 0.0), result.upper + self.pad
@@ -133,7 +138,7 @@ class MovingPair:
         their depth."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
-        return self._shapes(core.least_gap, middle, window=window).value
+        return self._hulls(core.least_gap, middle, window=window).value
 
     def placed(self, t: float) -> Pair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
@@ -156,46 +161,35 @@ class MovingPair:
         """The finding at t, exact for the poses rounded to float64."""
         return examine(self.placed(t), Trace()).finding
 
-    def _shapes(
-        self,
-        ask: Callable[..., core.MotionAnswer],
-        t: float,
-        *,
-        offset: Vector = ORIGIN,
-        **bounds: float,
+    def _hulls(
+        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
-        (a, frame_a), (b, frame_b) = _shape_of(self.pair.a), _shape_of(self.pair.b)
-        moving_a = self.track_a.moving_at(t, offset, frame_a)
-        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
-        self._count()
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
+        """Asks about the hulls of the bodies, or their curved shapes."""
+        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
 
     def _surfaces(
-        self,
-        ask: Callable[..., core.MotionAnswer],
-        t: float,
-        *,
-        offset: Vector = ORIGIN,
-        **bounds: float,
+        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
-        first = self._side(self.pair.a, self.track_a, t, offset)
-        second = self._side(self.pair.b, self.track_b, t, ORIGIN)
-        if self.pair.b.curved is not None:  # the shape comes first
-            first, second = second, first
-        self._count()
-        work, slack = VISITS - self.visits, self._slack(t)
-        result = ask(*first, *second, pad=self.pad, slack=slack, work=work, **bounds)
+        """Asks about the surfaces of the bodies, or their curved shapes."""
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in self._bodies]
+        result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         return result
 
-    @staticmethod
-    def _side(
-        body: PlacedBody, track: Track, t: float, offset: Vector
-    ) -> tuple[core.Surface | core.Shape, core.Moving]:
-        if body.curved is None:
-            return body.surface(), track.moving_at(t, offset)
-        shape, frame = _shape_of(body)
-        return shape, track.moving_at(t, offset, frame)
+    def _asked(
+        self, ask: Ask, t: float, offset: Vector, sides: Sequence[Side], **bounds: float
+    ) -> core.MotionAnswer:
+        self.steps += 1
+        if self.steps > STEPS or self.visits >= VISITS:
+            raise BudgetSpent
+        (a, frame_a), (b, frame_b) = sides
+        moving_a = self.track_a.moving_at(t, offset, frame_a)
+        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
+
+    @property
+    def _bodies(self) -> tuple[PlacedBody, PlacedBody]:
+        return self.pair.a, self.pair.b
 
     def _slack(self, t: float) -> float:
         return sum(
@@ -203,23 +197,18 @@ class MovingPair:
             for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
         )
 
-    def _count(self) -> None:
-        self.steps += 1
-        if self.steps > STEPS or self.visits >= VISITS:
-            raise BudgetSpent
-
 
 def overlaps(finding: Finding) -> bool:
     """Proven, and not shown to be within the touch band."""
     return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
-def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
-    """The hull of a body, or its curved shape, with its frame."""
+def _shape_of(body: PlacedBody) -> Side:
+    """The hull of a body, or its curved shape, with its placement."""
     if body.curved is None:
-        return body.hull_shape(), WORLD
-    x, y, z = rows_of(body.curved.turn)
-    return body.curved.shape, ((x, y, z), body.curved.centre)
+        return body.hull_shape(), IDENTITY
+    turn = tuple(chain.from_iterable(rows_of(body.curved.turn)))
+    return body.curved.shape, placed(turn, body.curved.centre)
 
 
 def _placing(body: PlacedBody, track: Track) -> float:
@@ -239,16 +228,5 @@ def _placing(body: PlacedBody, track: Track) -> float:
 def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:
     if not track.moves:
         return body
-    moved = _composed(track.transform_at(t), body.body.transform)
+    moved = compose(track.pose_at(t), body.body.transform or IDENTITY)
     return PlacedBody(replace(body.body, transform=moved), body.shared)
-
-
-def _composed(outer: tuple[float, ...], inner: tuple[float, ...] | None) -> tuple[float, ...]:
-    """outer after inner, row-major 4x4, each entry rounded once."""
-    if inner is None:
-        return outer
-    return tuple(
-        math.fsum(outer[4 * row + k] * inner[4 * k + column] for k in range(4))
-        for row in range(4)
-        for column in range(4)
-    )

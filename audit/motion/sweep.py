@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -28,15 +29,35 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     try:
         moving = MovingPair(pair, *tracks)
     except Unanswerable as why:
-        return Sweep(
-            relation="indeterminate", tolerance=pair.tolerance, reached=0.0, reason=str(why)
-        )
+        return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, 0)
     impact = first_impact(moving, _gaps(moving)) if pair.may("hull") else _not_swept(pair)
     answer = _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b})
+    if impact.upper is not None:
+        return answer.hit(impact.upper)
     if impact.reason is None:
-        return answer.sweep()
+        return answer.free()
     possible = None if pair.may("exact") else possible_overlap(moving, impact.reached)
-    return _undecided(moving, impact) if possible is None else answer.possible_hit(possible)
+    return answer.possible_hit(possible)
+
+
+def swept(
+    impact: Impact,
+    tolerance: float,
+    steps: int,
+    relation: SweptRelation = "indeterminate",
+    **figures: Any,
+) -> Sweep:
+    """The sweep that found the impact."""
+    return Sweep(
+        relation=relation,
+        time_of_impact=None if impact.upper is None else (impact.lower, impact.upper),
+        reached=impact.reached,
+        contact=impact.contact,
+        reason=impact.reason,
+        tolerance=tolerance,
+        steps=steps,
+        **figures,
+    )
 
 
 def _gaps(pair: MovingPair) -> tuple[float, ...]:
@@ -50,70 +71,46 @@ def _not_swept(pair: Pair) -> Impact:
     return Impact(0.0, None, 0.0, reason=reason)
 
 
-def _undecided(pair: MovingPair, impact: Impact) -> Sweep:
-    return Sweep(
-        relation="indeterminate",
-        tolerance=pair.tolerance,
-        reached=impact.reached,
-        contact=impact.contact,
-        reason=impact.reason,
-        steps=pair.steps,
-    )
-
-
 class _Answer:
     def __init__(self, pair: MovingPair, impact: Impact, paths: dict[str, Path | None]) -> None:
         self._pair = pair
         self._impact = impact
         self._paths = paths
 
-    def sweep(self) -> Sweep:
-        return self._hit(self._impact.upper) if self._impact.upper is not None else self._free()
+    def possible_hit(self, upper: float | None) -> Sweep:
+        """An overlap of boxes, hulls or parts instead of the bodies; no proof. None: undecided."""
+        if upper is None:
+            return self._swept(self._impact)
+        hit = replace(self._impact, upper=upper, reason=None)
+        return self._swept(hit, "penetrating", at=self._places(upper), proven=False)
 
-    def possible_hit(self, upper: float) -> Sweep:
-        """An overlap of boxes, hulls or parts instead of the bodies; no proof."""
-        return Sweep(
-            relation="penetrating",
-            tolerance=self._pair.tolerance,
-            reached=self._impact.reached,
-            time_of_impact=(self._impact.lower, upper),
-            at=self._places(upper),
-            contact=self._impact.contact,
-            steps=self._pair.steps,
-            proven=False,
-        )
-
-    def _hit(self, upper: float) -> Sweep:
+    def hit(self, upper: float) -> Sweep:
         pair, impact = self._pair, self._impact
         worst = None
         request = pair.pair.request
         if request.wants("depth") or request.max_thickness is not None:
             worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
-        return Sweep(
-            relation="penetrating",
-            tolerance=pair.tolerance,
-            reached=impact.reached,
-            time_of_impact=(impact.lower, upper),
+        return self._swept(
+            impact,
+            "penetrating",
             at=self._places(upper),
             point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
-            contact=impact.contact,
             worst=None if worst is None else self._pose(worst),
-            steps=pair.steps,
         )
 
-    def _free(self) -> Sweep:
-        pair, impact = self._pair, self._impact
-        worst = self._nearest()
-        return Sweep(
-            relation=self._relation(worst),
-            tolerance=pair.tolerance,
-            reached=1.0,
-            contact=impact.contact,
+    def free(self) -> Sweep:
+        impact, worst = self._impact, self._nearest()
+        return self._swept(
+            replace(impact, reason=self._unfilled()),
+            self._relation(worst),
             worst=None if worst is None else self._pose(self._with_fills(worst)),
             distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
-            reason=self._unfilled(),
-            steps=pair.steps,
         )
+
+    def _swept(
+        self, impact: Impact, relation: SweptRelation = "indeterminate", **figures: Any
+    ) -> Sweep:
+        return swept(impact, self._pair.tolerance, self._pair.steps, relation, **figures)
 
     def _nearest(self) -> Worst | None:
         """The nearest pose, as narrowly as the relation and the clearance need it; None: they do

@@ -10,9 +10,9 @@ from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.request.trace import Trace
-from satcheck.report.judge import EXACT_WIDTH, Judgement, by_rule, clearance_judgement
-from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
-from satcheck.report.request import LIMITS, Request
+from satcheck.report.judge import Judgement, by_rule, judged
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Relation
+from satcheck.report.request import Request
 from satcheck.report.sweep import Sweep
 
 CLEAR = "clear"  # the rule of a touch on a way that must be free
@@ -24,31 +24,27 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     finding = examined.finding
     motion = paths.known or sweep(pair, paths.a, paths.b)
     trace.record("sweep", motion.relation, _detail(motion))
-    judged = by_rule(_judged(motion, pair), pair.request)
+    judgement = _judged(finding, motion, pair.request)
     if paths.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
-        judged = by_rule(Judgement("error", CLEAR), pair.request)
-    graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
+        judgement = Judgement("error", CLEAR)
+    judgement = by_rule(judgement, pair.request)
+    graver = SEVERITIES.index(judgement.severity) < SEVERITIES.index(finding.severity)
     relation = _worse(finding.relation, motion.relation)
     undecided = relation == "indeterminate"
+    quality = finding.quality if motion.proven else "estimate"
     swept = replace(
         finding,
         relation=relation,
         placed_relation=finding.relation,
-        quality=_quality(finding, motion, undecided=undecided),
+        quality=None if undecided else quality,
         motion=motion,
-        severity=judged.severity if graver else finding.severity,
-        rule=judged.rule if graver else finding.rule,
-        undecided=finding.undecided or judged.undecided,
-        reason=finding.reason or judged.reason or (motion.reason if undecided else None),
+        severity=judgement.severity if graver else finding.severity,
+        rule=judgement.rule if graver else finding.rule,
+        undecided=finding.undecided or judgement.undecided,
+        reason=finding.reason or judgement.reason or (motion.reason if undecided else None),
         plan=tuple(trace.stages),
     )
     return replace(examined, finding=swept)
-
-
-def _quality(finding: Finding, swept: Sweep, *, undecided: bool) -> Quality | None:
-    if undecided:
-        return None
-    return finding.quality if swept.proven else "estimate"
 
 
 def _worse(placed: Relation, on_the_way: Relation) -> Relation:
@@ -59,44 +55,26 @@ def _worse(placed: Relation, on_the_way: Relation) -> Relation:
     return min(placed, on_the_way, key=order.index)
 
 
-def _judged(swept: Sweep, pair: Pair) -> Judgement:
-    request = pair.request
+def _judged(finding: Finding, swept: Sweep, request: Request) -> Judgement:
+    """Judge the motion as a finding with its figures, without the severity that a rule sets.
+    Volumes and thicknesses in motion are not measured; no overlap is thicker than it is deep."""
     if swept.relation == "indeterminate":
         return Judgement("warning", undecided="motion")
-    if swept.relation == "penetrating":
-        return _limited(swept, pair) if request.limited else Judgement("error")
-    clearance = _clearance(swept, request)
-    if clearance is not None and clearance.severity == "error":
-        return clearance
-    if swept.reason is not None:
-        return Judgement("warning", undecided="inside")
-    if clearance is not None:
-        return clearance
-    return Judgement("note" if swept.relation == "touching" else "none")
-
-
-def _clearance(swept: Sweep, request: Request) -> Judgement | None:
-    """The judgement of the clearance; None: the motion keeps it, or there is no clearance."""
     worst = swept.worst
+    depth = None if worst is None else worst.depth
+    of_motion = replace(
+        finding,
+        relation=swept.relation,
+        depth_bounds=depth,
+        thickness_bounds=None if depth is None else (0.0, depth[1]),
+        volume=None,
+    )
     least = (swept.distance_at_least or 0.0, math.inf)
     gap = least if worst is None else worst.distance or (0.0, 0.0)
-    return clearance_judgement(request, *gap)
-
-
-def _limited(swept: Sweep, pair: Pair) -> Judgement:
-    """The judgement of a pair that may overlap within limits. Volumes and thicknesses in motion are
-    not measured; no overlap is thicker than it is deep."""
-    request = pair.request
-    depth = None if swept.worst is None else swept.worst.depth
-    rule = next(filter(None, map(request.rule, LIMITS)))
-    lengths = [most for most in (request.max_depth, request.max_thickness) if most is not None]
-    if lengths and depth is not None:
-        if request.max_depth is not None and depth[0] > request.max_depth:
-            return Judgement("error", rule)
-        if depth[1] <= min(lengths) * (1 + EXACT_WIDTH) and request.max_volume is None:
-            return Judgement("note", rule)
-    reason = "undecided: whether the overlap on the way is within its limits"
-    return Judgement("warning", rule, "limit", reason)
+    judgement = judged(of_motion, replace(request, severity=None), gap)
+    if swept.reason is None or judgement.severity == "error":
+        return judgement
+    return Judgement("warning", undecided="inside")
 
 
 def _detail(swept: Sweep) -> str:

@@ -9,30 +9,32 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Sequence
 from itertools import pairwise
 
 from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.bodies.boxes import Box, corners
-from satcheck.audit.motion.turn import (
-    STILL,
-    Matrix,
-    applied,
-    between,
-    product,
-    quaternion_matrix,
-    rotation,
-    unit,
-)
-from satcheck.audit.vectors import added
+from satcheck.audit.vectors import added, crossed, dot
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import UNIT_ROUNDOFF
-from satcheck.scene.motion import Path, Rotation, Translation
+from satcheck.core.transform import (
+    Quaternion,
+    Rotation,
+    Transform,
+    about,
+    compose,
+    cos_sin,
+    placed,
+    quaternion_matrix,
+)
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.motion import Path, Translation
+from satcheck.scene.motion import Rotation as RotatingPath
 
-Frame = tuple[Matrix, Vector]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
-WORLD: Frame = (STILL, ORIGIN)
+STILL: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 # Rounding errors, in roundoffs of the reach of a body. The reach is the sum of three distances: of
 # its farthest point from the pivot, of the pivot from the origin, and of the centre from the
@@ -70,7 +72,7 @@ class Piece(Struct, frozen=True):
     pivot: Vector = ORIGIN
     centre: Vector = ORIGIN
     velocity: Vector = ORIGIN
-    turn: Matrix = STILL
+    turn: Rotation = STILL
     axis: Vector = (1.0, 0.0, 0.0)
     degrees: float = 0.0
 
@@ -79,11 +81,15 @@ class Piece(Struct, frozen=True):
             c + v * (t - self.start) for c, v in zip(self.centre, self.velocity, strict=True)
         )
 
-    def turn_at(self, t: float) -> Matrix:
-        if self.degrees == 0.0:
-            return self.turn
-        turned = rotation(self.axis, self.degrees * ((t - self.start) / (self.end - self.start)))
-        return turned if self.turn == STILL else product(turned, self.turn)
+    def pose_at(self, t: float) -> Transform:
+        """M(t)."""
+        x, y, z = self.pivot
+        share = (t - self.start) / (self.end - self.start)
+        turned = about(self.axis, cos_sin(self.degrees * share)) if self.degrees else STILL
+        pose = placed(turned, self.centre_at(t))
+        if self.turn != STILL:
+            pose = compose(pose, placed(self.turn, ORIGIN))
+        return pose if self.pivot == ORIGIN else compose(pose, placed(STILL, (-x, -y, -z)))
 
     @property
     def spin(self) -> Vector:
@@ -109,27 +115,23 @@ class Track(Struct, frozen=True):
         starts = [piece.start for piece in self.pieces]
         return self.pieces[bisect_right(starts, t) - 1]
 
-    def pose_at(self, t: float) -> tuple[Matrix, Vector]:
-        """Rotation and translation of M(t)."""
-        return _pose(self.piece_at(t), t)
+    def pose_at(self, t: float) -> Transform:
+        """M(t)."""
+        return self.piece_at(t).pose_at(t)
 
-    def transform_at(self, t: float) -> tuple[float, ...]:
-        """M(t), row-major 4x4."""
-        turn, shift = self.pose_at(t)
-        rows = [(*row, s) for row, s in zip(turn, shift, strict=True)]
-        return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
-
-    def moving_at(self, t: float, offset: Vector = ORIGIN, frame: Frame = WORLD) -> core.Moving:
-        """The place and the motion of the body at t, moved by `offset`. frame: the rotation and
-        translation that place it before the motion."""
+    def moving_at(
+        self, t: float, offset: Vector = ORIGIN, frame: Transform = IDENTITY
+    ) -> core.Moving:
+        """The place and the motion of the body at t, moved by `offset`. frame: places it before the
+        motion."""
         piece = self.piece_at(t)
-        turn, shift = _pose(piece, t)
-        if frame != WORLD:
-            turn, shift = product(turn, frame[0]), added(shift, applied(turn, frame[1]))
-        centre = piece.centre_at(t)
-        return core.Moving(
-            turn, added(shift, offset), added(centre, offset), piece.velocity, piece.spin
-        )
+        pose = piece.pose_at(t)
+        if frame != IDENTITY:
+            pose = compose(pose, frame)
+        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
+        turn, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
+        centre = added(piece.centre_at(t), offset)
+        return core.Moving(turn, shift, centre, piece.velocity, piece.spin)
 
     def reach(self, bounds: Box) -> float:
         """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
@@ -156,8 +158,9 @@ class Track(Struct, frozen=True):
 def track_of(path: Path) -> Track:
     if isinstance(path, Translation):
         return Track((Piece(0.0, 1.0, velocity=path.vector),))
-    if isinstance(path, Rotation):
-        piece = Piece(0.0, 1.0, path.point, path.point, axis=unit(path.axis), degrees=path.degrees)
+    if isinstance(path, RotatingPath):
+        x, y, z = unit(path.axis)
+        piece = Piece(0.0, 1.0, path.point, path.point, axis=(x, y, z), degrees=path.degrees)
         return Track((piece,))
     pieces = []
     for here, there in pairwise(path.waypoints):
@@ -165,7 +168,7 @@ def track_of(path: Path) -> Track:
         length = there.time - here.time
         steps = (q - p for p, q in zip(here.position, there.position, strict=True))
         x, y, z = (step / length for step in steps)
-        turn = quaternion_matrix(here.orientation)
+        turn = quaternion_matrix(*here.orientation)
         pieces.append(
             Piece(
                 here.time,
@@ -180,10 +183,30 @@ def track_of(path: Path) -> Track:
     return Track(tuple(pieces))
 
 
-def _pose(piece: Piece, t: float) -> tuple[Matrix, Vector]:
-    turn, centre = piece.turn_at(t), piece.centre_at(t)
-    carried = applied(turn, piece.pivot)
-    return turn, added(centre, (-carried[0], -carried[1], -carried[2]))
+def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:
+    """Unit axis (world) and degrees, 0 to 180, of the shortest turn from one orientation to the
+    other; both of any length except 0. For half a turn the signs of the quaternions choose the
+    axis."""
+    px, py, pz, pw = unit(start)
+    qx, qy, qz, qw = unit(end)
+    p, q = (px, py, pz), (qx, qy, qz)
+    # The Hamilton product of the end and the inverse of the start.
+    cosine = pw * qw + dot(p, q)
+    sign = -1.0 if cosine < 0.0 else 1.0
+    turned = zip(p, q, crossed(p, q), strict=True)
+    across = [sign * (pw * b - qw * a + c) for a, b, c in turned]
+    if not any(across):
+        return (1.0, 0.0, 0.0), 0.0
+    x, y, z = unit(across)
+    return (x, y, z), math.degrees(2.0 * math.atan2(math.hypot(*across), abs(cosine)))
+
+
+def unit(v: Sequence[float]) -> tuple[float, ...]:
+    """The unit vector along v, which is not zero; safe for very large and very small v."""
+    largest = max(map(abs, v))
+    small = [c / largest for c in v]
+    length = math.hypot(*small)
+    return tuple(c / length for c in small)
 
 
 def _fastest(piece: Piece, bounds: Box) -> float:

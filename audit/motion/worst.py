@@ -77,66 +77,55 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
 
 
-class _Search:
-    """queue: (lower bound, start, end) of intervals of t that cover the motion."""
-
-    def __init__(self, pair: MovingPair, bounds: Bounds) -> None:
-        self.best, self.time = math.inf, 0.0
-        self._pair = pair
-        self._bounds = bounds
-        self._queue: list[tuple[float, float, float]] = []
-        for end in pair.times:
-            self._look(end, end)
-        for start, end in pairwise(pair.times):
-            heapq.heappush(self._queue, self._look(start, end))
-
-    @property
-    def least(self) -> float:
-        return min(self._queue[0][0], self.best)
-
-    @property
-    def narrow(self) -> bool:
-        return self.best - self.least <= WORST_WIDTH * abs(self.best)
-
-    def ends(self, lengths: Sequence[float], *, narrow: bool) -> bool:
-        """Whether the bounds answer the question, or no longer improve."""
-        if self.best - self.least <= 4 * self._pair.pad:
-            return True
-        kept = [keeps(length, self.least, self.best) for length in lengths]
-        if None in kept:
-            return False
-        return not narrow or (bool(kept) and all(kept)) or self.narrow
-
-    def halve(self) -> None:
-        """Halves the interval with the least bound."""
-        _, start, end = self._queue[0]
-        middle = 0.5 * (start + end)
-        halves = [self._look(start, middle), self._look(middle, end)]
-        heapq.heapreplace(self._queue, halves[0])
-        heapq.heappush(self._queue, halves[1])
-
-    def _look(self, start: float, end: float) -> tuple[float, float, float]:
-        floor = WORTHLESS * self.best if 0.0 < self.best < math.inf else 0.0
-        lower, upper = self._bounds(start, end, floor)
-        if upper < self.best:
-            self.best, self.time = upper, 0.5 * (start + end)
-        return lower, start, end
-
-
 def _least(
     pair: MovingPair, bounds: Bounds, lengths: Sequence[float], *, narrow: bool = True
 ) -> Worst | None:
-    search = None
+    """Halves the interval of t with the least bound, until the bounds answer the question or no
+    longer improve."""
+    queue: list[tuple[float, float, float]] = []  # (lower bound, start, end), over the motion
+    best = Worst(0.0, math.inf, math.inf)
+
+    def look(start: float, end: float) -> tuple[float, float, float]:
+        nonlocal best
+        floor = WORTHLESS * best.upper if 0.0 < best.upper < math.inf else 0.0
+        lower, upper = bounds(start, end, floor)
+        if upper < best.upper:
+            best = Worst(0.5 * (start + end), upper, upper)
+        return lower, start, end
+
+    def so_far() -> Worst:
+        return replace(best, lower=min(queue[0][0], best.lower))
+
     try:
-        search = _Search(pair, bounds)
-        for _ in range(WORST_INTERVALS):
-            if search.ends(lengths, narrow=narrow):
-                break
-            search.halve()
+        for end in pair.times:
+            look(end, end)
+        for start, end in pairwise(pair.times):
+            heapq.heappush(queue, look(start, end))
     except Unanswerable:
-        if search is None:
-            return None
-    return Worst(search.time, search.least, search.best)
+        return None
+    try:
+        for _ in range(WORST_INTERVALS):
+            if _answers(so_far(), pair.pad, lengths, narrow=narrow):
+                break
+            _, start, end = queue[0]
+            middle = 0.5 * (start + end)
+            halves = look(start, middle), look(middle, end)
+            heapq.heapreplace(queue, halves[0])
+            heapq.heappush(queue, halves[1])
+    except Unanswerable:
+        pass
+    return so_far()
+
+
+def _answers(found: Worst, pad: float, lengths: Sequence[float], *, narrow: bool) -> bool:
+    width = found.upper - found.lower
+    if width <= 4 * pad:
+        return True
+    kept = [keeps(length, found.lower, found.upper) for length in lengths]
+    if None in kept:
+        return False
+    is_narrow = width <= WORST_WIDTH * abs(found.upper)
+    return not narrow or (bool(kept) and all(kept)) or is_narrow
 
 
 def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:

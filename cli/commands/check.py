@@ -15,7 +15,6 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.baseline_file import names_in_baseline, read_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
-from satcheck.audit.sampled import Samples
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -39,6 +38,7 @@ from satcheck.cli.pictures import (
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery, rendered, tell
 from satcheck.report.baseline import Baseline
+from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.loading.readers import readers, robots
 
@@ -307,7 +307,7 @@ def command(
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
     settings = {**options, **inputs.limits}
-    result: Report | Samples
+    result: Report | SamplesReport
     if poses is None:
         result = _check(scene, settings_of(settings, scene))
         if known is not None:
@@ -320,13 +320,12 @@ def command(
     if config is not None:
         result = replace(result, config=config)
     _deliver(document, result, scene, delivery, pictures)
-    verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
-    return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
+    return exit_codes.for_verdict(result.summary.verdict, result.issues, exit_zero=exit_zero)
 
 
 def _deliver(
     document: Document,
-    result: Report | Samples,
+    result: Report | SamplesReport,
     scene: Scene,
     to: Delivery,
     pictures: Pictures,
@@ -377,7 +376,7 @@ def _check(scene: Scene, settings: Settings) -> Report:
 
 def _check_poses(
     scene: Scene, poses: Sequence[Pose], settings: Settings, seed: int | None
-) -> Samples:
+) -> SamplesReport:
     from satcheck.audit.samples import check_poses  # imports numpy
 
     with Bar("poses") as bar:

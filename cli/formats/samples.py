@@ -29,10 +29,9 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from satcheck.audit.sampled import PairTally, Samples
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding
-    from satcheck.report.samples import SampledPose
+    from satcheck.report.samples import SampledPair, SampledPose, SamplesReport
 
 # More poses than this, and pairs are listed instead of poses.
 FEW_POSES = 20
@@ -50,14 +49,14 @@ _STYLES = {"fail": BOLD_RED, "incomplete": BOLD_MAGENTA, "pass": GREEN}
 NAMED = 3
 
 
-def render(result: Samples, page: Page, *, top: int | None = None) -> str:
+def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr.
 
     top: how many poses or pairs at most, the worst first; all count in the summary.
     """
     lines: list[str] = []
     said: list[str] = []
-    if result.number <= FEW_POSES:
+    if result.summary.samples <= FEW_POSES:
         poses = result.samples if top is None else _worst(result.samples)[:top]
         lines += _poses(poses, unit_of(result.units), page)
         if more := len(result.samples) - len(poses):
@@ -68,7 +67,7 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
             key=lambda pair: (-pair.overlaps, -pair.undecided, -pair.near, -pair.touches),
         )
         rows = met[: top or ROWS]
-        lines += _pairs(rows, result.number, page) if rows else []
+        lines += _pairs(rows, result.summary.samples, page) if rows else []
         if more := len(met) - len(rows):
             why = f"not shown (--top {top})" if top else "not shown: JSON has all"
             said.append(f"{counted(more, 'more pair')} {why}")
@@ -117,7 +116,7 @@ def _depth(finding: Finding, unit: str | None) -> str:
     return f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
 
 
-def _pairs(pairs: Sequence[PairTally], samples: int, page: Page) -> list[str]:
+def _pairs(pairs: Sequence[SampledPair], samples: int, page: Page) -> list[str]:
     columns = [
         Column("A", tuple(pair.a for pair in pairs), named=True),
         Column("B", tuple(pair.b for pair in pairs), named=True),
@@ -156,7 +155,7 @@ def _remarks(samples: Sequence[SampledPose]) -> list[str]:
     return lines
 
 
-def samples_counts(result: Samples) -> str:
+def samples_counts(result: SamplesReport) -> str:
     """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail.`"""
     kind = "pose" if result.seed is None else "random pose"
     seed = "" if result.seed is None else f" (seed {result.seed})"
@@ -165,24 +164,24 @@ def samples_counts(result: Samples) -> str:
     parts = [
         f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
         for verdict in ("pass", "fail", "incomplete")
-        if (count := result.by_verdict[verdict])
+        if (count := result.summary.by_verdict[verdict])
     ]
     line = (
-        f"{counted(result.number, kind)}{seed}, "
+        f"{counted(result.summary.samples, kind)}{seed}, "
         f"{counted(len(result.bodies), 'body', 'bodies')}, "
-        f"{counted(result.counts.total, 'pair')}"
-        f"{f', {result.counts.allowed:,} allowed' if result.counts.allowed else ''}"
-        f"{f', {result.counts.exempt:,} more exempt' if result.counts.exempt else ''}"
+        f"{counted(result.summary.pairs.total, 'pair')}"
+        f"{f', {result.summary.pairs.allowed:,} allowed' if result.summary.pairs.allowed else ''}"
+        f"{f', {result.summary.pairs.exempt:,} more exempt' if result.summary.pairs.exempt else ''}"
         f": {', '.join(parts)}."
     )
     return " ".join([line, *doubts(result.issues)])
 
 
-def samples_verdict(result: Samples) -> str:
+def samples_verdict(result: SamplesReport) -> str:
     """`FAIL: 9 pairs fail: base and upper in 24 poses, base and left in 14 poses, and 7 more.`"""
-    if result.verdict == "pass":
+    if result.summary.verdict == "pass":
         return "PASS: no collision in any pose."
-    if result.verdict == "fail":
+    if result.summary.verdict == "fail":
         return f"FAIL: {_failed(result)}. Next: --pose POSE -o report.html shows one pose in 3-D."
     unchecked = nothing_checked(result.issues)
     failed = any(issue.severity == "error" for issue in result.issues)
@@ -190,10 +189,10 @@ def samples_verdict(result: Samples) -> str:
     return " ".join([f"{word}:", *(unchecked or ["no collision was found, but not proven."])])
 
 
-def _failed(result: Samples) -> str:
+def _failed(result: SamplesReport) -> str:
     failed = [pair for pair in result.pairs if pair.fails]
     if not failed:  # bodies that rules ask to stand
-        poses = result.by_verdict["fail"]
+        poses = result.summary.by_verdict["fail"]
         verb = "fails" if poses == 1 else "fail"
         return f"{counted(poses, 'pose')} {verb} by the support of bodies"
     failed.sort(key=lambda pair: (-pair.fails, pair.first_overlap or 0))

@@ -16,8 +16,15 @@ from numpy.typing import NDArray
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.robot.assembly import body_poses, link_frames
-from satcheck.scene.robot.model import Joint, Robot
-from satcheck.scene.robot.poses import Pose, Posture, check_names, complete, settle
+from satcheck.scene.robot.model import Joint, Robot, Values
+from satcheck.scene.robot.poses import (
+    Pose,
+    Posture,
+    check_names,
+    complete,
+    movable_joints,
+    posture_of,
+)
 
 # Significant digits of a random value. A user can then read and retype a pose; the rounded pose is
 # the one that is checked.
@@ -100,23 +107,28 @@ def _between(low: float, high: float, shares: Numbers) -> Numbers:
     return values
 
 
-def _row(values: Mapping[str, ManyValues], row: int) -> Pose:
+def _row(values: Mapping[str, tuple[Any, ...]], row: int) -> dict[str, Values]:
+    """One of many poses. Numbers that are no array hold in all of them."""
     """One of many poses."""
-    return {name: tuple(float(number[row]) for number in own) for name, own in values.items()}
+    return {
+        name: tuple(n if isinstance(n, float) else float(n[row]) for n in own)
+        for name, own in values.items()
+    }
 
 
 class PoseBatch(Struct, frozen=True):
     """Some poses one after another. first: the number of the first one, from 1. joints: name of
-    every joint that moves -> its numbers, an array over the poses each, or one for all. pose: takes
-    a row, and returns the pose as it was given or drawn."""
+    every joint that moves -> its numbers, an array over the poses each, or one for all. movable:
+    these joints. pose: takes a row, and returns the pose as it was given or drawn."""
 
     first: int
     count: int
     joints: Mapping[str, tuple[Any, ...]]
+    movable: Mapping[str, Joint]
     pose: Callable[[int], Pose]
 
-    def posture(self, scene: Scene, row: int) -> Posture:
-        return settle([robot.robot for robot in scene.robots], self.pose(row))
+    def posture(self, row: int) -> Posture:
+        return posture_of(self.movable, _row(self.joints, row), self.pose(row))
 
     def matrices(self, scene: Scene) -> Numbers:
         """Shape (poses, bodies, 12): the upper three rows of the placement of each readable body,
@@ -129,10 +141,17 @@ def placements(scene: Scene, frames: Sequence[Mapping[str, Transform]], count: i
     of_links = body_poses(scene, frames)
     placed = np.empty((count, len(scene.bodies), 12))
     for k, body in enumerate(scene.bodies):
-        matrix = of_links.get(body.id, body.transform or IDENTITY)
-        for entry in range(12):
-            placed[:, k, entry] = matrix[entry]
+        placed[:, k] = rows_of(of_links.get(body.id, body.transform or IDENTITY), count)
     return placed
+
+
+def rows_of(pose: Sequence[Any], count: int) -> Numbers:
+    """The upper three rows of a pose, shape (count, 12). Its entries are numbers, or arrays over
+    the poses."""
+    rows = np.empty((count, 12))
+    for entry in range(12):
+        rows[:, entry] = pose[entry]
+    return rows
 
 
 def require_joints(scene: Scene, poses: Sequence[Pose]) -> None:
@@ -145,10 +164,12 @@ def require_joints(scene: Scene, poses: Sequence[Pose]) -> None:
 def pose_batches(scene: Scene, poses: Sequence[Pose], size: int) -> Iterator[PoseBatch]:
     """The poses, at most `size` at a time; see `require_joints`."""
     robots = [robot.robot for robot in scene.robots]
+    movable = movable_joints(robots)
     if isinstance(poses, RandomPoses):
         for start, named in poses.batches(size):
             count = min(size, len(poses) - start)
-            yield PoseBatch(start + 1, count, complete(robots, named), partial(_row, named))
+            joints = complete(robots, named)
+            yield PoseBatch(start + 1, count, joints, movable, partial(_row, named))
         return
     standing = complete(robots, {})
     for start in range(0, len(poses), size):
@@ -157,4 +178,5 @@ def pose_batches(scene: Scene, poses: Sequence[Pose], size: int) -> Iterator[Pos
             name: tuple(np.array([pose.get(name, standing[name]) for pose in given]).T.copy())
             for name in dict.fromkeys(name for pose in given for name in pose)
         }
-        yield PoseBatch(start + 1, len(given), complete(robots, named), given.__getitem__)
+        joints = complete(robots, named)
+        yield PoseBatch(start + 1, len(given), joints, movable, given.__getitem__)

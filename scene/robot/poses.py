@@ -87,7 +87,7 @@ def state_named(name: str, states: Iterable[State]) -> State:
 
 def check_state(state: State, robots: Sequence[Robot]) -> None:
     """Checks the joints of a state as `settle` does. Errors name the place in the SRDF."""
-    movable = _movable(robots)
+    movable = movable_joints(robots)
     for name, values in state.joints.items():
         try:
             _check_named(name, values, robots, movable)
@@ -103,13 +103,16 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
     a wrong count of numbers. A value beyond the limits is kept, with a warning.
     """
     check_names(robots, pose)
-    movable = _movable(robots)
-    joints = complete(robots, pose)
-    free = [joint for joint in movable.values() if joint.free]
+    return posture_of(movable_joints(robots), complete(robots, pose), pose)
+
+
+def posture_of(movable: Mapping[str, Joint], joints: dict[str, Values], pose: Pose) -> Posture:
+    """The posture with these values of all joints that move, of which the pose names some."""
+    unnamed = [joint for name, joint in movable.items() if name not in pose]
     issues = [
-        *(_not_at_zero(joint, joints[joint.name]) for joint in free if joint.name not in pose),
+        *(_not_at_zero(joint, joints[joint.name]) for joint in unnamed if joint.free),
         *(_mimic_differs(joint, joints, pose) for joint in movable.values() if joint.mimic),
-        *(_beyond(joint, joints[joint.name]) for joint in movable.values()),
+        *(_beyond(joint, joints[name]) for name, joint in movable.items() if joint.limits),
     ]
     return Posture(
         joints=joints,
@@ -121,7 +124,7 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
 def complete(robots: Sequence[Robot], named: Mapping[str, Any]) -> dict[str, Any]:
     """The values of all joints that move, where these are named. The numbers may be arrays over
     many poses; those of joints that no pose names are single ones."""
-    movable = _movable(robots)
+    movable = movable_joints(robots)
     joints = {
         joint.name: named[joint.name] if joint.name in named else _rest(joint)
         for joint in movable.values()
@@ -135,12 +138,12 @@ def complete(robots: Sequence[Robot], named: Mapping[str, Any]) -> dict[str, Any
 
 def check_names(robots: Sequence[Robot], pose: Pose) -> None:
     """Raises what `settle` raises."""
-    movable = _movable(robots)
+    movable = movable_joints(robots)
     for name, values in pose.items():
         _check_named(name, values, robots, movable)
 
 
-def _movable(robots: Sequence[Robot]) -> dict[str, Joint]:
+def movable_joints(robots: Sequence[Robot]) -> dict[str, Joint]:
     return {joint.name: joint for robot in robots for joint in robot.joints if joint.freedoms}
 
 

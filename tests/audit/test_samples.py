@@ -12,13 +12,13 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.audit import Settings, check
-from satcheck.audit.sampled import Samples
 from satcheck.audit.samples import check_poses
 from satcheck.audit.suggest import suggest
 from satcheck.cli.commands.schema import text as schema_text
 from satcheck.cli.formats.samples import render
 from satcheck.cli.output import PLAIN_PAGE
 from satcheck.core.errors import SatcheckError
+from satcheck.report.samples import SamplesReport
 from satcheck.scene import MeshFile, Scene, load_scene
 from satcheck.scene.robot import Pose, RandomPoses, posed, read_poses
 from tests.scene.robot.robots import joint, link, robot_of
@@ -35,7 +35,7 @@ def poses() -> list[Pose]:
     return found
 
 
-def overlapping(found: Samples, number: int) -> set[tuple[str, str]]:
+def overlapping(found: SamplesReport, number: int) -> set[tuple[str, str]]:
     findings = found.samples[number].findings
     return {(one.a, one.b) for one in findings if one.relation == "penetrating"}
 
@@ -91,7 +91,7 @@ def test_a_ball_on_a_rod_that_turns_in_closed_form(tmp_path: Path) -> None:
 def test_the_sample_poses() -> None:
     found = check_poses(ARM, poses(), Settings(depth=True))
     assert [sample.verdict for sample in found.samples] == ["pass", "fail", "fail"]
-    assert found.verdict == "fail"
+    assert found.summary.verdict == "fail"
     assert overlapping(found, 1) == {("base", "left"), ("base", "right"), ("turret", "fore/palm")}
     assert overlapping(found, 2) == {("base", "upper")}
     assert all(one.depth for one in found.samples[2].findings if one.relation == "penetrating")
@@ -123,7 +123,7 @@ def test_what_cannot_be_read_is_undecided_in_every_pose(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(text)
     (tmp_path / "arm_beam.stl").write_bytes((SAMPLES / "arm_beam.stl").read_bytes())
     found = check_poses(load_scene([tmp_path / "arm.urdf", SAMPLES / "arm.srdf"]), poses()[:1])
-    assert found.verdict == "incomplete"
+    assert found.summary.verdict == "incomplete"
     tallies = {(tally.a, tally.b): tally for tally in found.pairs}
     assert tallies["base", "left"].undecided == 1
     assert [issue.code for issue in found.issues].count("missing-resource") == 1

@@ -340,12 +340,7 @@ class PosedBody:
     def __init__(self, geometry: Geometry) -> None: ...
     @overload
     def __init__(
-        self,
-        corners: Sequence[Point],
-        margin: float,
-        inner: Sequence[tuple[Point, float]],
-        around: Geometry,
-        within: Geometry,
+        self, corners: Sequence[Point], margin: float, around: Geometry, within: Geometry
     ) -> None: ...
     @property
     def around(self) -> tuple[Point, float]: ...
@@ -645,78 +640,27 @@ class MotionAnswer:
     @property
     def triangle_b(self) -> int: ...
 
-@overload
 def safe_time(
-    a: Surface,
+    a: Surface | Shape,
     moving_a: Moving,
-    b: Surface,
+    b: Surface | Shape,
     moving_b: Moving,
     *,
     level: float,
     limit: float,
     pad: float,
     slack: float,
-    work: int,
+    work: int = ...,
 ) -> MotionAnswer: ...
-@overload
-def safe_time(
-    a: Shape,
-    moving_a: Moving,
-    b: Surface,
-    moving_b: Moving,
-    *,
-    level: float,
-    limit: float,
-    pad: float,
-    slack: float,
-    work: int,
-) -> MotionAnswer: ...
-@overload
-def safe_time(
-    a: Shape,
-    moving_a: Moving,
-    b: Shape,
-    moving_b: Moving,
-    *,
-    level: float,
-    limit: float,
-    pad: float,
-    slack: float,
-) -> MotionAnswer: ...
-@overload
 def least_gap(
-    a: Surface,
+    a: Surface | Shape,
     moving_a: Moving,
-    b: Surface,
+    b: Surface | Shape,
     moving_b: Moving,
     *,
     window: float,
-    floor: float,
+    floor: float = 0.0,
     pad: float,
     slack: float,
-    work: int,
-) -> MotionAnswer: ...
-@overload
-def least_gap(
-    a: Shape,
-    moving_a: Moving,
-    b: Surface,
-    moving_b: Moving,
-    *,
-    window: float,
-    floor: float,
-    pad: float,
-    slack: float,
-    work: int,
-) -> MotionAnswer: ...
-@overload
-def least_gap(
-    a: Shape,
-    moving_a: Moving,
-    b: Shape,
-    moving_b: Moving,
-    *,
-    window: float,
-    pad: float,
-    slack: float,
+    work: int = ...,
 ) -> MotionAnswer: ...

@@ -1,12 +1,11 @@
 // The Python face of moving bodies. Nothing but conversions.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/variant.h>
 
 #include <stdexcept>
 
-#include "motion/moving_mixed.hpp"
-#include "motion/moving_shapes.hpp"
-#include "motion/moving_surfaces.hpp"
+#include "motion/motion_search.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -28,47 +27,12 @@ void construct_moving(Moving* self, const std::array<Triple, 3>& rotation, const
   new (self) Moving{{rows, finite(translation)}, finite(centre), finite(velocity), finite(spin)};
 }
 
-void require_lengths(double first, double second, double pad, double slack) {
-  for (const double x : {first, second, pad, slack}) {
-    if (!std::isfinite(x)) throw std::invalid_argument("a bound of a motion is not finite");
+MotionAnswer ask(const MovingBody& a, const Moving& moving_a, const MovingBody& b, const Moving& moving_b,
+                 const MotionQuestion& question, double pad, double slack, std::uint64_t work) {
+  for (const double x : {question.extent(), pad, slack}) {
+    if (!(std::isfinite(x) && x >= 0)) throw std::invalid_argument("a bound of a motion is negative or not finite");
   }
-  if (!(second >= 0 && pad >= 0 && slack >= 0)) throw std::invalid_argument("a bound of a motion is negative");
-}
-
-MotionAnswer surfaces_time(const Surface& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
-                           double level, double limit, double pad, double slack, std::uint64_t work) {
-  require_lengths(level, limit, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::time(level, limit), {pad, slack}, work);
-}
-
-MotionAnswer surfaces_gap(const Surface& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
-                          double window, double floor, double pad, double slack, std::uint64_t work) {
-  require_lengths(floor, window, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window, floor), {pad, slack}, work);
-}
-
-MotionAnswer shapes_time(const Shape& a, const Moving& moving_a, const Shape& b, const Moving& moving_b, double level,
-                         double limit, double pad, double slack) {
-  require_lengths(level, limit, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::time(level, limit), {pad, slack});
-}
-
-MotionAnswer shapes_gap(const Shape& a, const Moving& moving_a, const Shape& b, const Moving& moving_b, double window,
-                        double pad, double slack) {
-  require_lengths(0, window, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window), {pad, slack});
-}
-
-MotionAnswer mixed_time(const Shape& a, const Moving& moving_a, const Surface& b, const Moving& moving_b, double level,
-                        double limit, double pad, double slack, std::uint64_t work) {
-  require_lengths(level, limit, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::time(level, limit), {pad, slack}, work);
-}
-
-MotionAnswer mixed_gap(const Shape& a, const Moving& moving_a, const Surface& b, const Moving& moving_b, double window,
-                       double floor, double pad, double slack, std::uint64_t work) {
-  require_lengths(floor, window, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window, floor), {pad, slack}, work);
+  return ask_motion(a, moving_a, b, moving_b, question, {pad, slack}, work);
 }
 
 std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoTriangle ? -1 : std::int64_t{triangle}; }
@@ -87,24 +51,27 @@ infinite if there is no obstacle. triangle_a, triangle_b: the nearest obstacle; 
       .def_ro("visits", &MotionAnswer::visits)
       .def_prop_ro("triangle_a", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_b); });
+  constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
   const nb::call_guard<nb::gil_scoped_release> unlocked;
-  constexpr const char* time_doc = R"(The time, up to `limit`, for which the gap of two moving bodies stays above `level`. For two shapes it is the signed
+  m.def("safe_time", [](const MovingBody& a, const Moving& moving_a, const MovingBody& b, const Moving& moving_b,
+                        double level, double limit, double pad, double slack, std::uint64_t work) {
+          if (!std::isfinite(level)) throw std::invalid_argument("a bound of a motion is not finite");
+          return ask(a, moving_a, b, moving_b, MotionQuestion::time(level, limit), pad, slack, work);
+        },
+        "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a, "pad"_a, "slack"_a,
+        "work"_a = unlimited, unlocked,
+        R"(The time, up to `limit`, for which the gap of two moving bodies stays above `level`. For two shapes it is the signed
 distance, else the gap of the surfaces. pad, slack: the rounding of a gap, and of the rate at which it closes. work:
-boxes and triangles.)";
-  constexpr const char* gap_doc = R"(The least gap, or signed distance, from `window` before now to `window` after. For surfaces: minus infinity if it may
-be below `floor`.)";
-  m.def("safe_time", &surfaces_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
-        "pad"_a, "slack"_a, "work"_a, unlocked, time_doc);
-  m.def("safe_time", &mixed_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
-        "pad"_a, "slack"_a, "work"_a, unlocked);
-  m.def("safe_time", &shapes_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
-        "pad"_a, "slack"_a, unlocked);
-  m.def("least_gap", &surfaces_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a,
-        "pad"_a, "slack"_a, "work"_a, unlocked, gap_doc);
-  m.def("least_gap", &mixed_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a,
-        "pad"_a, "slack"_a, "work"_a, unlocked);
-  m.def("least_gap", &shapes_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "pad"_a,
-        "slack"_a, unlocked);
+boxes and triangles.)");
+  m.def("least_gap", [](const MovingBody& a, const Moving& moving_a, const MovingBody& b, const Moving& moving_b,
+                        double window, double floor, double pad, double slack, std::uint64_t work) {
+          if (!std::isfinite(floor)) throw std::invalid_argument("a bound of a motion is not finite");
+          return ask(a, moving_a, b, moving_b, MotionQuestion::gap(window, floor), pad, slack, work);
+        },
+        "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a = 0.0, "pad"_a, "slack"_a,
+        "work"_a = unlimited, unlocked,
+        R"(The least gap, or signed distance, from `window` before now to `window` after. For surfaces: minus infinity if it may
+be below `floor`.)");
 }
 
 }  // namespace satcheck

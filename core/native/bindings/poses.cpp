@@ -57,23 +57,19 @@ nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::
 void bind_poses(nb::module_& m) {
   nb::class_<PosedBody>(m, "PosedBody", R"(A body that takes many poses, in the coordinates of its file: PosedBody(geometry) for one with a mesh.
 
-PosedBody(corners, margin, inner, around, within) for a curved one: it lies in the hull of the corners, grown by the
-margin, and in the closed mesh of the geometry `around`; the balls `inner`, ((x, y, z), radius), and the closed mesh of
-`within` lie in it.)")
+PosedBody(corners, margin, around, within) for a curved one: it lies in the hull of the corners, grown by the margin, and
+in the closed mesh of the geometry `around`; the closed mesh of `within` lies in it.)")
       .def(nb::init<std::shared_ptr<Geometry>>(), "geometry"_a, nb::call_guard<nb::gil_scoped_release>())
       .def("__init__",
            [](PosedBody* self, const std::vector<Corner>& corners, double margin,
-              const std::vector<std::pair<Corner, double>>& inner, std::shared_ptr<Geometry> around,
-              std::shared_ptr<Geometry> within) {
+              std::shared_ptr<Geometry> around, std::shared_ptr<Geometry> within) {
              if (corners.empty()) throw std::invalid_argument("a body needs a corner");
              if (!around->solid() || !within->solid()) throw std::invalid_argument("the meshes have to be closed");
              std::vector<Vec3> points;
              for (const Corner& c : corners) points.push_back(to_vec(c));
-             std::vector<Ball> balls;
-             for (const auto& [centre, radius] : inner) balls.push_back({to_vec(centre), radius});
-             new (self) PosedBody(points, margin, std::move(balls), std::move(around), std::move(within));
+             new (self) PosedBody(points, margin, std::move(around), std::move(within));
            },
-           "corners"_a, "margin"_a, "inner"_a, "around"_a, "within"_a, nb::call_guard<nb::gil_scoped_release>())
+           "corners"_a, "margin"_a, "around"_a, "within"_a, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("around", [](const PosedBody& self) { return std::make_pair(to_tuple(self.around().centre), self.around().radius); },
                    "A ball that holds the body: its centre and its radius.");
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),

@@ -93,6 +93,8 @@ class MotionQuestion {
   bool is_time() const { return time_; }
   // The gap that shall be kept, for a time.
   double level() const { return level_; }
+  // The limit of a time, or half the window of a gap.
+  double extent() const { return extent_; }
   // No answer is larger.
   double largest() const { return time_ ? extent_ : INFINITY; }
   // No smaller answer is of use.

@@ -8,35 +8,38 @@
 namespace satcheck {
 
 // A box of the tree, placed.
-struct PlacedBox {
-  const Mat3& rotation;
-  Vec3 centre, half;  // world; along the axes of the body
-  double radius;
-
+class PlacedBox {
+ public:
   PlacedBox(const Aabb& box, const Pose& pose)
-      : rotation(pose.rotation),
-        centre(pose * (box.min * 0.5 + box.max * 0.5)),
-        half(box.max * 0.5 - box.min * 0.5),
-        radius(norm(half)) {}
+      : rotation_(pose.rotation),
+        centre_(pose * (box.min * 0.5 + box.max * 0.5)),
+        half_(box.max * 0.5 - box.min * 0.5),
+        radius_(norm(half_)) {}
 
   Extent along(Vec3 n) const {
-    const Vec3 m = transpose_times(rotation, n);
-    const double middle = dot(n, centre);
-    const double reach = std::fabs(m.x) * half.x + std::fabs(m.y) * half.y + std::fabs(m.z) * half.z;
+    const Vec3 m = transpose_times(rotation_, n);
+    const double middle = dot(n, centre_);
+    const double reach = std::fabs(m.x) * half_.x + std::fabs(m.y) * half_.y + std::fabs(m.z) * half_.z;
     return {middle - reach, middle + reach};
   }
   double turning(const Moving& moving) const {
-    return norm(cross(moving.spin, centre - moving.centre)) + norm(moving.spin) * radius;
+    return norm(cross(moving.spin, centre_ - moving.centre)) + norm(moving.spin) * radius_;
   }
   bool has_corners() const { return true; }
   template <class Visit>
   void each_corner(Visit&& visit) const {
     for (int k = 0; k < 8; ++k) {
-      visit(centre + axis(0) * (k & 1 ? half.x : -half.x) + axis(1) * (k & 2 ? half.y : -half.y) +
-            axis(2) * (k & 4 ? half.z : -half.z));
+      visit(centre_ + axis(0) * (k & 1 ? half_.x : -half_.x) + axis(1) * (k & 2 ? half_.y : -half_.y) +
+            axis(2) * (k & 4 ? half_.z : -half_.z));
     }
   }
-  Vec3 axis(int k) const { return {rotation.row[0][k], rotation.row[1][k], rotation.row[2][k]}; }
+  Vec3 axis(int k) const { return {rotation_.row[0][k], rotation_.row[1][k], rotation_.row[2][k]}; }
+  Vec3 centre() const { return centre_; }
+
+ private:
+  const Mat3& rotation_;
+  Vec3 centre_, half_;  // world; along the axes of the body
+  double radius_;
 };
 
 struct PlacedTriangle {
@@ -92,6 +95,7 @@ class PlacedShape {
     for (std::size_t k = 0; k < v.padded(); ++k) visit(core_ * Vec3{v.x[k], v.y[k], v.z[k]});
   }
   Vec3 centre() const { return centre_; }
+  const Shape& shape() const { return shape_; }
 
  private:
   double support(Vec3 m) const { return dot(m, core_support(shape_, m).point) + shape_.margin; }

@@ -24,18 +24,13 @@ std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at,
   return winding ? std::optional(ClearBall{ball, *winding != 0}) : std::nullopt;
 }
 
-bool ball_in_both(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b, Vec3 point, double depth) {
-  const auto in_a = clear_ball(a, at_a, point, depth);
-  if (!in_a || !in_a->inside) return false;
-  const auto in_b = clear_ball(b, at_b, point, depth);
-  return in_b && in_b->inside && overlap(in_a->ball, in_b->ball, depth);
-}
-
 bool ball_beside(const CommonSegment& crossing, const Surface& a, const PosedPlace& at_a, const Surface& b,
                  const PosedPlace& at_b, double depth) {
   double share = 1;
   for (int step = 0; step < kMostSharesInward; ++step, share *= 0.25) {
-    if (ball_in_both(a, at_a, b, at_b, crossing.middle + crossing.inward * share, depth)) return true;
+    const Vec3 point = crossing.middle + crossing.inward * share;
+    const auto in_a = clear_ball(a, at_a, point, depth), in_b = clear_ball(b, at_b, point, depth);
+    if (in_a && in_b && in_a->inside && in_b->inside && overlap(in_a->ball, in_b->ball, depth)) return true;
   }
   return false;
 }

@@ -17,10 +17,8 @@ struct ClearBall {
 // hides where it lies. closed: in file coordinates. point, room: in the world.
 std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at, Vec3 point, double room);
 
-// Whether two such balls, inside of both surfaces, have a ball with a radius of more than `depth` in common.
-bool ball_in_both(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b, Vec3 point, double depth);
-
-// The same about a point on the way inward from a crossing of the surfaces.
+// Whether a point on the way inward from a crossing of two surfaces has two such balls, inside of both, with a ball with a
+// radius of more than `depth` in common.
 bool ball_beside(const CommonSegment& crossing, const Surface& a, const PosedPlace& at_a, const Surface& b,
                  const PosedPlace& at_b, double depth);
 

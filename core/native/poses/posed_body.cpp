@@ -43,9 +43,9 @@ PosedBody::PosedBody(std::shared_ptr<Geometry> geometry) : geometry_(std::move(g
   enclose(geometry_->hull_points()->points);
 }
 
-PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner,
-                     std::shared_ptr<Geometry> around, std::shared_ptr<Geometry> within)
-    : geometry_(std::move(around)), within_(std::move(within)), margin_(margin), inner_(std::move(inner)) {
+PosedBody::PosedBody(const std::vector<Vec3>& corners, double margin, std::shared_ptr<Geometry> around,
+                     std::shared_ptr<Geometry> within)
+    : geometry_(std::move(around)), within_(std::move(within)), margin_(margin) {
   widen(geometry_->bounds().min);
   widen(geometry_->bounds().max);
   enclose(corners);
@@ -97,7 +97,7 @@ bool PosedBody::may_hold(Vec3 point) {
 
 const std::vector<Ball>& PosedBody::inner() {
   std::call_once(has_inner_, [&] {
-    if (inner_.empty() && material()) inner_ = balls_inside(*material());
+    if (material()) inner_ = balls_inside(*material());
   });
   return inner_;
 }

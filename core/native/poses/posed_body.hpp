@@ -29,8 +29,8 @@ class PosedBody {
  public:
   // A body with a mesh.
   explicit PosedBody(std::shared_ptr<Geometry> geometry);
-  // A curved body: it lies in the hull of `corners`, grown by `margin`, and between two closed meshes. The balls lie in it.
-  PosedBody(const std::vector<Vec3>& corners, double margin, std::vector<Ball> inner, std::shared_ptr<Geometry> around,
+  // A curved body: it lies in the hull of `corners`, grown by `margin`, and between two closed meshes.
+  PosedBody(const std::vector<Vec3>& corners, double margin, std::shared_ptr<Geometry> around,
             std::shared_ptr<Geometry> within);
 
   const VertexLanes& corners() const { return corners_; }

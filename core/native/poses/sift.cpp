@@ -3,7 +3,6 @@
 #include "poses/sift.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -47,21 +46,12 @@ SATCHECK_INLINE Corner support(const PosedBody& body, const PosedPlace& at, Vec3
 struct Search {
   bool apart = false;
   Vec3 axis;  // the last one, from B to A
-  std::optional<Vec3> common;  // a point of both hulls, rounded
 };
-
-// The point of A in the tetrahedron of these points of A - B around the origin.
-Vec3 point_of_a(const Vec3 (&difference)[4], const Vec3 (&of_a)[4]) {
-  const Volumes volumes = volumes_of_origin(difference[0], difference[1], difference[2], difference[3]);
-  Vec3 sum;
-  for (int i = 0; i < 4; ++i) sum = sum + of_a[i] * volumes.opposite[i];
-  return sum * (1 / volumes.whole());
-}
 
 // axis: the first one to try, of any length except 0. enough: a height that exceeds all rounding and the gap limit.
 SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const PosedBody& b, const PosedPlace& at_b,
                                Vec3 axis, double enough) {
-  Vec3 point[4], of_a[4];
+  Vec3 point[4];
   std::array<std::uint32_t, 2> seen[4];
   int count = 0;
   double nearest = INFINITY;
@@ -70,31 +60,28 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
     const Corner on_a = support(a, at_a, -axis), on_b = support(b, at_b, axis);
     const Vec3 w = on_a.point - on_b.point;
     const double height = dot(axis, w);
-    if (height > enough) return {true, axis, {}};
+    if (height > enough) return {true, axis};
     const std::array<std::uint32_t, 2> corners{on_a.index, on_b.index};
     for (int i = 0; i < count; ++i) {
-      if (seen[i] == corners) return {false, axis, {}};
+      if (seen[i] == corners) return {false, axis};
     }
     point[count] = w;
-    of_a[count] = on_a.point;
     seen[count++] = corners;
     const ClosestPoint closest = closest_point<true>(point[0], point[1], point[2], point[3], count);
-    if (closest.encloses()) return {false, axis, point_of_a(point, of_a)};
     const double distance = std::sqrt(closest.distance_squared);
-    if (!(distance < nearest) || !(distance > 0)) return {false, axis, {}};
+    if (!(distance < nearest) || !(distance > 0)) return {false, axis};
     nearest = distance;
-    if (nearest < enough) return {false, axis, {}};  // the hulls are nearer than the gap limit
+    if (nearest < enough) return {false, axis};  // the hulls are nearer than the gap limit
     int kept = 0;
     for (int i = 0; i < count; ++i) {
       point[kept] = point[i];
-      of_a[kept] = of_a[i];
       seen[kept] = seen[i];
       kept += closest.carriers >> i & 1;
     }
     count = kept;
     axis = closest.v * (1 / distance);
   }
-  return {false, axis, {}};
+  return {false, axis};
 }
 
 class PoseSifter {
@@ -138,7 +125,6 @@ class PoseSifter {
     if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
     const Surface *in_a = a.material(), *in_b = b.material();
     if (!in_a || !in_b) return Sifted::open;
-    if (search.common && ball_in_both(*in_a, at_a, *in_b, at_b, *search.common, depth)) return Sifted::deep;
     const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b);
     const bool deep = crossing && ball_beside(*crossing, *in_a, at_a, *in_b, at_b, depth);
     return deep ? Sifted::deep : Sifted::open;

@@ -148,6 +148,14 @@ def test_limits_hold_on_the_way(tmp_path: Path, limit, severity, undecided) -> N
     report = checked(tmp_path, [Motion(("a",), RIGHT)], [rule], **meshes)
     (finding,) = report.findings
     assert (finding.severity, finding.undecided) == (severity, undecided)
+    assert (finding.rule, finding.motion.worst.depth[1]) == (
+        rule.name,
+        pytest.approx(1.0, rel=0.02),
+    )
+    if undecided:
+        assert finding.reason.startswith(
+            f"undecided: max_depth is 1 ({rule.name}), and the depth is"
+        )
 
 
 def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import pytest
 
 from satcheck.audit.motion.movers import EVERYWHERE, Movers, SweptBoxes, may_meet, swept_box
 from satcheck.audit.motion.track import track_of
-from satcheck.audit.motion.turn import applied
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
@@ -23,8 +22,8 @@ def samples(path, start=0.0, end=1.0, count=2000):
     corners = list(itertools.product(*zip(*BOUNDS, strict=True)))
     found = []
     for k in range(count + 1):
-        turn, shift = track.pose_at(start + (end - start) * k / count)
-        found += [np.add(applied(turn, corner), shift) for corner in corners]
+        pose = np.reshape(track.pose_at(start + (end - start) * k / count), (4, 4))
+        found += [pose[:3, :3] @ corner + pose[:3, 3] for corner in corners]
     return np.array(found)
 
 

@@ -7,12 +7,14 @@ from fractions import Fraction
 
 import pytest
 
-from satcheck.audit.motion.track import STANDS, track_of
-from satcheck.audit.motion.turn import applied
+from satcheck.audit.motion.track import STANDS, between, track_of, unit
+from satcheck.core.transform import about, compose, cos_sin, placed, quaternion_matrix
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 
 UNIT = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+# Roundings of a turn of a vector of length 1: sine, cosine, axis and nine products.
+ERROR = 32 * 2.0**-53
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 SCREW = PosePath(
     (
@@ -24,12 +26,12 @@ SCREW = PosePath(
 
 
 def at(path, t, point):
-    turn, shift = track_of(path).pose_at(t)
-    return tuple(c + s for c, s in zip(applied(turn, point), shift, strict=True))
+    pose = track_of(path).pose_at(t)
+    return compose(pose, placed(IDENTITY[:3] + IDENTITY[4:7] + IDENTITY[8:11], point))[3:12:4]
 
 
 def test_what_stands_stands() -> None:
-    assert STANDS.transform_at(0.7) == IDENTITY
+    assert STANDS.pose_at(0.7) == IDENTITY
     assert not STANDS.moves
 
 
@@ -40,7 +42,7 @@ def test_a_translation() -> None:
 @pytest.mark.parametrize("turns", [1, -3, 1000])
 def test_whole_turns_return(turns: int) -> None:
     track = track_of(Rotation((3.0, 0.1, 7.0), (1.0, 2.0, 2.0), 360.0 * turns))
-    assert track.transform_at(0.0) == track.transform_at(1.0) == IDENTITY
+    assert track.pose_at(0.0) == track.pose_at(1.0) == IDENTITY
 
 
 def test_a_quarter_about_a_line() -> None:
@@ -81,3 +83,32 @@ def test_no_point_is_faster_than_the_bound(path) -> None:
         for corner in ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0)):
             step = math.dist(at(path, start, corner), at(path, end, corner))
             assert step <= track.fastest(start, UNIT) / 64 + 2 * track.pad(UNIT)
+
+
+def test_between_takes_the_shortest_arc() -> None:
+    """From 10 to 350 degrees about z: back by 20, also where the quaternions differ in sign."""
+
+    def about_z(degrees: float, sign: float = 1.0) -> tuple[float, float, float, float]:
+        half = math.radians(degrees) / 2
+        return 0.0, 0.0, sign * math.sin(half), sign * math.cos(half)
+
+    for sign in (1.0, -1.0):
+        axis, degrees = between(about_z(10.0), about_z(350.0, sign))
+        assert degrees == pytest.approx(20.0, rel=64 * ERROR)
+        assert axis == (0.0, 0.0, -1.0)
+
+
+def test_the_turn_between_leads_from_one_to_the_other() -> None:
+    start, end = (0.1, -0.7, 0.3, 0.5), (-0.4, 0.2, 0.9, 0.1)
+    axis, degrees = between(start, end)
+    here, turn = quaternion_matrix(*start), about(axis, cos_sin(degrees))
+    there = compose(placed(turn, UNIT[0]), placed(here, UNIT[0]))
+    for entry, expected in zip(there, placed(quaternion_matrix(*end), UNIT[0]), strict=True):
+        assert entry == pytest.approx(expected, abs=8 * ERROR)
+
+
+@pytest.mark.parametrize("turns", [-1000, -2, -1, 0, 1, 3, 10**12])
+def test_whole_turns_return_exactly(turns: int) -> None:
+    assert about(unit((1.0, 2.0, 3.0)), cos_sin(360.0 * turns)) == about(
+        (0.0, 0.0, 1.0), (1.0, 0.0)
+    )

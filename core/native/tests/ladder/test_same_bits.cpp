@@ -7,8 +7,7 @@
 #include "convex/narrow_phase.hpp"
 #include "depth/depth_search.hpp"
 #include "mesh_pair/mesh_distance.hpp"
-#include "motion/moving_shapes.hpp"
-#include "motion/moving_surfaces.hpp"
+#include "motion/motion_search.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 #include "thickness/thickness_search.hpp"
@@ -124,11 +123,12 @@ void add_motions(Numbers& numbers, Hash& hash) {
     const Moving a{numbers.pose(0.2), numbers.in_cube(1), {}, numbers.in_cube(2)};
     const Moving b{numbers.pose(6), numbers.in_cube(1), k % 2 == 0 ? numbers.in_cube(2) : Vec3{}, {}};
     const MotionQuestion question = MotionQuestion::time(0.01, 1);
-    hash.add(ask_motion(shape, a, shape, b, question, {1e-12, 1e-12}).value);
+    hash.add(ask_motion(&shape, a, &shape, b, question, {1e-12, 1e-12}).value);
     Mesh placed[2] = {mesh, mesh};
     for (Vec3& vertex : placed[0].vertices) vertex = a.pose * vertex;
     for (Vec3& vertex : placed[1].vertices) vertex = b.pose * vertex;
-    hash.add(ask_motion(make_surface(placed[0], true), a, make_surface(placed[1], true), b, question, {1e-12, 1e-12}, 10'000).value);
+    const Surface surface_a = make_surface(placed[0], true), surface_b = make_surface(placed[1], true);
+    hash.add(ask_motion(&surface_a, a, &surface_b, b, question, {1e-12, 1e-12}, 10'000).value);
   }
 }
 

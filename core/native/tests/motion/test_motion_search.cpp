@@ -1,12 +1,10 @@
 // What is promised about moving surfaces and shapes, against sampled poses.
-#include "motion/moving_surfaces.hpp"
+#include "motion/motion_search.hpp"
 
 #include <random>
 
 #include "convex/narrow_phase.hpp"
 #include "mesh_pair/mesh_distance.hpp"
-#include "motion/moving_mixed.hpp"
-#include "motion/moving_shapes.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 
@@ -69,6 +67,12 @@ double distance(const Surface& a, const Moving& ma, const Surface& b, const Movi
 constexpr double kRounding = 1e-12;  // of sampled distances: a thousand roundoffs of coordinates up to 10
 constexpr std::uint64_t kNoLimit = 1u << 30;
 
+template <class A, class B>
+MotionAnswer ask(const A& a, const Moving& moving_a, const B& b, const Moving& moving_b, const MotionQuestion& question,
+                 const MotionRounding& rounding, std::uint64_t work = kNoLimit) {
+  return ask_motion(&a, moving_a, &b, moving_b, question, rounding, work);
+}
+
 void promises_hold() {
   const Surface a = make_surface(uv_sphere(3), true), b = make_surface(box({-1, -0.5, -0.2}, {1, 0.5, 0.2}), true);
   int useful = 0, moments = 0;
@@ -78,7 +82,7 @@ void promises_hold() {
     const double now = distance(a, ma, b, mb, 0);
     if (now == 0) continue;
     const double level = uniform(0, 0.5) * now;
-    const MotionAnswer time = ask_motion(a, ma, b, mb, MotionQuestion::time(level, 1), {}, kNoLimit);
+    const MotionAnswer time = ask(a, ma, b, mb, MotionQuestion::time(level, 1), {}, kNoLimit);
     CHECK(time.value >= 0 && time.value <= 1);
     for (int k = 0; k <= 20; ++k) CHECK(distance(a, ma, b, mb, time.value * k / 20) >= level - kRounding);
     // No worse than what the speeds alone say, without any direction.
@@ -93,10 +97,10 @@ void promises_hold() {
     useful += time.value > 1.5 * undirected;
 
     const double window = uniform(0, 0.1);
-    const MotionAnswer gap = ask_motion(a, ma, b, mb, MotionQuestion::gap(window), {}, kNoLimit);
+    const MotionAnswer gap = ask(a, ma, b, mb, MotionQuestion::gap(window), {}, kNoLimit);
     CHECK(gap.upper >= now - kRounding);
     for (int k = -10; k <= 10; ++k) CHECK(distance(a, ma, b, mb, window * k / 10) >= gap.value - kRounding);
-    const MotionAnswer instant = ask_motion(a, ma, b, mb, MotionQuestion::gap(0), {}, kNoLimit);
+    const MotionAnswer instant = ask(a, ma, b, mb, MotionQuestion::gap(0), {}, kNoLimit);
     CHECK(std::fabs(instant.value - now) <= kRounding);
     CHECK(std::fabs(instant.upper - now) <= kRounding);
   }
@@ -107,10 +111,10 @@ void promises_hold() {
 void cut_short_is_less() {
   const Surface a = make_surface(uv_sphere(12), true);
   const Moving here{}, there{{{}, {5, 0.1, 0.2}}, {}, {-1, 0, 0}, {}};
-  const double full = ask_motion(a, here, a, there, MotionQuestion::time(0, 9), {}, kNoLimit).value;
+  const double full = ask(a, here, a, there, MotionQuestion::time(0, 9), {}, kNoLimit).value;
   CHECK(full > 2.9 && full < 3.2);
   for (const std::uint64_t work : {0u, 10u, 100u, 1000u}) {
-    const MotionAnswer cut = ask_motion(a, here, a, there, MotionQuestion::time(0, 9), {}, work);
+    const MotionAnswer cut = ask(a, here, a, there, MotionQuestion::time(0, 9), {}, work);
     CHECK(cut.value <= full);
     CHECK(cut.visits <= work + 40);  // the pair of nodes that was being looked at
   }
@@ -120,7 +124,7 @@ void sliding_is_not_slowed_down() {
   const Surface table = make_surface(box({-9, -9, -1}, {9, 9, 0}), true);
   const Surface brick = make_surface(box({0, 0, 0.001}, {1, 1, 1}), true);
   const Moving slides{{}, {}, {3, 2, 0}, {}}, spins{{}, {}, {}, {0, 0, 5}}, sinks{{}, {}, {3, 2, -0.01}, {}};
-  const auto time = [&](const Moving& m) { return ask_motion(brick, m, table, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value; };
+  const auto time = [&](const Moving& m) { return ask(brick, m, table, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value; };
   CHECK(time(slides) == 1);
   CHECK(time(spins) == 1);
   CHECK(std::fabs(time(sinks) - 0.1) < 1e-12);
@@ -135,7 +139,7 @@ void a_small_gap_between_edges_is_kept() {
     const Surface a = make_surface({{at - e, at + e, at - n * 3 + random_vector(2)}, {{0, 1, 2}}}, false);
     const Surface b = make_surface({{above - f, above + f, above + n * 3 + random_vector(2)}, {{0, 1, 2}}}, false);
     const Moving slides{{}, {}, f * 0.1, {}};
-    CHECK(ask_motion(a, slides, b, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
+    CHECK(ask(a, slides, b, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
   }
 }
 
@@ -146,7 +150,7 @@ void an_opening_door_is_not_held() {
   const Surface door = make_surface(box({-3, 0, 0}, {3, 1, 1}), true);
   const Moving opens{{}, {}, {}, {0, 0, 1}}, shuts{{}, {}, {}, {0, 0, -1}};
   const auto time = [&](const Moving& a, const Surface& s, const Moving& b, const Surface& t) {
-    return ask_motion(s, a, t, b, MotionQuestion::time(0, 1), {}, kNoLimit).value;
+    return ask(s, a, t, b, MotionQuestion::time(0, 1), {}, kNoLimit).value;
   };
   CHECK(time(opens, door, {}, sill) > 0.1);
   CHECK(time({}, sill, opens, door) > 0.1);
@@ -197,10 +201,10 @@ void a_flush_hinge_does_not_hold_a_door() {
   const Moving opens{{}, {}, {}, {0, 0, 1.5}};
   for (const double band : {1e-6, 1e-9}) {
     const MotionQuestion question = MotionQuestion::time(-band, 1);
-    CHECK(ask_motion(make_hull(door.vertices), opens, make_hull(frame.vertices), {}, question, {}).value == 1);
+    CHECK(ask(make_hull(door.vertices), opens, make_hull(frame.vertices), {}, question, {}).value == 1);
     const Surface moved_off = make_surface(box({band, -1, 0}, {9, 0, 9}), true), wall = make_surface(frame, true);
-    CHECK(ask_motion(moved_off, opens, wall, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
-    CHECK(ask_motion(wall, {}, moved_off, opens, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
+    CHECK(ask(moved_off, opens, wall, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
+    CHECK(ask(wall, {}, moved_off, opens, MotionQuestion::time(0, 1), {}, kNoLimit).value == 1);
   }
 }
 
@@ -224,12 +228,12 @@ void shapes_keep_their_promises() {
       return check_pair(a, pose(ma), b, pose(mb), Query::depth).upper;
     };
     const double window = uniform(0, 0.2);
-    const MotionAnswer gap = ask_motion(a, ma, b, mb, MotionQuestion::gap(window), {});
+    const MotionAnswer gap = ask(a, ma, b, mb, MotionQuestion::gap(window), {});
     CHECK(std::isfinite(gap.value) && gap.value <= gap.upper);
     overlapping += gap.upper < 0;
     for (int k = -10; k <= 10; ++k) CHECK(signed_distance(window * k / 10) >= gap.value - kRounding);
     const double level = gap.value - uniform(0, 1);
-    const MotionAnswer time = ask_motion(a, ma, b, mb, MotionQuestion::time(level, 1), {});
+    const MotionAnswer time = ask(a, ma, b, mb, MotionQuestion::time(level, 1), {});
     CHECK(time.value >= window * (1 - 1e-9));
     for (int k = 0; k <= 20; ++k) CHECK(signed_distance(time.value * k / 20) >= level - kRounding);
   }
@@ -251,12 +255,14 @@ void a_shape_and_a_surface_keep_theirs() {
     }
     ++moments;
     const double level = uniform(0, 0.5) * now, window = uniform(0, 0.1);
-    const MotionAnswer time = ask_motion(shape, two.a, b, two.b, MotionQuestion::time(level, 1), {}, kNoLimit);
-    const MotionAnswer gap = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(window), {}, kNoLimit);
+    const MotionAnswer time = ask(shape, two.a, b, two.b, MotionQuestion::time(level, 1), {}, kNoLimit);
+    const MotionAnswer gap = ask(shape, two.a, b, two.b, MotionQuestion::gap(window), {}, kNoLimit);
     CHECK(time.value > 0);
+    const MotionAnswer mirrored = ask(b, two.b, shape, two.a, MotionQuestion::time(level, 1), {}, kNoLimit);
+    CHECK(mirrored.value == time.value && mirrored.triangle_a == time.triangle_b && mirrored.triangle_b == kNoTriangle);
     for (int k = 0; k <= 20; ++k) CHECK(distance(a, two.a, b, two.b, time.value * k / 20) >= level - kRounding);
     for (int k = -10; k <= 10; ++k) CHECK(distance(a, two.a, b, two.b, window * k / 10) >= gap.value - kRounding);
-    const MotionAnswer instant = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(0), {}, kNoLimit);
+    const MotionAnswer instant = ask(shape, two.a, b, two.b, MotionQuestion::gap(0), {}, kNoLimit);
     CHECK(std::fabs(instant.value - now) <= kRounding);
     CHECK(std::fabs(instant.upper - now) <= kRounding);
   }
@@ -265,7 +271,7 @@ void a_shape_and_a_surface_keep_theirs() {
 
 }  // namespace
 
-UNIT(moving_surfaces) {
+UNIT(motion_search) {
   promises_hold();
   cut_short_is_less();
   sliding_is_not_slowed_down();
