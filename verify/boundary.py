@@ -13,12 +13,8 @@ from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
 
-import numpy as np
-
-from satcheck.report.certificate import OnBody
 from satcheck.verify.cells import cells_of, in_space, look, own_partners
-from satcheck.verify.evidence import on_body
-from satcheck.verify.exact import Point, Rejected, cross, dot, nearest_to_origin, sub
+from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, normal_of, sub
 from satcheck.verify.surfaces import close_pairs, common
 from satcheck.verify.world import Exact
 
@@ -43,34 +39,34 @@ class Boundary:
         corners = body.corners(t)
         if not body.world.solid:
             return [corners]
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        normal = normal_of(corners)
         if not any(normal):
             return []
         others = [body.corners(u) for u in own_partners(body, [t]).get(t, [])]
         pieces: list[Piece] = []
         for cell in cells_of(corners, normal, others):
-            _, [(front, back)] = look(corners, normal, cell, [body])
+            [(front, back)] = look(corners, normal, cell, [body])
             if not (front and back):
                 polygon = [in_space(corners, p) for p in cell]
                 pieces += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
         return pieces
 
-    def holds(self, p: Point) -> bool:
-        """p: on the lattice of the body."""
-        world = self.body.world
-        at = [float(c / (1 << self.body.k)) for c in p]
-        low, high = np.nextafter(at, -np.inf), np.nextafter(at, np.inf)
-        near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
-        point: Piece = (p, p, p)
-        return any(common(piece, point) for t in near.tolist() for piece in self.pieces(t))
+
+def meet(a: Exact, b: Exact, contacts: list[tuple[int, int]], across: int | None = None) -> bool:
+    """Whether one of these pairs of triangles has a common point of both boundaries. across: of
+    prisms of one height along this axis, a point between their ends."""
+    of_a, of_b = Boundary(a), Boundary(b)
+    for s, t in contacts:
+        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
+            shared = common(p, q)
+            if shared and (across is None or not _is_at_end(shared, a, across)):
+                return True
+    return False
 
 
-def boundary_point(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
-    """The point of the evidence: any point of a convex body, a boundary point of another body."""
-    p = on_body(point, body, of_hull=of_hull)
-    if not of_hull and not Boundary(body).holds(p):
-        raise Rejected("a point lies within the material")
-    return p
+def _is_at_end(shared: list[Point], prism: Exact, across: int) -> bool:
+    middle = sum((p[across] for p in shared), Fraction()) / len(shared)
+    return abs(middle) == abs(prism.points[0][across])
 
 
 def contacts_if_apart(

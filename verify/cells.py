@@ -17,7 +17,17 @@ from fractions import Fraction
 
 import numpy as np
 
-from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub, turn
+from satcheck.verify.exact import (
+    IntVector,
+    Point,
+    Rejected,
+    cross,
+    dot,
+    normal_of,
+    point,
+    sub,
+    turn,
+)
 from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Corners, Exact
 
@@ -33,19 +43,14 @@ UNIT_CELL: list[Plane] = [
 ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
 MOST_CELLS = 200_000
 BLOCK = 256  # triangles whose own partners are looked up at once
+FIRST = 4  # triangles of each region, most of which show how it lies
 
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """A point of a triangle, off all edges, and the facts in front of it and behind it: (in A, in
-    B).
+    """The facts in front of a piece of a triangle and behind it: (in A, in B). A surface that is
+    not solid has no inside."""
 
-    A surface that is not solid has no inside.
-    """
-
-    triangle: int
-    point: Point
-    normal: IntVector
     front: tuple[bool, bool]
     back: tuple[bool, bool]
 
@@ -54,36 +59,31 @@ class Sides:
 class CutTriangle:
     """A triangle of a surface, and the convex cells that all it shares with others cut it into."""
 
-    number: int
     corners: Corners
     normal: IntVector
     cells: list[list[Plane]]
 
 
 def sides_of(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], triangles: list[int]
 ) -> Iterator[Sides]:
-    """Both sides of every cell of the triangles of A, as `cells_in` has them."""
-    for triangle in cells_in(a, b, contacts, wanted):
+    """Both sides of every cell of these triangles of A, as `cells_in` has them."""
+    for triangle in cells_in(a, b, contacts, triangles):
         for cell in triangle.cells:
             yield sides_of_cell(triangle, cell, a, b)
 
 
 def cells_in(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], triangles: list[int]
 ) -> Iterator[CutTriangle]:
-    """The triangles of A that have an area.
-
-    contacts: all pairs of triangles that meet. wanted: whether to include a region that B does not
-    meet; its argument: whether the region lies inside B.
-    """
+    """Those of the triangles of A that have an area. contacts: all pairs in which they meet B."""
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
         partners.setdefault(s, []).append(t)
     total = 0
-    for t, own in _with_own_partners(a, chosen(a, b, set(partners), wanted)):
+    for t, own in _with_own_partners(a, triangles):
         corners = a.corners(t)
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        normal = normal_of(corners)
         if not any(normal):
             continue
         others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own]
@@ -91,27 +91,29 @@ def cells_in(
         total += len(cells)
         if total > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
-        yield CutTriangle(t, corners, normal, cells)
+        yield CutTriangle(corners, normal, cells)
 
 
-def chosen(a: Exact, b: Exact, touching: set[int], wanted: Callable[[bool], bool]) -> list[int]:
-    """The triangles of A that touch B, and those of the regions that are wanted."""
-    triangles = sorted(touching)
-    for region, vertex in _regions(a, touching):
-        if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
-            triangles += region
-    return triangles
+def chosen(
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+) -> list[int]:
+    """The triangles of A that touch B, then a few of each region that B does not meet, and then the
+    others. contacts: all pairs that meet. wanted: whether to include a region; its argument:
+    whether it lies inside B."""
+    touching = {s for s, _ in contacts}
+    regions = [
+        region
+        for region, vertex in _regions(a, touching)
+        if wanted(b.world.solid and _winding(b, point(a.points[vertex])) != 0)
+    ]
+    parts = [slice(FIRST), slice(FIRST, None)]
+    return sorted(touching) + [t for part in parts for region in regions for t in region[part]]
 
 
 def sides_of_cell(triangle: CutTriangle, cell: list[Plane], a: Exact, b: Exact) -> Sides:
     """Of a triangle of A."""
-    corners, normal = triangle.corners, triangle.normal
-    point, (in_a, in_b) = look(corners, normal, cell, (a, b))
-    return Sides(triangle.number, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
-
-
-def _point(p: IntVector) -> Point:
-    return Fraction(p[0]), Fraction(p[1]), Fraction(p[2])
+    in_a, in_b = look(triangle.corners, triangle.normal, cell, (a, b))
+    return Sides((in_a[0], in_b[0]), (in_a[1], in_b[1]))
 
 
 def _winding(solid: Exact, p: Point) -> int:
@@ -157,12 +159,11 @@ def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set
     sheets = set()
     for t, own in _with_own_partners(body, triangles):
         corners = body.corners(t)
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        normal = normal_of(corners)
         if not own or not any(normal):
             continue  # only where it meets its own surface has a triangle the same on both sides
         for cell in cells_of(corners, normal, [body.corners(u) for u in own]):
-            _, [sides] = look(corners, normal, cell, [body])
-            if sides == (False, False):
+            if look(corners, normal, cell, [body]) == [(False, False)]:
                 sheets.add(t)
                 break
     return sheets
@@ -198,19 +199,9 @@ def _cuts(corners: Corners, normal: IntVector, others: list[Corners]) -> list[Se
 
 def _in_plane(corners: Corners, normal: IntVector, p: Point) -> Plane:
     origin, e, f = corners[0], sub(corners[1], corners[0]), sub(corners[2], corners[0])
-    step = [p[k] - origin[k] for k in range(3)]
-    size = dot(normal, normal)
-    s = (
-        step[1] * f[2] - step[2] * f[1],
-        step[2] * f[0] - step[0] * f[2],
-        step[0] * f[1] - step[1] * f[0],
-    )
-    r = (
-        e[1] * step[2] - e[2] * step[1],
-        e[2] * step[0] - e[0] * step[2],
-        e[0] * step[1] - e[1] * step[0],
-    )
-    return dot(s, normal) / Fraction(size), dot(r, normal) / Fraction(size)
+    step = sub(p, origin)
+    size = Fraction(dot(normal, normal))
+    return dot(cross(step, f), normal) / size, dot(cross(e, step), normal) / size
 
 
 def _inside(edge: Segment) -> bool:
@@ -267,31 +258,23 @@ def _split(cell: list[Plane], edge: Segment) -> list[list[Plane]]:
 
 
 def in_space(corners: Corners, p: Plane) -> Point:
-    x, y, z = (
-        corners[0][k]
-        + p[0] * (corners[1][k] - corners[0][k])
-        + p[1] * (corners[2][k] - corners[0][k])
-        for k in range(3)
-    )
-    return x, y, z
+    return point(u + p[0] * (v - u) + p[1] * (w - u) for u, v, w in zip(*corners, strict=True))
 
 
 def look(
     corners: Corners, normal: IntVector, cell: list[Plane], bodies: Sequence[Exact]
-) -> tuple[Point, list[tuple[bool, bool]]]:
-    """A point of the open cell, and for each body whether it lies in front of and behind the point.
-
-    The point is the middle, or a point near it that lies on no triangle of another plane.
-    """
+) -> list[tuple[bool, bool]]:
+    """For each body whether it lies in front of and behind a point of the open cell: the middle, or
+    a point near it that lies on no triangle of another plane."""
     for attempt in range(ATTEMPTS):
         weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]
         s, r = (
             sum((w * p[k] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
             for k in range(2)
         )
-        point = in_space(corners, (s, r))
-        seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in bodies]
+        at = in_space(corners, (s, r))
+        seen = [e.beside(at, normal) if e.world.solid else (0, 0) for e in bodies]
         sides = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
         if len(sides) == len(seen):
-            return point, sides
+            return sides
     raise Rejected("every point tried of a piece of the contact lies on another triangle")

@@ -16,7 +16,7 @@ from math import ceil
 from satcheck.report.certificate import Cover
 from satcheck.verify.cells import UNIT_CELL, look, own_partners
 from satcheck.verify.evidence import index
-from satcheck.verify.exact import IntVector, Rejected, cross, dot, sub
+from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
 
@@ -121,7 +121,7 @@ def not_plain(body: Exact, triangles: list[int]) -> list[int]:
 
 def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
     corners = body.corners(t)
-    normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+    normal = normal_of(corners)
     if not any(normal):
         return False
     inward = [cross(normal, sub(corners[(k + 1) % 3], corners[k])) for k in range(3)]
@@ -131,5 +131,5 @@ def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
         middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
         if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
             return False
-    _, [(front, back)] = look(corners, normal, UNIT_CELL, [body])
+    [(front, back)] = look(corners, normal, UNIT_CELL, [body])
     return front != back

@@ -11,7 +11,7 @@ from msgspec import UnsetType
 
 from satcheck.report.certificate import Exact as Number
 from satcheck.report.certificate import OnBody
-from satcheck.verify.exact import Point, Rejected, dot
+from satcheck.verify.exact import Point, Rejected, point
 from satcheck.verify.world import Exact
 
 # Longer numbers would take unbounded time.
@@ -36,8 +36,7 @@ def rational(number: Number) -> Fraction:
 
 
 def vector(numbers: Sequence[Number]) -> Point:
-    x, y, z = map(rational, numbers)
-    return x, y, z
+    return point(map(rational, numbers))
 
 
 def axis(numbers: Sequence[Number]) -> Point:
@@ -53,39 +52,18 @@ def index(number: int, count: int) -> int:
     return number
 
 
-def on_body(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
+def on_body(end: OnBody, body: Exact, *, of_hull: bool) -> Point:
     """A convex combination of the corners of one triangle, or of any vertices if the body is
     convex. On the lattice of the pair."""
-    vertices, weights = given(point.vertices, "vertices"), given(point.weights, "weights")
+    vertices, weights = given(end.vertices, "vertices"), given(end.weights, "weights")
     if not 1 <= len(vertices) == len(weights) <= 4:
         raise Rejected("a point on a body has one to four vertices, each with a weight")
     chosen = [index(v, len(body.points)) for v in vertices]
     shares = [rational(w) for w in weights]
     if min(shares) < 0 or sum(shares) != 1:
         raise Rejected("weights are not negative and sum to 1")
-    if not of_hull:
-        triangle_of(chosen, body)
-    points = [body.points[v] for v in chosen]
-    x, y, z = (
-        sum((w * p[k] for w, p in zip(shares, points, strict=True)), Fraction()) for k in range(3)
-    )
-    return x, y, z
-
-
-def triangle_of(vertices: Sequence[int], body: Exact) -> int:
-    """A triangle that has all these corners."""
-    holds = (body.world.triangles[:, :, None] == vertices).any(axis=1).all(axis=1)
-    if not holds.any():
+    corners = body.world.triangles[:, :, None] == chosen
+    if not of_hull and not corners.any(axis=1).all(axis=1).any():
         raise Rejected("the vertices of a point on a surface are corners of one triangle")
-    return int(holds.argmax())
-
-
-def gap_along(a: Exact, b: Exact, n: Point) -> Fraction:
-    """min_B n.b - max_A n.a, world units times |n|: over 0 the axis separates."""
-    forth, back = n, (-n[0], -n[1], -n[2])
-    return Fraction(-b.extent(back) - a.extent(forth)) / (1 << a.k)
-
-
-def exceeds(gap: Fraction, n: Point, length: Fraction) -> bool:
-    """Whether a gap along n is more than this length."""
-    return gap > 0 and gap * gap > length * length * dot(n, n)
+    points = [body.points[v] for v in chosen]
+    return point(sum(w * p[k] for w, p in zip(shares, points, strict=True)) for k in range(3))

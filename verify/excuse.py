@@ -14,9 +14,9 @@ from satcheck.report.certificate import Excuse
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import EXACT_WIDTH
+from satcheck.verify.pairs import Pair
 from satcheck.verify.passing import neither_passes
 from satcheck.verify.reach import reaches_no_deeper
-from satcheck.verify.relations import Pair
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.thickness import at_most, holds_ball
 

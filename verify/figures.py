@@ -21,7 +21,7 @@ from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
+from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, root, sub
 from satcheck.verify.world import World
 
 # An interval of this relative width comes from rounding alone.
@@ -177,7 +177,7 @@ def _check_witness(finding: Finding, bodies: tuple[Placed, Placed], rounding: Ro
     if witness is None:
         return
     ends = vector(witness.a), vector(witness.b)
-    step = sub(ends[1], ends[0])  # type: ignore[arg-type]
+    step = sub(ends[1], ends[0])
     overlap = finding.exact_relation in OVERLAPS
     length = Fraction(-(finding.depth or 0.0) if overlap else finding.distance or 0.0)
     slack = rounding.of(length)
@@ -300,13 +300,4 @@ def _unit(direction: Vector) -> Point:
 
 
 def _length(v: Sequence[Fraction | int]) -> Fraction:
-    return square_root(Fraction(sum(c * c for c in v)))
-
-
-def square_root(squared: Fraction) -> Fraction:
-    """To a relative 2**-60."""
-    if squared == 0:
-        return Fraction(0)
-    shift = max(squared.denominator.bit_length() - squared.numerator.bit_length(), 0) // 2 + 64
-    whole = math.isqrt((squared.numerator << 2 * shift) // squared.denominator)
-    return Fraction(whole, 1 << shift)
+    return root(Fraction(sum(c * c for c in v)))[0]

@@ -11,11 +11,10 @@ from satcheck.report.certificate import Band, Certificate
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
-from satcheck.verify.clearance import GapProof, check_claims, least_gap, prove_apart
+from satcheck.verify.clearance import check_claims, least_gap
 from satcheck.verify.cover import depth_is_at_least
-from satcheck.verify.curved_finding import check_curved
-from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
-from satcheck.verify.evidence import axis, gap_along, given, vector
+from satcheck.verify.distances import check_distance, prove_apart, spanned
+from satcheck.verify.evidence import axis, given, vector
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
@@ -30,12 +29,12 @@ from satcheck.verify.holes import check_holes, check_pieces
 from satcheck.verify.in_plane import (
     check_in_plane,
     check_overlap_of_curves,
-    check_proof_in_plane,
     curve_error,
     reaching,
 )
+from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, pair_of
 from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.relations import Pair, pair_of, prove
+from satcheck.verify.relations import prove
 from satcheck.verify.severity import ProvenFields, proven_depth
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.way_out import check_mtv, prove_way_out
@@ -51,120 +50,104 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
     check_figures(finding, a, b)
-    if a.curved is not None or b.curved is not None:
-        return check_curved(finding, certificate, a, b, request, tolerance)
-    pair = pair_of(a, b, a.mesh, b.mesh)
-    relation, exact = finding.relation, finding.exact_relation
+    pair = any_pair_of(a, b)
     closer = curve_error(a, b)
-    hulls_apart = _prove_relation(finding, certificate, pair, a, b, request, tolerance)
+    hulls_apart = _prove_relation(finding, certificate, pair, (a, b), request, tolerance)
     mtv = check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair, closer)
     covered = _check_cover(finding, certificate, pair)
     rounding = rounding_of(a, b)
-    if pair.convex:
-        directed = spanned(finding, rounding, hulls_are_apart(pair))
-    else:
-        directed = mtv or shows_direction(finding, a, b)
-    error = _check_distance(finding, certificate, pair)
-    block = (a.endless or b.endless) and exact != "touching"
-    if closer or a.holed or b.holed or block:  # the block of a half space may be off
-        error = None
-    proven = ProvenFields(depth or (covered and mtv), mtv, error, directed or mtv)
+    spans = pair.convex and spanned(finding, rounding, pair)
+    directed = spans or mtv or (not pair.convex and shows_direction(finding, a, b))
+    block = (a.endless or b.endless) and finding.exact_relation != "touching"
+    error = None
+    if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
+        error = _check_distance(finding, certificate, pair, rounding, spans)
+    proven = ProvenFields(depth or (covered and mtv), mtv, error, directed)
     most = proven_depth(finding, replace(proven, depth=depth))
     thickest = _check_thickness(finding, certificate, pair, closer, most)
-    proven = _with_thickness(proven, finding, closer, thickest, rounding)
-    if exact not in OVERLAPS and not hulls_apart:
+    if isinstance(pair, Pair):
+        proven = replace(
+            proven,
+            ball=finding.thickness_bounds is not None and not closer,
+            thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
+        )
+    if finding.exact_relation not in OVERLAPS and not hulls_apart:
         check_holes(a, b, max(tolerance, Fraction(request.clearance or 0.0)))
         check_pieces(a, b)
 
     slack = rounding.of(tolerance)
-    if relation == "near":
+    if finding.relation == "near":
         prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
-    if relation in OVERLAPS and most is not None and most + slack < tolerance:
+    if finding.relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    gap = GapProof(
-        lambda: squared_gap(given(certificate.gap, "gap"), pair),
-        lambda least: prove_apart(certificate, pair, (a, b), least),
-        closer,
-    )
 
     def is_in_band(band: Fraction) -> bool:
         return _is_in_band(finding, certificate.band, pair, (a, b), band, proven)
 
-    check_claims(finding, request, tolerance, gap, is_in_band, (most, thickest))
+    bounds = most, thickest
+    check_claims(finding, certificate, pair, (a, b), request, tolerance, is_in_band, bounds)
     return proven
-
-
-def _with_thickness(
-    proven: ProvenFields,
-    finding: Finding,
-    closer: Fraction,
-    thickest: Fraction | None,
-    rounding: Rounding,
-) -> ProvenFields:
-    """thickest: a proven upper bound of the thickness; None: there is none."""
-    return replace(
-        proven,
-        ball=finding.thickness_bounds is not None and not closer,
-        thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
-    )
 
 
 def _prove_relation(
     finding: Finding,
     certificate: Certificate,
-    pair: Pair,
-    a: Placed,
-    b: Placed,
+    pair: AnyPair,
+    bodies: tuple[Placed, Placed],
     request: Request,
     tolerance: Fraction,
 ) -> bool:
     """Returns whether the relation also holds for the hulls; then neither body can lie inside the
     other."""
-    relation, proof, ends = finding.exact_relation, certificate.relation, pair
-    closer = curve_error(a, b)
-    if request.across is not None:
+    relation, ends = finding.exact_relation, pair
+    closer = curve_error(*bodies)
+    if request.across is not None and isinstance(pair, Pair):
         check_in_plane(finding, certificate, request.across)
-        ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, request.across))
-        check_proof_in_plane(proof, ends, request.across)
+        worlds = reaching(relation, pair.a.world, pair.b.world, request.across)
+        ends = replace(pair_of(*bodies, *worlds), across=request.across)
         if relation != "separated":
             check_overlap_of_curves(relation, closer, ends, request.across)
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
     least = least_gap(finding, request) + closer
-    return prove(relation, proof, ends, max(beyond, closer), least)
+    return prove(relation, certificate.relation, ends, max(beyond, closer), least)
 
 
-def _check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
+def _check_distance(
+    finding: Finding, certificate: Certificate, pair: AnyPair, rounding: Rounding, spans: bool
+) -> Fraction | None:
     """Return how far the distance may be off; None: it is not proven."""
+    if isinstance(pair, Pair):
+        return check_distance(finding, certificate, pair)
     if finding.exact_relation == "touching":
         return Fraction(0)
-    if isinstance(certificate.distance, UnsetType) or finding.distance is None:
-        return None
-    return check_distance(finding.distance, certificate.distance, pair)
+    return 2 * rounding.of(Fraction(finding.distance or 0.0)) if spans else None
 
 
-def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, closer: Fraction) -> bool:
+def _check_depth(
+    finding: Finding, certificate: Certificate, pair: AnyPair, closer: Fraction
+) -> bool:
     """Checks the interval of the depth: a ball in the Minkowski difference proves the lower bound,
     an axis the upper bound."""
     bounds, proof = finding.depth_bounds, certificate.depth
     if bounds is None or isinstance(proof, UnsetType):
         return False
     low, high = map(Fraction, bounds)
-    if not pair.convex:
-        raise Rejected("a depth is certified for convex bodies only")
+    if not (isinstance(pair, Pair) and pair.convex):
+        raise Rejected("a depth is certified for convex meshes only")
     inner_radius_exceeds(proof.lower, pair.a, pair.b, low)
-    if not depth_at_most(axis(proof.upper), pair, high - closer):
+    if pair.gap(axis(proof.upper), closer - high) < 0:
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
 
 
-def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool:
+def _check_cover(finding: Finding, certificate: Certificate, pair: AnyPair) -> bool:
     """Checks the lower bound of the depth of bodies that are not both convex, if it is
     certified."""
     if isinstance(certificate.cover, UnsetType):
         return False
-    if finding.depth_bounds is None:
-        raise Rejected("a cover, and no depth")
+    if finding.depth_bounds is None or not isinstance(pair, Pair):
+        raise Rejected("a cover, and no depth of meshes")
     depth_is_at_least(certificate.cover, pair.a, pair.b, Fraction(finding.depth_bounds[0]))
     return True
 
@@ -172,7 +155,7 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool
 def _check_thickness(
     finding: Finding,
     certificate: Certificate,
-    pair: Pair,
+    pair: AnyPair,
     closer: Fraction,
     depth: Fraction | None,
 ) -> Fraction | None:
@@ -181,7 +164,7 @@ def _check_thickness(
     check in a plane are higher than wide: the largest ball in both has the diameter of the largest
     disc. Of curves nothing is proven."""
     cells = certificate.thickness
-    if finding.thickness is None or closer:
+    if finding.thickness is None or closer or not isinstance(pair, Pair):
         if not isinstance(cells, UnsetType):
             raise Rejected("cells, and no thickness of polyhedra")
         return depth
@@ -200,17 +183,10 @@ def _granted(figure: float | None, rounding: Rounding) -> Fraction:
     return length + rounding.of(length)
 
 
-def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
-    """Return whether a translation of A against this axis by the length, world units, frees it from
-    B."""
-    overlap = -gap_along(pair.a, pair.b, n)
-    return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
-
-
 def _is_in_band(
     finding: Finding,
     proof: Band | UnsetType,
-    pair: Pair,
+    pair: AnyPair,
     bodies: tuple[Placed, Placed],
     band: Fraction,
     proven: ProvenFields,
@@ -222,11 +198,11 @@ def _is_in_band(
             return True
         return proven.mtv and finding.mtv is not None and _is_short(vector(finding.mtv), band)
     if not isinstance(proof.axis, UnsetType):
-        if pair.convex and depth_at_most(axis(proof.axis), pair, band):
+        if pair.convex and pair.gap(axis(proof.axis), -band) >= 0:
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
     if not isinstance(proof.excuse, UnsetType):
-        if curve_error(*bodies):
+        if curve_error(*bodies) or not isinstance(pair, Pair):
             raise Rejected("an excuse of polygons, and not of their curves")
         is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
         return True

@@ -20,14 +20,17 @@ from satcheck.verify.evidence import on_body, vector
 from satcheck.verify.exact import (
     IntVector,
     NotCertified,
+    Point,
     Rejected,
-    cross,
     dot,
     nearest_to_origin,
+    normal_of,
+    point,
+    sign_of,
     sub,
 )
-from satcheck.verify.relations import check_within, pair_of
-from satcheck.verify.roots import sign_of
+from satcheck.verify.pairs import pair_of, reach
+from satcheck.verify.relations import check_within
 from satcheck.verify.statics.terms import body_terms
 from satcheck.verify.world import Exact, World
 
@@ -127,42 +130,27 @@ def _check_beyond_faces(
 def _is_beyond(body: Placed, region: World, limit: float) -> bool:
     """Return whether a point of the body lies farther beyond a face of the convex region than the
     limit, or as far and the limit is not 0."""
-    k = region.lattice if body.world is None else max(region.lattice, body.world.lattice)
-    faces = Exact(region, k)
-    mesh = None if body.world is None else Exact(body.world, k)
-    return any(
-        _reaches(body, mesh, normal, at, k, Fraction(limit)) for normal, at in _planes(faces)
-    )
+    faces = Exact(region, region.lattice)
+    shape = body.curved or Exact(body.mesh, body.mesh.lattice)
+    for n, at in _planes(faces):
+        far, level = reach(shape, point(n)), Fraction(dot(n, at), 1 << faces.k)
+        if sign_of(far.q - level, [Fraction(limit) ** 2 * dot(n, n)], [far.p]) > 0:
+            return True
+    return False
 
 
 def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
     """The plane of each face that has an area, once: its outward normal, and a point of it."""
     seen = set()
     for t in range(len(faces.world.triangles)):
-        a, b, c = faces.corners(t)
-        normal = cross(sub(b, a), sub(c, a))
+        a, *_ = corners = faces.corners(t)
+        normal = normal_of(corners)
         if any(normal):
             divisor = int(np.gcd.reduce(np.array(normal, dtype=object)))
             x, y, z = (n // divisor for n in normal)
             if ((x, y, z), dot((x, y, z), a)) not in seen:
                 seen.add(((x, y, z), dot((x, y, z), a)))
                 yield (x, y, z), a
-
-
-def _reaches(
-    body: Placed, mesh: Exact | None, normal: IntVector, at: IntVector, k: int, limit: Fraction
-) -> bool:
-    """Return whether the body reaches beyond the plane by more than the limit."""
-    squared = (limit * (1 << k)) ** 2 * dot(normal, normal)
-    if mesh is not None:
-        height = mesh.extent(normal) - dot(normal, at)
-        return bool(height > 0 and height * height > squared)
-    assert body.curved is not None
-    x, y, z = map(Fraction, normal)
-    reach = body.curved.reach((x, y, z))
-    scale = 1 << k
-    # q + root(p) > level + root(limit): the sign of their difference, on the lattice.
-    return sign_of(reach.q * scale - dot(normal, at), [squared], [reach.p * scale * scale]) > 0
 
 
 def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
@@ -184,7 +172,7 @@ def _check_point(finding: InsideFinding, body: World, region: World, tolerance: 
         raise Rejected("the point is closer to the region than claimed")
 
 
-def _is_near(p: tuple[Fraction, ...], surface: Exact, reach: Fraction) -> bool:
+def _is_near(p: Point, surface: Exact, reach: Fraction) -> bool:
     """Return whether the surface is closer than `reach`, or as close as the tolerance."""
     scale = 1 << surface.k
     at = np.array([float(c / scale) for c in p])
@@ -193,7 +181,7 @@ def _is_near(p: tuple[Fraction, ...], surface: Exact, reach: Fraction) -> bool:
     near = ((world.low <= at + wide) & (world.high >= at - wide)).all(axis=1)
     within = (reach * scale) ** 2
     for t in np.flatnonzero(near).tolist():
-        x, _ = nearest_to_origin([sub(c, p) for c in surface.corners(t)])  # type: ignore[arg-type]
+        x, _ = nearest_to_origin([sub(c, p) for c in surface.corners(t)])
         if dot(x, x) < within:
             return True
     return False

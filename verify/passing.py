@@ -16,9 +16,9 @@ from itertools import pairwise
 from math import gcd, lcm
 from typing import Any
 
-from satcheck.verify.cells import Sides, cells_in, in_space, sides_of_cell
-from satcheck.verify.exact import Point, Rejected, cross, dot
-from satcheck.verify.relations import Pair
+from satcheck.verify.cells import Sides, cells_in, chosen, in_space, sides_of_cell
+from satcheck.verify.exact import Point, Rejected, cross, dot, sub
+from satcheck.verify.pairs import Pair
 
 MOST_CELLS = 10_000
 Line = tuple[Any, Any]
@@ -74,7 +74,7 @@ def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Fac
     views = (pair.a, pair.b, contacts), (pair.b, pair.a, [(t, s) for s, t in contacts])
     count = 0
     for body, (x, y, pairs) in enumerate(views):
-        for triangle in cells_in(x, y, pairs, lambda inside: inside):
+        for triangle in cells_in(x, y, pairs, chosen(x, y, pairs, lambda inside: inside)):
             for cell in triangle.cells:
                 sides = sides_of_cell(triangle, cell, x, y)
                 if not _bounds(sides):
@@ -96,14 +96,13 @@ def _bounds(sides: Sides) -> bool:
 
 def _on_line(p: Point, q: Point) -> tuple[Line, Fraction, Fraction]:
     """The line through two points, which has one form only, and where they are along it."""
-    step = [v - u for u, v in zip(p, q, strict=True)]
+    step = sub(q, p)
     scale = lcm(*(c.denominator for c in step))
     whole = [int(c * scale) for c in step]
     shortest = gcd(*whole) * (1 if tuple(whole) > (0, 0, 0) else -1)
     x, y, z = (c // shortest for c in whole)
     along = x, y, z
-    moment = cross(p, along)  # type: ignore[arg-type]
-    return (along, moment), dot(p, along), dot(q, along)
+    return (along, cross(p, along)), dot(p, along), dot(q, along)
 
 
 def _side_by_side(stretches: list[Stretch]) -> Iterator[list[Face]]:

@@ -23,17 +23,15 @@ from satcheck.report.certificate import Face, Plane
 from satcheck.verify.evidence import index
 from satcheck.verify.exact import (
     Floats,
-    IntVector,
     Pair,
     Point,
     Rejected,
-    cross,
     dot,
     homogeneous,
     nearest_to_origin,
+    normal_of,
     planar_hull,
-    root_above,
-    root_below,
+    root,
     sub,
     turn,
 )
@@ -59,7 +57,7 @@ class Piece:
 
     def distance(self, p: Point) -> Fraction:
         """On the lattice, no less than it is."""
-        return min(root_above(squared_distance(p, t)) for t in self.triangles) + self.bend
+        return min(root(squared_distance(p, t))[1] for t in self.triangles) + self.bend
 
     def above(self, points: Floats) -> Floats:
         """At least the distances of points (n, 3) of the world, (n,)."""
@@ -91,7 +89,7 @@ class Side:
         """How far behind the plane, on the lattice, no less than it is; below 0 in front of it."""
         behind = self.limit - dot(self.normal, p)
         squared = Fraction(behind) ** 2 / dot(self.normal, self.normal)
-        return root_above(squared) if behind >= 0 else -root_below(squared)
+        return root(squared)[1] if behind >= 0 else -root(squared)[0]
 
     def above(self, points: Floats) -> Floats:
         """At least how far points (n, 3) of the world are behind the plane, (n,)."""
@@ -135,13 +133,9 @@ def patch_of(patch: Face | Plane, body: Exact, frame: Frame) -> Piece | Side:
     return joined(numbers, corners, body)
 
 
-def _normal(t: Corners) -> IntVector:
-    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
-
-
 def joined(numbers: list[int], corners: list[Corners], body: Exact) -> Piece:
     """The hull of triangles that fill one. Rejects others."""
-    normal = next((n for t in corners if any(n := _normal(t))), (0, 0, 0))
+    normal = next((n for t in corners if any(n := normal_of(t))), (0, 0, 0))
     across = max(range(3), key=lambda k: abs(normal[k]))
     if normal[across] == 0:
         raise Rejected("a patch has an area")

@@ -21,7 +21,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.verify.cells import chosen
-from satcheck.verify.exact import Floats, Point, Rejected
+from satcheck.verify.exact import Floats, Point, Rejected, point
 from satcheck.verify.patches import TINY, Piece, joined, lengths, next_points, slack
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices
@@ -41,8 +41,7 @@ def reaches_no_deeper(
     """Rejects a body unless it is proven that no point of its surface lies deeper than the length,
     world units, in the solid. contacts: all pairs of triangles that meet."""
     reach = _Reach(body, solid, float(length) * (1 - SUM_ERROR))
-    touching = {s for s, _ in contacts}
-    inside = chosen(body, solid, touching, lambda inside: inside)
+    inside = chosen(body, solid, contacts, lambda inside: inside)
     triangles = body.world.vertices[body.world.triangles[inside]]
     for triangle in triangles[~reach.is_shallow(triangles)]:
         reach.is_kept(triangle)
@@ -135,8 +134,7 @@ class _Reach:
         return kept
 
     def _on_lattice(self, p: Floats) -> Point:
-        x, y, z = (Fraction(c) * (1 << self.solid.k) for c in p.tolist())
-        return x, y, z
+        return point(Fraction(c) * (1 << self.solid.k) for c in p.tolist())
 
 
 def _distances(point: Floats, triangles: Floats) -> tuple[Floats, Floats]:

@@ -17,7 +17,7 @@ from satcheck.report.judge import by_rule, disputed, judged
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Rejected, dot, root_above
+from satcheck.verify.exact import Rejected, dot, root
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,5 +87,5 @@ def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
         bounds.append(Fraction(finding.depth))
     if proven.mtv and finding.mtv is not None:
         move = vector(finding.mtv)
-        bounds.append(root_above(dot(move, move)))
+        bounds.append(root(dot(move, move))[1])
     return min(bounds, default=None)

@@ -14,7 +14,7 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import Any
 
-from satcheck.verify.exact import Point, Rejected, cross, dot, sign, sub
+from satcheck.verify.exact import Point, Rejected, cross, dot, normal_of, sign, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
 
@@ -42,7 +42,7 @@ def no_crossing(a: Exact, b: Exact, contacts: list[tuple[int, int]]) -> None:
 
 def _changes(p: Point, q: Point, of_a: list[Corners], of_b: list[Corners]) -> int:
     """The number of changes between pages of A and pages of B, going around the line p q."""
-    line: Any = tuple(y - x for x, y in zip(p, q, strict=True))
+    line = sub(q, p)
     for share in SHARES:
         point: Any = tuple(x + share * along for x, along in zip(p, line, strict=True))
         try:
@@ -60,7 +60,7 @@ class _OnAnEdge(Exception):
 
 def _pages(corners: Corners, x: Point, line: Any) -> Iterator[Any]:
     """The directions, square to the line, in which a triangle leaves a point of the line."""
-    normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+    normal = normal_of(corners)
     if not any(normal) or dot(normal, x) != dot(normal, corners[0]):
         return
     edge_inward = None

@@ -13,10 +13,12 @@ from satcheck.verify.exact import (
     Floats,
     IntVector,
     Point,
-    Rejected,
+    TooMany,
     cross,
     dot,
     nearest_to_origin,
+    normal_of,
+    point,
     sub,
 )
 from satcheck.verify.world import Corners, Exact, Indices
@@ -52,7 +54,7 @@ def near_pairs(
             k, m = np.nonzero(near)
             total += len(k)
             if total > most:
-                raise Rejected(f"more than {most:,} pairs of triangles lie close together")
+                raise TooMany(f"more than {most:,} pairs of triangles lie close together")
             if k.size:
                 yield i[k], j[m]
         elif i.size >= j.size:
@@ -155,24 +157,20 @@ def common(a: Corners, b: Corners) -> list[Point]:
     One is clipped by half-spaces whose common region is the other: I. E. Sutherland, G. W.
     Hodgman, "Reentrant Polygon Clipping" (1974). A triangle may be a segment or a point.
     """
-    if not any(_normal(a)):
+    if not any(normal_of(a)):
         a, b = b, a
     region: list[Any] = list(b)  # integers, and rationals only where something is cut off
     for normal, limit in half_spaces(a):
         region = clipped(region, normal, limit)
         if not region:
             break
-    return [(Fraction(p[0]), Fraction(p[1]), Fraction(p[2])) for p in region]
-
-
-def _normal(t: Corners) -> IntVector:
-    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
+    return [point(p) for p in region]
 
 
 def half_spaces(t: Corners) -> list[HalfSpace]:
     """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
     segment or a point."""
-    n = _normal(t)
+    n = normal_of(t)
     if any(n):
         normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
         anchors = [t[0], t[0], *t]

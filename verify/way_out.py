@@ -7,16 +7,16 @@ from fractions import Fraction
 import numpy as np
 from msgspec import UnsetType
 
-from satcheck.report.certificate import AxisProof, Certificate, Proof
+from satcheck.report.certificate import Certificate, Proof, SurfacesProof
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.verify.bodies import Placed
-from satcheck.verify.curved_pair import curved_pair_of
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.figures import EXACT_WIDTH, rounding_of
 from satcheck.verify.holes import check_holes
 from satcheck.verify.in_plane import curve_error, leaves_gap_of_curves
-from satcheck.verify.relations import pair_of, prove_free
+from satcheck.verify.pairs import any_pair_of
+from satcheck.verify.relations import prove_free
 
 
 def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
@@ -48,12 +48,9 @@ def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
     if not np.isfinite(offset).all():
         raise Rejected("a translation is finite")
     moved = a.moved(offset)
-    if a.curved is not None or b.curved is not None:
-        curved_pair_of(moved, b).prove_free(proof)
-        return
-    if not isinstance(proof, AxisProof):
+    if isinstance(proof, SurfacesProof):
         check_holes(moved, b, Fraction(0))
-    pair = pair_of(a, b, moved.mesh, b.mesh)
+    pair = any_pair_of(moved, b)
     prove_free(proof, pair)
     if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
         raise Rejected("the way out is shown of polygons alone, not of the curves")

@@ -26,7 +26,7 @@ from satcheck.verify.cover import (
     not_plain,
     root,
 )
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import Pair
 from satcheck.verify.surfaces import near_pairs
 
 Floats = NDArray[np.float64]

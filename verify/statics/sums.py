@@ -50,7 +50,7 @@ def check_balance(
     force: list[Any] = [weight.mass * c for c in down]
     torque: list[Any] = [Fraction(0)] * 3
     for push in pushes:
-        turning = cross(sub(push.at, weight.centre), push.force)  # type: ignore[arg-type]
+        turning = cross(sub(push.at, weight.centre), push.force)
         for k in range(3):
             force[k] += push.force[k]
             torque[k] += turning[k]
@@ -66,8 +66,8 @@ def velocity_at(motion: FirstMotion | None, centre: Point | None, at: Point) -> 
     linear, turning = (
         vector(motion.velocity),
         cross(
-            vector(motion.angular),  # type: ignore[arg-type]
-            sub(at, centre),  # type: ignore[arg-type]
+            vector(motion.angular),
+            sub(at, centre),
         ),
     )
     x, y, z = (p + q for p, q in zip(linear, turning, strict=True))
