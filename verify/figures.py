@@ -9,7 +9,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -21,8 +20,9 @@ from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, root, sub
-from satcheck.verify.world import World
+from satcheck.verify.exact import Point, Rejected, point, root, sub
+from satcheck.verify.patches import comes_within
+from satcheck.verify.world import Exact
 
 # An interval of this relative width comes from rounding alone.
 EXACT_WIDTH = Fraction(1, 10**9)
@@ -204,7 +204,8 @@ def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
     """Return whether a point is within this distance of the surface, world units."""
     if body.curved is not None:
         return _on_curved(p, body.curved, slack)
-    return body.world is not None and _on_mesh(p, body.world, slack)
+    mesh = Exact(body.mesh, body.mesh.lattice)
+    return comes_within(mesh, point(c * (1 << mesh.k) for c in p), slack, open_=False)
 
 
 def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
@@ -221,18 +222,6 @@ def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
         return x + scale * step[0], y + scale * step[1], z + scale * step[2]
 
     return shape.side(at(1 - share)) >= 0 >= shape.side(at(1 + share))
-
-
-def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
-    at, reach = np.array([float(c) for c in p]), float(slack) * 1.001
-    low, high = np.nextafter(at - reach, -np.inf), np.nextafter(at + reach, np.inf)
-    near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
-    for corners in world.vertices[world.triangles[near]].tolist():
-        points: Any = [tuple(Fraction(c) - q for c, q in zip(v, p, strict=True)) for v in corners]
-        x, _ = nearest_to_origin(points)
-        if dot(x, x) <= slack * slack:
-            return True
-    return False
 
 
 def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:

@@ -20,16 +20,14 @@ from satcheck.verify.evidence import on_body, vector
 from satcheck.verify.exact import (
     IntVector,
     NotCertified,
-    Point,
     Rejected,
     dot,
-    nearest_to_origin,
     normal_of,
     point,
     sign_of,
-    sub,
 )
 from satcheck.verify.pairs import pair_of, reach
+from satcheck.verify.patches import comes_within
 from satcheck.verify.relations import check_within
 from satcheck.verify.statics.terms import body_terms
 from satcheck.verify.world import Exact, World
@@ -167,21 +165,6 @@ def _check_point(finding: InsideFinding, body: World, region: World, tolerance: 
     p, surface = on_body(finding.point, Exact(body, k), of_hull=False), Exact(region, k)
     if surface.winding(p) != 0:
         raise Rejected("the point is not outside of the region")
-    reach = max(tolerance, finding.sticks_out or 0.0)
-    if _is_near(p, surface, Fraction(reach)):
+    furthest = max(tolerance, finding.sticks_out or 0.0)
+    if comes_within(surface, p, Fraction(furthest), open_=True):
         raise Rejected("the point is closer to the region than claimed")
-
-
-def _is_near(p: Point, surface: Exact, reach: Fraction) -> bool:
-    """Return whether the surface is closer than `reach`, or as close as the tolerance."""
-    scale = 1 << surface.k
-    at = np.array([float(c / scale) for c in p])
-    wide = np.nextafter(float(reach), np.inf) + np.spacing(np.abs(at))
-    world = surface.world
-    near = ((world.low <= at + wide) & (world.high >= at - wide)).all(axis=1)
-    within = (reach * scale) ** 2
-    for t in np.flatnonzero(near).tolist():
-        x, _ = nearest_to_origin([sub(c, p) for c in surface.corners(t)])
-        if dot(x, x) < within:
-            return True
-    return False

@@ -28,6 +28,7 @@ from satcheck.verify.exact import (
     Rejected,
     dot,
     homogeneous,
+    integers,
     nearest_to_origin,
     normal_of,
     planar_hull,
@@ -43,6 +44,8 @@ from satcheck.verify.world import Corners, Exact, rounded
 # from the point to a corner: fewer than 60 roundings in the point next to it and in its length.
 DISTANCE_ERROR = 2.0**-46
 TINY = 2.0**-1000  # more than what underflow takes
+# How far rounding takes a weighted sum, of the sum of its terms without their signs.
+SUM_ERROR = 2.0**-46
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,6 +176,29 @@ def _covers(triangles: list[Corners], hull: list[Pair], across: int) -> None:
             raise Rejected("the triangles of a patch do not fill a convex polygon")
     if area == 0:
         raise Rejected("the triangles of a patch cover nothing")
+
+
+def comes_within(body: Exact, p: Point, length: Fraction, *, open_: bool) -> bool:
+    """Whether the surface of a body comes within a length, world units, of a point of the lattice.
+    open_: or nearer than that."""
+    world, scale = body.world, 1 << body.k
+    at = np.array([float(Fraction(c) / scale) for c in p])
+    radius = up(length) + float(lengths(np.spacing(np.abs(at))))
+    gaps = np.maximum(np.maximum(world.low - at, at - world.high), 0.0)
+    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
+    spokes = world.vertices[world.triangles[near]] - at
+    with np.errstate(all="ignore"):
+        direction = next_points(spokes)
+        direction /= lengths(direction)[:, None]
+        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
+        beyond = heights - slack(spokes) >= radius
+    most = (length * scale) ** 2
+    for t in near[~beyond].tolist():
+        i, j, k = integers(world.vertices[world.triangles[t]], body.k)
+        squared = squared_distance(p, (i, j, k))
+        if squared < most or (squared == most and not open_):
+            return True
+    return False
 
 
 def squared_distance(p: Point, triangle: Corners) -> Fraction:

@@ -22,7 +22,7 @@ import numpy as np
 
 from satcheck.verify.cells import chosen
 from satcheck.verify.exact import Floats, Point, Rejected, point
-from satcheck.verify.patches import TINY, Piece, joined, lengths, next_points, slack
+from satcheck.verify.patches import SUM_ERROR, TINY, Piece, joined, lengths, next_points, slack
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices
 
@@ -31,8 +31,6 @@ MOST_HALVINGS = 64
 BENT = 2.0**-6  # how far a patch of two triangles may be from flat, of the length
 # How far all halvings together round a corner, of the largest coordinate.
 MIDDLE_ERROR = 2.0**-45
-# How far rounding takes a sum of a few lengths, of the sum of them.
-SUM_ERROR = 2.0**-46
 
 
 def reaches_no_deeper(

@@ -16,7 +16,7 @@ import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
 from satcheck.verify.evidence import index
-from satcheck.verify.exact import Floats, Point, Rejected, integers, lattice
+from satcheck.verify.exact import Floats, Point, Rejected, point
 from satcheck.verify.partition import (
     BOUNDED,
     OUTSIDE_A,
@@ -28,50 +28,25 @@ from satcheck.verify.partition import (
     within,
 )
 from satcheck.verify.patches import (
+    SUM_ERROR,
     Piece,
     Side,
+    comes_within,
     lengths,
-    next_points,
     patch_of,
-    slack,
-    squared_distance,
 )
-from satcheck.verify.surfaces import up
 from satcheck.verify.world import Exact, Indices
-
-# How far rounding takes a weighted sum, of the sum of its terms without their signs.
-SUM_ERROR = 2.0**-46
 
 
 def holds_ball(body: Exact, centre: Sequence[float], radius: Fraction) -> None:
     """Rejects a ball, world units, that does not lie in the solid, apart from its skin."""
     if not body.world.solid:
         raise Rejected("what is not solid has no thickness")
-    middle = np.array(centre)
-    k = max(body.k, lattice(middle))
-    x, y, z = integers(middle[None], k)[0]
-    shrunk = 1 << k - body.k
-    at = Fraction(x, shrunk), Fraction(y, shrunk), Fraction(z, shrunk)
+    at = point(Fraction(c) * (1 << body.k) for c in centre)
     if not body.winding(at):
         raise Rejected("the centre of the ball lies outside of a body")
-    squared = (radius * (1 << body.k)) ** 2
-    for t in _perhaps_within(body, middle, up(radius)):
-        if squared_distance(at, body.corners(t)) < squared:
-            raise Rejected("the ball reaches beyond the surface of a body")
-
-
-def _perhaps_within(body: Exact, p: Floats, radius: float) -> list[int]:
-    """The triangles that are not certainly as far as that from a point."""
-    world = body.world
-    gaps = np.maximum(np.maximum(world.low - p, p - world.high), 0.0)
-    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
-    spokes = world.vertices[world.triangles[near]] - p
-    with np.errstate(all="ignore"):
-        direction = next_points(spokes)
-        direction /= lengths(direction)[:, None]
-        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
-        beyond = heights - slack(spokes) >= radius
-    return near[~beyond].tolist()  # type: ignore[no-any-return]
+    if comes_within(body, at, radius, open_=True):
+        raise Rejected("the ball reaches beyond the surface of a body")
 
 
 def at_most(

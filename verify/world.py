@@ -21,6 +21,7 @@ from satcheck.verify.exact import (
     homogeneous,
     integers,
     lattice,
+    normal_of,
     sign,
     sub,
 )
@@ -167,35 +168,18 @@ def is_convex(vertices: Floats, triangles: Indices) -> bool:
     in front. Such a surface wraps the hull a whole number of times. A volume above 0 proves that
     this number is not 0.
     """
-    k = lattice(vertices)
-    exact = integers(vertices, k)
-    used = np.unique(triangles)
-    points = vertices[used]
+    body = Exact(World(vertices, triangles, solid=True), lattice(vertices))
     volume = 0
-    for t in triangles.tolist():
-        a, b, c = (exact[v] for v in t)
-        normal = cross(sub(b, a), sub(c, a))
+    for t in range(len(triangles)):
+        corners = body.corners(t)
+        normal = normal_of(corners)
         if not any(normal):
             continue
-        volume += dot(normal, a)
-        if _reaches_beyond(normal, a, points, used, exact) and _reaches_beyond(
-            sub((0, 0, 0), normal), a, points, used, exact
-        ):
+        height = dot(normal, corners[0])
+        volume += height
+        if body.extent(normal) > height and body.extent(sub((0, 0, 0), normal)) > -height:
             return False
     return volume > 0
-
-
-def _reaches_beyond(
-    normal: IntVector,
-    at: IntVector,
-    points: Floats,
-    used: Indices,
-    exact: Sequence[IntVector],
-) -> bool:
-    """Whether one of the points used lies beyond the plane through a point."""
-    limit = dot(normal, at)
-    near = possibly_highest(normal, points)
-    return any(dot(normal, exact[v]) > limit for v in used[near].tolist())
 
 
 def rounded(vector: Sequence[Any]) -> Floats:
@@ -269,15 +253,15 @@ class Exact:
         x = homogeneous(p)
         ahead = flush = 0
         for t in self._in_the_way(p, axis):
-            a, b, c = self.corners(t)
-            normal = cross(sub(b, a), sub(c, a))
-            height = dot(normal, x) - dot(normal, a) * x[3]
+            corners = self.corners(t)
+            normal = normal_of(corners)
+            height = dot(normal, x) - dot(normal, corners[0]) * x[3]
             in_plane = (
                 height == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
             )
-            if height == 0 and not in_plane and holds((a, b, c), normal, x):
+            if height == 0 and not in_plane and holds(corners, normal, x):
                 return None
-            side = projected_side((a, b, c), x, axis)
+            side = projected_side(corners, x, axis)
             if in_plane:
                 flush += side
             elif height * side < 0:

@@ -89,7 +89,7 @@ def test_the_error_of_a_proven_distance_is_said() -> None:
 
 
 def test_a_distance_without_evidence_is_named() -> None:
-    made = honest("apart")
+    made = honest("a gap in the touch band")
     made["findings"][0]["certificate"].pop("distance")
     assert "findings[].distance" in left(made)
 

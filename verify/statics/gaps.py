@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import numpy as np
-
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import Rejected, dot, integers, lattice, nearest_to_origin, sub
+from satcheck.verify.exact import Rejected, dot, point
+from satcheck.verify.patches import comes_within
 from satcheck.verify.statics.weights import ball
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact, World
@@ -53,24 +52,17 @@ def _meshes_apart(a: World, b: World, tolerance: float) -> None:
         if not outer.world.solid:
             continue
         for v in inner.world.components:
-            x, y, z = inner.points[v]
-            if outer.winding((Fraction(x), Fraction(y), Fraction(z))) != 0:
+            if outer.winding(point(inner.points[v])) != 0:
                 raise Rejected("a body that should be apart lies in another")
 
 
 def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
     centre, radius = ball(round_)
-    at = np.array([centre])
-    k = max(world.lattice, lattice(at))
-    mesh, [c] = Exact(world, k), integers(at, k)
-    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0)) * (1 << k)
-    span = np.nextafter(max(radius + tolerance, 0.0), np.inf)
-    near = ((world.low <= at + span) & (world.high >= at - span)).all(axis=1)
-    for t in np.flatnonzero(near).tolist():
-        x, _ = nearest_to_origin([sub(p, c) for p in mesh.corners(t)])
-        if dot(x, x) <= reach * reach:
-            raise Rejected("bodies that should be apart are within the tolerance")
-    middle = Fraction(c[0]), Fraction(c[1]), Fraction(c[2])
+    mesh = Exact(world, world.lattice)
+    middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
+    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0))
+    if comes_within(mesh, middle, reach, open_=False):
+        raise Rejected("bodies that should be apart are within the tolerance")
     if world.solid and mesh.winding(middle) != 0:
         raise Rejected("a body that should be apart lies in another")
 
