@@ -114,6 +114,12 @@ COVERAGE: dict[str, Cover] = {
     for called, fields in groups.items()
     for field in fields.split()
 }
+# The name of the field in a finding.
+CERTIFIED = {
+    field: field.removeprefix("findings[].")
+    for field, cover in COVERAGE.items()
+    if cover.kind == "certified"
+}
 
 
 def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered, ...]:

@@ -3,24 +3,31 @@
 The certificate names a point of each convex body: the planes normal to the step between them show
 that nothing is nearer. For other meshes every triangle that could be nearer is checked. The
 distance may be off by the last rounding of a figure, and by no more. For curved shapes the normal
-and the witness points of the finding are the proof, up to their own rounding.
+and the witness points of the finding are the proof, up to their own rounding. Of an open surface
+the fills of its holes may be nearer, and pieces of it may surround the other body.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 
+import numpy as np
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Certificate
-from satcheck.report.report import Finding
+from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
+from satcheck.scene.health import MOST_AROUND
 from satcheck.verify.bodies import Placed
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.evidence import given, vector
 from satcheck.verify.exact import Rejected, TooMany, dot
-from satcheck.verify.figures import EXACT_WIDTH, Rounding
-from satcheck.verify.holes import check_holes
+from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
+from satcheck.verify.in_plane import curve_error
+from satcheck.verify.open_parts import turns_around
 from satcheck.verify.pairs import AnyPair, Pair
+from satcheck.verify.severity import check_severity
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
 
@@ -99,3 +106,103 @@ def prove_apart(
     n = pair.step(given(certificate.gap, "gap"))
     if pair.gap(n) <= 0 or pair.gap(n, least) < 0:
         raise Rejected("the gap is not shown to be as wide")
+
+
+def check_pieces(a: Placed, b: Placed) -> None:
+    """Rejects bodies that do not meet if open pieces of one surround the other."""
+    for outer, inner in ((a, b), (b, a)):
+        if outer.world is None or inner.world is None or outer.pieces is None:
+            continue
+        world, point = outer.world, inner.world.vertices[0]
+        low, high = world.bounds
+        is_within = (low <= point).all() and (point <= high).all()
+        if is_within and abs(turns_around(world.vertices[outer.pieces], point)) > MOST_AROUND:
+            raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
+
+
+def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
+    """Rejects bodies with holes unless the gap of their boxes is large enough: the fill of a hole
+    may be anywhere near."""
+    if not (a.holed or b.holed) or a.bounds is None or b.bounds is None:
+        return
+    (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds
+    gaps = np.concatenate([b_low - a_high, a_low - b_high])
+    if Fraction(gaps.max()) <= margin * (1 + EXACT_WIDTH):
+        raise Rejected("what fills a hole is not certified, and may be where the other body is")
+
+
+CERTAINLY = 1 + 1e-12  # far more than the rounding of a difference
+
+
+def least_gap(finding: Finding, request: Request) -> Fraction:
+    """The least gap that a finding may have if it claims to keep its clearance. A gap that equals
+    the clearance up to rounding keeps it."""
+    if finding.relation != "separated" or finding.undecided == "limit":
+        return Fraction(0)
+    return Fraction(request.clearance or 0.0) * (1 - EXACT_WIDTH)
+
+
+def check_claims(
+    finding: Finding,
+    certificate: Certificate,
+    pair: AnyPair,
+    bodies: tuple[Placed, Placed],
+    request: Request,
+    tolerance: Fraction,
+    is_in_band: Callable[[Fraction], bool],
+    bounds: tuple[Fraction | None, Fraction | None],
+) -> None:
+    """Checks that the relation and the severity follow from the exact relation, which is proven.
+    is_in_band: whether an overlap is within such a band. bounds: proven upper bounds of depth and
+    thickness."""
+    relation, exact = finding.relation, finding.exact_relation
+    band, clearance = tolerance * (1 + EXACT_WIDTH), Fraction(request.clearance or 0.0)
+    if exact == "separated" and relation in ("touching", "near"):
+        near = relation == "near"
+        if not is_within(certificate, pair, clearance if near else band, open_=near):
+            raise Rejected("the gap is wider than that")
+    elif relation != exact and not (
+        exact in OVERLAPS and relation == "touching" and is_in_band(band)
+    ):
+        raise Rejected(f"{relation!r} does not follow from {exact!r}")
+
+    def keeps(length: Fraction) -> bool | None:
+        """Whether the gap keeps the clearance, whatever the touch band; None: not proven either
+        way."""
+        if exact != "separated":
+            return False
+        if relation == "separated":  # then that is a part of what was proven
+            return None if finding.undecided == "limit" else True
+        if is_within(certificate, pair, length, open_=True):
+            return False
+        try:
+            least = length * (1 - EXACT_WIDTH) + curve_error(*bodies)
+            prove_apart(certificate, pair, bodies, least)
+        except Rejected:
+            return None
+        return True
+
+    check_severity(finding, request, bounds, keeps)
+
+
+def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:
+    """Return whether the boxes of two bodies are too far apart to matter."""
+    if a.bounds is None or b.bounds is None:
+        return False
+    (low_a, high_a), (low_b, high_b) = a.bounds, b.bounds
+    most = a.resolution + b.resolution if request.tolerance is None else request.tolerance
+    widest = max((low_b - high_a).max(), (low_a - high_b).max())
+    if widest <= 0:
+        return False
+    closer = curve_error(a, b)
+    if widest > max(most, (request.clearance or 0.0) + float(closer)) * CERTAINLY:
+        return True
+    tolerance = request.tolerance
+    if tolerance is None:
+        tolerance = default_tolerance(a, b, request.across)
+    beyond = max(Fraction(tolerance), Fraction(request.clearance or 0.0) + closer)
+    exact = [
+        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s), Fraction(0))
+        for p, q, r, s in zip(*(c.tolist() for c in (low_b, high_a, low_a, high_b)), strict=True)
+    ]
+    return sum(step * step for step in exact) > beyond * beyond

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,6 @@ from msgspec import UNSET, to_builtins
 
 from satcheck._version import __version__
 from satcheck.report.report import (
-    OVERLAPS,
     SUPPORT_OPEN,
     UNSUPPORTED,
     Exempt,
@@ -27,14 +25,13 @@ from satcheck.report.verification import Checked, CheckedSupport, Outcome, Verif
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
-from satcheck.verify.clearance import boxes_apart
-from satcheck.verify.coverage import uncovered
+from satcheck.verify.coverage import CERTIFIED, uncovered
+from satcheck.verify.distances import boxes_apart
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
-from satcheck.verify.findings import check_finding
+from satcheck.verify.findings import Proven, check_finding
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import report_of
-from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
 
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
@@ -145,14 +142,19 @@ class _Report:
             return Checked(a, b, relation, "rejected", reason)
         if proven is None:
             return Checked(a, b, relation, "open", str(finding.reason))
-        left = _left(finding, proven)
-        thick = finding.thickness is not None and proven.ball and proven.thickness
+        left = (
+            field
+            for field, name in CERTIFIED.items()
+            if _says_something(name, getattr(finding, name)) and name not in proven.fields
+        )
         off = None if finding.distance is None else proven.distance
         return Checked(
             *(a, b, relation, "accepted", None),
-            *(proven.depth, proven.mtv, thick),
-            None if off is None else float(off),
-            left,
+            depth="depth_bounds" in proven.fields,
+            mtv="mtv" in proven.fields,
+            thickness={"ball", "thickness"} <= proven.fields and finding.thickness is not None,
+            distance_error=None if off is None else float(off),
+            left=tuple(left),
         )
 
     def _list(self, *names: str) -> tuple[Placed, Placed]:
@@ -165,7 +167,7 @@ class _Report:
         self.listed.add(frozenset(names))
         return a, b
 
-    def _check(self, finding: Finding) -> ProvenFields | None:
+    def _check(self, finding: Finding) -> Proven | None:
         a, b = self._list(finding.a, finding.b)
         if not self.book.is_checked(self.order[a.id], self.order[b.id]):
             raise Rejected("the scene does not ask about this pair")
@@ -255,38 +257,9 @@ def _judged(
     return ()
 
 
-def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
-    """The fields of an accepted finding that have a value and are not proven."""
-    bounds, overlap = finding.depth_bounds, finding.exact_relation in OVERLAPS
-    least = finding.thickness_bounds and finding.thickness_bounds[0]
-    is_left = {
-        "undecided": finding.undecided == "limit",
-        "distance": finding.distance is not None and proven.distance is None,
-        "distance_bounds": not _bounds_follow(finding, proven.distance),
-        "depth": finding.depth is not None and not (proven.depth or proven.mtv),
-        "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
-        "normal": finding.normal is not None and not proven.normal,
-        "mtv": finding.mtv is not None and not proven.mtv,
-        "thickness": finding.thickness is not None and not proven.thickness,
-        "thickness_bounds": bool(least) and not proven.ball,
-        "ball": finding.ball is not None and not proven.ball,
-        "volume": overlap and finding.volume is not None,
-        "volume_error": overlap and finding.volume_error is not None,
-        "contacts": finding.contacts is not None and not proven.contacts,
-    }
-    return tuple(f"findings[].{key}" for key, left in is_left.items() if left)
-
-
-def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
-    """Return whether bounds of the distance, if the finding has any, are as wide as the proof of
-    it. error: how far it may be off; None: it is not proven."""
-    bounds, distance = finding.distance_bounds, finding.distance
-    if bounds is None or distance is None:
-        return True
-    if error is None:
-        return False
-    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
-    return low <= max(length - error, Fraction(0)) and length + error <= high
+def _says_something(name: str, value: Any) -> bool:
+    """A lower end of 0 says nothing."""
+    return value is not None and not (name in ("depth_bounds", "thickness_bounds") and not value[0])
 
 
 def _faults_of_issues(report: Report, bodies: dict[str, Placed]) -> list[str]:

@@ -4,18 +4,30 @@ The surface of each body may be off by half of the touch band, or by its surface
 that is more. An overlap is explained where no point lies deeper than that in both. Nothing is
 explained where one body passes through the other. A surface tolerance also explains nothing where a
 body is no thicker than that, and where the surface of one body reaches deep into the other.
+
+A solid passes through another one if it enters it in one place, and leaves it in another. Each body
+bounds what both have in common by pieces of its surface. A passes through B where a piece of A
+meets two pieces of B. Both surfaces are cut along all that they share (`cells.py`). Next to a cell
+that bounds the common part, this lies on one side only. Around a stretch of an edge two such cells
+follow each other: those of one surface belong to one piece, and where they are of both, a piece of
+A meets one of B. Whatever is not as simple as that is rejected.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
+from math import gcd, lcm
+from typing import Any
 
 from satcheck.report.certificate import Excuse
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import Rejected
+from satcheck.verify.cells import Sides, cells_in, chosen, in_space, sides_of_cell
+from satcheck.verify.exact import Point, Rejected, cross, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.pairs import Pair
-from satcheck.verify.passing import neither_passes
 from satcheck.verify.reach import reaches_no_deeper
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.thickness import at_most, holds_ball
@@ -43,3 +55,115 @@ def is_explained(
     most = MOST_REACH * (off_a + off_b) * (1 + EXACT_WIDTH)
     reaches_no_deeper(pair.a, pair.b, contacts, most)
     reaches_no_deeper(pair.b, pair.a, [(t, s) for s, t in contacts], most)
+
+
+MOST_CELLS = 10_000
+Line = tuple[Any, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """A cell that bounds the common part. body: 0 or 1. shared: it lies in both surfaces; then each
+    of them has such a cell there."""
+
+    body: int
+    number: int
+    shared: bool
+
+
+Stretch = tuple[Fraction, Fraction, Face]  # where along a line its edge starts and ends
+
+
+def neither_passes(pair: Pair, contacts: list[tuple[int, int]]) -> None:
+    """Rejects two solids unless it is proven that neither passes through the other: whether faces
+    that lie in both surfaces belong to both, or to none. contacts: all pairs of triangles that
+    meet."""
+    lines: dict[Line, list[Stretch]] = {}
+    has_shared = False
+    for face, polygon in _bounding(pair, contacts):
+        has_shared |= face.shared
+        for k, p in enumerate(polygon):
+            line, *ends = _on_line(polygon[k - 1], p)
+            lines.setdefault(line, []).append((min(ends), max(ends), face))
+    around = [faces for stretches in lines.values() for faces in _side_by_side(stretches)]
+    _no_piece_joins_two(around)
+    if has_shared:
+        _no_piece_joins_two([[f for f in faces if not f.shared] for faces in around])
+
+
+def _no_piece_joins_two(around: list[list[Face]]) -> None:
+    """around: faces next to each other."""
+    pieces = _Pieces()
+    by_body = [[[f for f in faces if f.body == body] for body in (0, 1)] for faces in around]
+    for of_both in by_body:
+        for one, other in (pair for faces in of_both for pair in pairwise(faces)):
+            pieces.join(one, other)
+    met: dict[Face, Face] = {}
+    for of_a, of_b in by_body:
+        if of_a and of_b:
+            a, b = pieces.of(of_a[0]), pieces.of(of_b[0])
+            if met.setdefault(a, b) != b or met.setdefault(b, a) != a:
+                raise Rejected("one body passes through the other")
+
+
+def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Face, list[Point]]]:
+    """With the corners of each."""
+    views = (pair.a, pair.b, contacts), (pair.b, pair.a, [(t, s) for s, t in contacts])
+    count = 0
+    for body, (x, y, pairs) in enumerate(views):
+        for triangle in cells_in(x, y, pairs, chosen(x, y, pairs, lambda inside: inside)):
+            for cell in triangle.cells:
+                sides = sides_of_cell(triangle, cell, x, y)
+                if not _bounds(sides):
+                    continue
+                count += 1
+                if count > MOST_CELLS:
+                    raise Rejected(f"the overlap has more than {MOST_CELLS:,} pieces of surface")
+                shared = sides.front[1] != sides.back[1]
+                yield Face(body, count, shared), [in_space(triangle.corners, p) for p in cell]
+
+
+def _bounds(sides: Sides) -> bool:
+    """Whether the common part lies on one side of a cell of the first body."""
+    (in_front, front), (behind, back) = sides.front, sides.back
+    if (front or back) and in_front == behind:
+        raise Rejected("a face that bounds no material lies in the other body")
+    return (True, True) in (sides.front, sides.back)
+
+
+def _on_line(p: Point, q: Point) -> tuple[Line, Fraction, Fraction]:
+    """The line through two points, which has one form only, and where they are along it."""
+    step = sub(q, p)
+    scale = lcm(*(c.denominator for c in step))
+    whole = [int(c * scale) for c in step]
+    shortest = gcd(*whole) * (1 if tuple(whole) > (0, 0, 0) else -1)
+    x, y, z = (c // shortest for c in whole)
+    along = x, y, z
+    return (along, cross(p, along)), dot(p, along), dot(q, along)
+
+
+def _side_by_side(stretches: list[Stretch]) -> Iterator[list[Face]]:
+    """The faces at each stretch of a line: two, or as many places of shared ones."""
+    ends = sorted({end for *both, _ in stretches for end in both})
+    for start, end in pairwise(ends):
+        here = [face for low, high, face in stretches if low <= start and end <= high]
+        shared = [sum(face.shared and face.body == body for face in here) for body in (0, 1)]
+        if len(here) - sum(shared) + max(shared) > 2:
+            raise Rejected("the common part meets itself in an edge")
+        yield here
+
+
+class _Pieces:
+    """Disjoint sets of faces."""
+
+    def __init__(self) -> None:
+        self._parent: dict[Face, Face] = {}
+
+    def of(self, face: Face) -> Face:
+        while (parent := self._parent.get(face, face)) != face:
+            self._parent[face] = self._parent.get(parent, parent)
+            face = parent
+        return face
+
+    def join(self, one: Face, other: Face) -> None:
+        self._parent[self.of(one)] = self.of(other)

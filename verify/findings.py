@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
+import numpy as np
 from msgspec import UnsetType
 
-from satcheck.report.certificate import Band, Certificate
+from satcheck.report.certificate import Band, Certificate, Proof, SurfacesProof
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
-from satcheck.verify.clearance import check_claims, least_gap
-from satcheck.verify.cover import depth_is_at_least
-from satcheck.verify.distances import check_distance, prove_apart, spanned
+from satcheck.verify.depth import depth_is_at_least, inner_radius_exceeds
+from satcheck.verify.distances import (
+    check_claims,
+    check_distance,
+    check_holes,
+    check_pieces,
+    least_gap,
+    prove_apart,
+    spanned,
+)
 from satcheck.verify.evidence import axis, given, vector
-from satcheck.verify.exact import Point, Rejected, dot
+from satcheck.verify.exact import Point, Rejected, dot, root
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
+    EXACT_WIDTH,
     Rounding,
     check_figures,
     check_id,
@@ -25,22 +34,28 @@ from satcheck.verify.figures import (
     rounding_of,
     shows_direction,
 )
-from satcheck.verify.holes import check_holes, check_pieces
 from satcheck.verify.in_plane import (
     check_in_plane,
     check_overlap_of_curves,
     curve_error,
+    leaves_gap_of_curves,
     reaching,
 )
 from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, pair_of
-from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.relations import prove
-from satcheck.verify.severity import ProvenFields, proven_depth
+from satcheck.verify.relations import prove, prove_free
 from satcheck.verify.thickness import at_most, holds_ball
-from satcheck.verify.way_out import check_mtv, prove_way_out
 
 
-def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> ProvenFields:
+@dataclass(frozen=True, slots=True)
+class Proven:
+    """fields: of an accepted finding, those that are proven, with or without a value. distance: how
+    far it may be off; None: it is not proven."""
+
+    fields: frozenset[str]
+    distance: Fraction | None
+
+
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
     """Rejects an unproven finding of two readable bodies."""
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
@@ -53,9 +68,10 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     pair = any_pair_of(a, b)
     closer = curve_error(a, b)
     hulls_apart = _prove_relation(finding, certificate, pair, (a, b), request, tolerance)
+    overlap = finding.exact_relation in OVERLAPS
     mtv = check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair, closer)
-    covered = _check_cover(finding, certificate, pair)
+    both_ends = depth or (_check_cover(finding, certificate, pair) and mtv)
     rounding = rounding_of(a, b)
     spans = pair.convex and spanned(finding, rounding, pair)
     directed = spans or mtv or (not pair.convex and shows_direction(finding, a, b))
@@ -63,16 +79,9 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     error = None
     if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
         error = _check_distance(finding, certificate, pair, rounding, spans)
-    proven = ProvenFields(depth or (covered and mtv), mtv, error, directed)
-    most = proven_depth(finding, replace(proven, depth=depth))
+    most = _most_depth(finding, depth=depth, mtv=mtv)
     thickest = _check_thickness(finding, certificate, pair, closer, most)
-    if isinstance(pair, Pair):
-        proven = replace(
-            proven,
-            ball=finding.thickness_bounds is not None and not closer,
-            thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
-        )
-    if finding.exact_relation not in OVERLAPS and not hulls_apart:
+    if not overlap and not hulls_apart:
         check_holes(a, b, max(tolerance, Fraction(request.clearance or 0.0)))
         check_pieces(a, b)
 
@@ -83,11 +92,53 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
         raise Rejected("the overlap is within the tolerance: the bodies touch")
 
     def is_in_band(band: Fraction) -> bool:
-        return _is_in_band(finding, certificate.band, pair, (a, b), band, proven)
+        if isinstance(certificate.band, UnsetType):
+            is_shallow = both_ends and finding.depth is not None and finding.depth <= band
+            return is_shallow or (mtv and _is_short(vector(finding.mtv or ()), band))
+        return _is_in_band(finding, certificate.band, pair, (a, b), band)
 
     bounds = most, thickest
     check_claims(finding, certificate, pair, (a, b), request, tolerance, is_in_band, bounds)
-    return proven
+    thick = Fraction(finding.thickness or 0)
+    ball = isinstance(pair, Pair) and finding.thickness_bounds is not None and not closer
+    shown = {
+        "undecided": finding.undecided != "limit",
+        "distance": error is not None,
+        "distance_bounds": _bounds_follow(finding, error),
+        "depth": both_ends or mtv,
+        "depth_bounds": both_ends,
+        "normal": directed,
+        "mtv": mtv,
+        "thickness": thickest is not None and thickest <= thick + rounding.of(thick),
+        "thickness_bounds": ball,
+        "ball": ball,
+        "volume": not overlap,
+        "volume_error": not overlap,
+    }
+    return Proven(frozenset(name for name, is_shown in shown.items() if is_shown), error)
+
+
+def _most_depth(finding: Finding, *, depth: bool, mtv: bool) -> Fraction | None:
+    """An upper bound, world units, of the depth that is certified; None: none is."""
+    bounds = []
+    if depth and finding.depth is not None:
+        bounds.append(Fraction(finding.depth))
+    if mtv and finding.mtv is not None:
+        move = vector(finding.mtv)
+        bounds.append(root(dot(move, move))[1])
+    return min(bounds, default=None)
+
+
+def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
+    """Return whether bounds of the distance, if the finding has any, are as wide as the proof of
+    it. error: how far it may be off; None: it is not proven."""
+    bounds, distance = finding.distance_bounds, finding.distance
+    if bounds is None or distance is None:
+        return True
+    if error is None:
+        return False
+    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
+    return low <= max(length - error, Fraction(0)) and length + error <= high
 
 
 def _prove_relation(
@@ -178,25 +229,15 @@ def _check_thickness(
     return thickness if depth is None else min(thickness, depth)
 
 
-def _granted(figure: float | None, rounding: Rounding) -> Fraction:
-    length = Fraction(figure or 0)
-    return length + rounding.of(length)
-
-
 def _is_in_band(
     finding: Finding,
-    proof: Band | UnsetType,
+    proof: Band,
     pair: AnyPair,
     bodies: tuple[Placed, Placed],
     band: Fraction,
-    proven: ProvenFields,
 ) -> bool:
     """Return whether a way out of the overlap is within the tolerance, or surfaces that may be off
     explain it."""
-    if isinstance(proof, UnsetType):
-        if proven.depth and finding.depth is not None and finding.depth <= band:
-            return True
-        return proven.mtv and finding.mtv is not None and _is_short(vector(finding.mtv), band)
     if not isinstance(proof.axis, UnsetType):
         if pair.convex and pair.gap(axis(proof.axis), -band) >= 0:
             return True
@@ -217,3 +258,40 @@ def _is_in_band(
 
 def _is_short(move: Point, band: Fraction) -> bool:
     return bool(dot(move, move) <= band * band)
+
+
+def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
+    """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
+
+    The MTV is longer than the depth by some rounding, because it is lengthened until the rounded
+    coordinates are free. Returns False if the finding does not claim this, or if it is not
+    certified.
+    """
+    if finding.mtv_verified is not True:
+        return False
+    if finding.exact_relation not in OVERLAPS:
+        raise Rejected("only an overlap has a way out")
+    if finding.depth is None or finding.mtv is None:
+        raise Rejected("a verified MTV comes with its depth")
+    depth, move = Fraction(finding.depth), vector(finding.mtv)
+    if dot(move, move) > (depth + EXACT_WIDTH * (depth + rounding_of(a, b).largest)) ** 2:
+        raise Rejected("the MTV is longer than the depth")
+    if isinstance(certificate.mtv, UnsetType):
+        if curve_error(a, b):
+            return False
+        raise Rejected("the certificate has no 'mtv'")
+    prove_way_out(move, certificate.mtv, a, b)
+    return True
+
+
+def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
+    offset = [float(c) for c in move]
+    if not np.isfinite(offset).all():
+        raise Rejected("a translation is finite")
+    moved = a.moved(offset)
+    if isinstance(proof, SurfacesProof):
+        check_holes(moved, b, Fraction(0))
+    pair = any_pair_of(moved, b)
+    prove_free(proof, pair)
+    if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
+        raise Rejected("the way out is shown of polygons alone, not of the curves")

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.verdict import severity_of_answer
-from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import on_body, vector
 from satcheck.verify.exact import (
@@ -29,7 +30,7 @@ from satcheck.verify.exact import (
 from satcheck.verify.pairs import pair_of, reach
 from satcheck.verify.patches import comes_within
 from satcheck.verify.relations import check_within
-from satcheck.verify.statics.terms import body_terms
+from satcheck.verify.statics.terms import body_terms, checked
 from satcheck.verify.world import Exact, World
 
 
@@ -40,27 +41,26 @@ def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSu
     if [(f.body, f.region) for f in regions.findings] != list(asked):
         raise Rejected("the questions about regions are not those that rules ask")
     for finding in regions.findings:
-        rule, severity = asked[finding.body, finding.region]
-        try:
-            _check_words(finding, rule, severity)
-            if finding.answer == "open":
-                _check_form(finding, convex=False)
-            else:
-                body, region = bodies[finding.body], bodies[finding.region]
-                check_answer(finding, body, region, regions.tolerance)
-        except NotCertified as why:
-            yield _checked(finding, "not certified", str(why))
-        except Rejected as why:
-            yield _checked(finding, "rejected", str(why))
-        else:
-            if finding.answer == "open":
-                yield _checked(finding, "open", finding.reason)
-            else:
-                yield _checked(finding, "accepted", None)
+        check = partial(_check, finding, *asked[finding.body, finding.region], regions, bodies)
+        yield checked(finding, check)
 
 
-def _checked(finding: InsideFinding, outcome: Outcome, reason: str | None) -> CheckedSupport:
-    return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
+def _check(
+    finding: InsideFinding,
+    rule: str,
+    severity: str | None,
+    regions: Regions,
+    bodies: Mapping[str, Placed],
+) -> None:
+    if finding.rule != rule:
+        raise Rejected("another rule asks this")
+    if finding.severity != severity_of_answer(finding.answer, severity):
+        raise Rejected("the severity does not follow from the answer and the rules")
+    if finding.answer == "open":
+        _check_form(finding, convex=False)
+    else:
+        body, region = bodies[finding.body], bodies[finding.region]
+        check_answer(finding, body, region, regions.tolerance)
 
 
 def _asked(
@@ -74,13 +74,6 @@ def _asked(
         for id_, own in terms.items()
         if (region := own.region_for(id_)) is not None
     }
-
-
-def _check_words(finding: InsideFinding, rule: str, severity: str | None) -> None:
-    if finding.rule != rule:
-        raise Rejected("another rule asks this")
-    if finding.severity != severity_of_answer(finding.answer, severity):
-        raise Rejected("the severity does not follow from the answer and the rules")
 
 
 def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:

@@ -20,9 +20,10 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.values import Relation
-from satcheck.verify.boundary import contacts_if_apart, meet
+from satcheck.verify.boundary import contacts_if_apart, meet, no_crossing
 from satcheck.verify.cells import Sides, chosen, sheets_among, sides_of
 from satcheck.verify.curved import Curved
+from satcheck.verify.depth import inner_radius_exceeds
 from satcheck.verify.evidence import axis, given, index
 from satcheck.verify.exact import (
     IntVector,
@@ -36,8 +37,6 @@ from satcheck.verify.exact import (
     sub,
 )
 from satcheck.verify.pairs import AnyPair, Pair
-from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.sheets import no_crossing
 from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 

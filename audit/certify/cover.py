@@ -1,6 +1,6 @@
 """A cover of the translations that are shorter than the depth, computed in float64.
 
-The checker proves in integers that it is a cover (`satcheck.verify.cover`). This module assigns to
+The checker proves in integers that it is a cover (`satcheck.verify.depth`). This module assigns to
 each cube the pair of triangles whose polytope contains it with the largest margin. It splits a cube
 that no polytope contains.
 """
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from satcheck.report.certificate import Cover
 from satcheck.verify import Rejected
-from satcheck.verify.cover import (
+from satcheck.verify.depth import (
     LEVELS,
     MOST_CUBES,
     SPLIT,

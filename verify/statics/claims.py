@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
@@ -17,12 +18,11 @@ from satcheck.report.statics import (
     SupportFinding,
 )
 from satcheck.report.verdict import severity_of_answer
-from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import NotCertified, Point, Rejected
-from satcheck.verify.statics.contacts import ROUNDING, Contacts
-from satcheck.verify.statics.gaps import check_apart
+from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
 from satcheck.verify.statics.sums import (
     Push,
     check_balance,
@@ -31,7 +31,7 @@ from satcheck.verify.statics.sums import (
     resistance,
     velocity_at,
 )
-from satcheck.verify.statics.terms import Terms
+from satcheck.verify.statics.terms import Terms, checked
 from satcheck.verify.statics.weights import Weight, covers_once
 
 SAME_WEIGHT = 1e-9  # relative
@@ -60,17 +60,7 @@ class Claims:
     def judged(self) -> Iterator[CheckedSupport]:
         """Each answer, in the order of the report."""
         for finding in self.statics.findings:
-            outcome, reason = self._outcome(finding)
-            yield CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
-
-    def _outcome(self, finding: SupportFinding) -> tuple[Outcome, str | None]:
-        try:
-            self._check(finding)
-        except NotCertified as why:
-            return "not certified", str(why)
-        except Rejected as why:
-            return "rejected", str(why)
-        return ("open", finding.reason) if finding.answer == "open" else ("accepted", None)
+            yield checked(finding, partial(self._check, finding))
 
     def _check_section(self) -> None:
         """Rejects questions, fixed bodies, weights and frictions that do not follow."""

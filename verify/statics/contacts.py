@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -11,8 +12,9 @@ from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Floats, NotCertified, Rejected
-from satcheck.verify.statics.gaps import check_apart
+from satcheck.verify.exact import Floats, NotCertified, Rejected, dot, point
+from satcheck.verify.findings import prove_way_out
+from satcheck.verify.patches import comes_within
 from satcheck.verify.statics.places import (
     SLACK,
     Place,
@@ -22,7 +24,72 @@ from satcheck.verify.statics.places import (
     places_of_ball,
 )
 from satcheck.verify.statics.weights import ball
-from satcheck.verify.way_out import prove_way_out
+from satcheck.verify.surfaces import close_pairs
+from satcheck.verify.world import Exact, World
+
+# With more pairs of near triangles there is no proof.
+MOST_NEAR = 2_000_000
+
+
+def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
+    may be negative: then the bodies may overlap by less than that."""
+    if _boxes_apart(a, b, tolerance):
+        return
+    if a.world is not None and b.world is not None:
+        _meshes_apart(a.world, b.world, tolerance)
+    elif a.world is not None:
+        _ball_apart(b, a.world, tolerance)
+    elif b.world is not None:
+        _ball_apart(a, b.world, tolerance)
+    else:
+        _balls_apart(a, b, tolerance)
+
+
+def _boxes_apart(a: Placed, b: Placed, tolerance: float) -> bool:
+    if a.bounds is None or b.bounds is None:
+        raise Rejected("a body that cannot be read may hold others")
+    (low_a, high_a), (low_b, high_b) = a.bounds, b.bounds
+    gap = max(
+        Fraction(float(low)) - Fraction(float(high))
+        for low, high in (*zip(low_a, high_b, strict=True), *zip(low_b, high_a, strict=True))
+    )
+    return gap > Fraction(tolerance)
+
+
+def _meshes_apart(a: World, b: World, tolerance: float) -> None:
+    k = max(a.lattice, b.lattice)
+    one, other = Exact(a, k), Exact(b, k)
+    within = (Fraction(tolerance) * (1 << k)) ** 2
+    for _, _, squared in close_pairs(one, other, Fraction(tolerance), MOST_NEAR):
+        if squared <= within:
+            raise Rejected("bodies that should be apart are within the tolerance")
+    for inner, outer in ((one, other), (other, one)):
+        if not outer.world.solid:
+            continue
+        for v in inner.world.components:
+            if outer.winding(point(inner.points[v])) != 0:
+                raise Rejected("a body that should be apart lies in another")
+
+
+def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
+    centre, radius = ball(round_)
+    mesh = Exact(world, world.lattice)
+    middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
+    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0))
+    if comes_within(mesh, middle, reach, open_=False):
+        raise Rejected("bodies that should be apart are within the tolerance")
+    if world.solid and mesh.winding(middle) != 0:
+        raise Rejected("a body that should be apart lies in another")
+
+
+def _balls_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    (p, r), (q, s) = ball(a), ball(b)
+    step = [Fraction(x) - Fraction(y) for x, y in zip(p, q, strict=True)]
+    reach = max(Fraction(r) + Fraction(s) + Fraction(tolerance), Fraction(0))
+    if dot(step, step) <= reach * reach:
+        raise Rejected("bodies that should be apart are within the tolerance")
+
 
 # How far two computations of one contact may be off: of the largest coordinate, and of a normal.
 SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6

@@ -11,9 +11,9 @@ from msgspec import convert
 from satcheck import core
 from satcheck.audit.figures.exact_hulls import expanded, nearest_point
 from satcheck.report.certificate import Polytope
+from satcheck.verify.depth import inner_radius_exceeds
 from satcheck.verify.exact import dot, lattice
 from satcheck.verify.pairs import Pair
-from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.world import Exact, World
 
 

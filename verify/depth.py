@@ -1,11 +1,13 @@
-"""A lower bound of the depth of two solids: a cover of all shorter translations, each proven to
-leave an overlap.
+"""Lower bounds of a depth.
 
-A triangle S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex
-polytope. The solids then have a common interior if the planes of S and U are not parallel, and if
-every inner point of either triangle has its solid on exactly one side. Cubes inside such polytopes
-cover the ball of shorter translations: an octree around the origin with a pair of triangles for
-each leaf. Cubes outside the ball need no proof.
+Of convex bodies: an inner polytope of the Minkowski difference, which also proves their overlap.
+
+Of other solids: a cover of all shorter translations, each proven to leave an overlap. A triangle
+S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex polytope. The
+solids then have a common interior if the planes of S and U are not parallel, and if every inner
+point of either triangle has its solid on exactly one side. Cubes inside such polytopes cover the
+ball of shorter translations: an octree around the origin with a pair of triangles for each leaf.
+Cubes outside the ball need no proof.
 """
 
 from __future__ import annotations
@@ -13,12 +15,52 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil
 
-from satcheck.report.certificate import Cover
+from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
 from satcheck.verify.cells import UNIT_CELL, look, own_partners
 from satcheck.verify.evidence import index
 from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
+
+MOST_FACES = 100_000
+
+
+def inner_radius_exceeds(
+    polytope: Polytope | PolytopeProof, a: Exact, b: Exact, radius: Fraction
+) -> None:
+    """Rejects a polytope that does not contain the ball of this radius (world) around the origin.
+
+    Its vertices are a_i - b_j. Where each directed edge meets its reverse once, and the origin
+    lies behind every face, the surface runs around the origin. So every ray from there meets it,
+    nowhere nearer than the nearest face plane.
+    """
+    vertices, faces = polytope.vertices, polytope.faces
+    if not 4 <= len(faces) <= MOST_FACES or len(vertices) > MOST_FACES:
+        raise Rejected("a polytope has at least 4 faces, and not too many")
+    points = [_difference(pair, a, b) for pair in vertices]
+    edges: set[tuple[int, int]] = set()
+    least = radius * (1 << a.k)
+    for face in faces:
+        corner = [index(v, len(points)) for v in face]
+        p, q, r = (points[v] for v in corner)
+        normal = cross(sub(q, p), sub(r, p))
+        height = dot(normal, p)
+        if height <= 0:
+            raise Rejected("the origin is not strictly inside the polytope")
+        if height * height < least * least * dot(normal, normal):
+            raise Rejected("a face of the polytope is nearer than the lower bound of the depth")
+        for k in range(3):
+            edge = corner[k - 1], corner[k]
+            if edge in edges:
+                raise Rejected("the polytope runs an edge twice")
+            edges.add(edge)
+    if any((q, p) not in edges for p, q in edges):
+        raise Rejected("the polytope is not closed")
+
+
+def _difference(pair: Indices, a: Exact, b: Exact) -> IntVector:
+    return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])
+
 
 LEVELS = 12  # the most halvings of a cube
 MOST_CUBES = 50_000
