@@ -20,7 +20,7 @@ from functools import cmp_to_key
 from itertools import pairwise, product
 from typing import Any
 
-from satcheck.verify.cells import cells_of, in_space, look, own_partners
+from satcheck.verify.cells import own_sides
 from satcheck.verify.exact import (
     Point,
     Rejected,
@@ -55,16 +55,10 @@ class Boundary:
         corners = body.corners(t)
         if not body.world.solid:
             return [corners]
-        normal = normal_of(corners)
-        if not any(normal):
-            return []
-        others = [body.corners(u) for u in own_partners(body, [t]).get(t, [])]
         pieces: list[Piece] = []
-        for cell in cells_of(corners, normal, others):
-            [(front, back)] = look(corners, normal, cell, [body])
+        for _, cell, (front, back) in own_sides(body, [t]):
             if not (front and back):
-                polygon = [in_space(corners, p) for p in cell]
-                pieces += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
+                pieces += [(cell[0], p, q) for p, q in pairwise(cell[1:])]
         return pieces
 
 

@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import ceil
 
 from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
-from satcheck.verify.cells import UNIT_CELL, look, own_partners
+from satcheck.verify.cells import look, own_partners
 from satcheck.verify.evidence import index
 from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, sub
 from satcheck.verify.surfaces import common
@@ -173,5 +173,5 @@ def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
         middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
         if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
             return False
-    [(front, back)] = look(corners, normal, UNIT_CELL, [body])
+    [(front, back)] = look(normal, corners, [body])
     return front != back

@@ -24,7 +24,7 @@ from typing import Any
 
 from satcheck.report.certificate import Excuse
 from satcheck.verify.bodies import Placed
-from satcheck.verify.cells import Sides, cells_in, chosen, in_space, sides_of_cell
+from satcheck.verify.cells import Cell, Sides, chosen, sides_of
 from satcheck.verify.exact import Point, Rejected, cross, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.pairs import Pair
@@ -106,21 +106,18 @@ def _no_piece_joins_two(around: list[list[Face]]) -> None:
                 raise Rejected("one body passes through the other")
 
 
-def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Face, list[Point]]]:
+def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Face, Cell]]:
     """With the corners of each."""
     views = (pair.a, pair.b, contacts), (pair.b, pair.a, [(t, s) for s, t in contacts])
     count = 0
     for body, (x, y, pairs) in enumerate(views):
-        for triangle in cells_in(x, y, pairs, chosen(x, y, pairs, lambda inside: inside)):
-            for cell in triangle.cells:
-                sides = sides_of_cell(triangle, cell, x, y)
-                if not _bounds(sides):
-                    continue
-                count += 1
-                if count > MOST_CELLS:
-                    raise Rejected(f"the overlap has more than {MOST_CELLS:,} pieces of surface")
-                shared = sides.front[1] != sides.back[1]
-                yield Face(body, count, shared), [in_space(triangle.corners, p) for p in cell]
+        for sides in sides_of(x, y, pairs, chosen(x, y, pairs, lambda inside: inside)):
+            if not _bounds(sides):
+                continue
+            count += 1
+            if count > MOST_CELLS:
+                raise Rejected(f"the overlap has more than {MOST_CELLS:,} pieces of surface")
+            yield Face(body, count, sides.front[1] != sides.back[1]), sides.cell
 
 
 def _bounds(sides: Sides) -> bool:

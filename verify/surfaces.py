@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -14,6 +14,7 @@ from satcheck.verify.exact import (
     IntVector,
     Point,
     TooMany,
+    Vector,
     cross,
     dot,
     nearest_to_origin,
@@ -189,7 +190,7 @@ def _negated(v: IntVector) -> IntVector:
     return -v[0], -v[1], -v[2]
 
 
-def clipped(region: list[Any], normal: IntVector, limit: int) -> list[Any]:
+def clipped(region: Sequence[Any], normal: Vector, limit: Any) -> list[Any]:
     """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
     heights = [dot(normal, p) - limit for p in region]
     kept: list[Any] = []
