@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import cmp_to_key
+from functools import cache, cmp_to_key, partial
 from itertools import pairwise, product
 from typing import Any
 
@@ -26,7 +26,6 @@ from satcheck.verify.exact import (
     Rejected,
     cross,
     dot,
-    nearest_to_origin,
     normal_of,
     sign,
     sub,
@@ -37,37 +36,23 @@ from satcheck.verify.world import Corners, Exact
 Piece = tuple[Any, Any, Any]  # the corners of a triangle, rational
 
 
-class Boundary:
-    """The boundary by triangles; each triangle is cut once."""
-
-    def __init__(self, body: Exact) -> None:
-        self.body = body
-        self._pieces: dict[int, list[Piece]] = {}
-
-    def pieces(self, t: int) -> list[Piece]:
-        """Closed triangles that make up the boundary part of triangle t."""
-        if t not in self._pieces:
-            self._pieces[t] = self._cut(t)
-        return self._pieces[t]
-
-    def _cut(self, t: int) -> list[Piece]:
-        body = self.body
-        corners = body.corners(t)
-        if not body.world.solid:
-            return [corners]
-        pieces: list[Piece] = []
-        for _, cell, (front, back) in own_sides(body, [t]):
-            if not (front and back):
-                pieces += [(cell[0], p, q) for p, q in pairwise(cell[1:])]
-        return pieces
+def boundary_of(body: Exact, t: int) -> list[Piece]:
+    """Closed triangles that make up the boundary part of a triangle."""
+    if not body.world.solid:
+        return [body.corners(t)]
+    pieces: list[Piece] = []
+    for _, cell, (front, back) in own_sides(body, [t]):
+        if not (front and back):
+            pieces += [(cell[0], p, q) for p, q in pairwise(cell[1:])]
+    return pieces
 
 
 def meet(a: Exact, b: Exact, contacts: list[tuple[int, int]], across: int | None = None) -> bool:
     """Whether one of these pairs of triangles has a common point of both boundaries. across: of
     prisms of one height along this axis, a point between their ends."""
-    of_a, of_b = Boundary(a), Boundary(b)
+    of_a, of_b = (cache(partial(boundary_of, body)) for body in (a, b))
     for s, t in contacts:
-        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
+        for p, q in product(of_a(s), of_b(t)):
             shared = common(p, q)
             if shared and (across is None or not _is_at_end(shared, a, across)):
                 return True
@@ -83,28 +68,19 @@ def contacts_if_apart(
     a: Exact, b: Exact, beyond: Fraction, least: Fraction
 ) -> list[tuple[int, int]]:
     """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or whose gap is not
-    greater than `beyond` and at least `least`."""
+    greater than `beyond` and at least `least`. Faces within the material of a body are no nearer to
+    what is outside of it than its boundary."""
     scale = 1 << a.k
     low, high = (beyond * scale) ** 2, (least * scale) ** 2
-    of_a, of_b = Boundary(a), Boundary(b)
     contacts = []
     for s, t, squared in close_pairs(a, b, max(beyond, least)):
         if squared == 0:
             contacts.append((s, t))
-        if squared > low and squared >= high:
-            continue
-        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
-            step = _distance_squared(p, q)
-            if step <= low or step < high:
-                raise Rejected("the boundaries are closer than claimed, or meet")
+        elif squared <= low or squared < high:
+            raise Rejected("the boundaries are closer than claimed")
+    if meet(a, b, contacts):
+        raise Rejected("the boundaries meet")
     return contacts
-
-
-def _distance_squared(p: Piece, q: Piece) -> Fraction:
-    if common(p, q):
-        return Fraction(0)
-    x, _ = nearest_to_origin([sub(v, u) for u in p for v in q])
-    return Fraction(dot(x, x))
 
 
 # The most points of a segment that are tried; one must lie on no crossing edge.

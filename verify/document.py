@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from satcheck.report.report import (
     UNSUPPORTED,
     Exempt,
     Finding,
-    Report,
     RuleReport,
     Tool,
 )
@@ -32,7 +31,7 @@ from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import report_of
-from satcheck.verify.summary import check_summary
+from satcheck.verify.severity import check_summary
 
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
 
@@ -56,24 +55,20 @@ def verify(
         checked.append(report.check(finding))
         if progress is not None:
             progress(done, count)
-    faults = list(report.faults)
-    support = report.check_support(faults) + report.check_regions(faults)
+    support: tuple[CheckedSupport, ...] = ()
     pruned = exempt = 0
     if not report.missing:
-        pruned, exempt, left_open = report.check_unlisted(faults)
-        try:
-            report.check_summary(pruned, left_open)
-        except Rejected as why:
-            faults.append(str(why))
-    not_certified = tuple(report.beyond)
+        support = report.check_support() + report.check_regions()
+        pruned, exempt, left_open = report.check_unlisted()
+        report.check_summary(pruned, left_open)
     outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
-    whole = not (faults or not_certified or report.missing)
+    whole = not (report.faults or report.beyond or report.missing)
     return VerificationReport(
         tool=Tool("satcheck", __version__),
         accepted=whole and outcomes <= {"accepted", "open"},
         findings=tuple(checked),
-        faults=tuple(faults),
-        not_certified=not_certified,
+        faults=tuple(report.faults),
+        not_certified=tuple(report.beyond),
         pruned=pruned,
         exempt=exempt,
         missing=report.missing,
@@ -89,7 +84,7 @@ def is_certified(result: VerificationReport, document: Any) -> bool:
     return asked or "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
 
 
-class _NoFile(Exception):
+class _NoFile(NotCertified):
     """The claim may be true, but the file of a body is missing."""
 
 
@@ -117,7 +112,10 @@ class _Report:
         unplaced = [b for b in placed if b.claims and b.reason and b.missing is None]
         self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
         self.beyond: list[str] = []
-        self.faults += _faults_of_issues(report, self.bodies)
+        strangers = [i.body for i in report.issues if i.body not in {None, *self.bodies}]
+        self.faults += [f"an issue is about {name}, which is no body" for name in strangers[:1]]
+        if report.support is None and any(i.code in SUPPORT_CODES for i in report.issues):
+            self.faults.append("issues are about the support of bodies, and its section is missing")
         if report.motions:
             self.beyond.append("bodies move: what happens on the way is not certified")
         if report.summary.accepted and report.summary.verdict != "fail":
@@ -131,9 +129,8 @@ class _Report:
         try:
             proven = self._check(finding)
         except NotCertified as why:
-            return Checked(a, b, relation, "not certified", str(why))
-        except _NoFile as why:
-            return Checked(a, b, relation, "no file", str(why))
+            beyond: Outcome = "no file" if isinstance(why, _NoFile) else "not certified"
+            return Checked(a, b, relation, beyond, str(why))
         except Rejected as why:
             outcome: Outcome = "rejected" if finding.certificate else "not certified"
             return Checked(a, b, relation, outcome, str(why))
@@ -199,11 +196,13 @@ class _Report:
         across = None if settings.planar is None else ACROSS[settings.planar]
         return request_of(terms, settings.clearance, tolerance, across)
 
-    def check_unlisted(self, faults: list[str]) -> tuple[int, int, int]:
+    def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
         nothing decides, because a body cannot be used or compared."""
         pruned = exempted = left_open = 0
-        for a, b in _unlisted(list(self.bodies.values()), self.listed):
+        for a, b in combinations(self.bodies.values(), 2):
+            if frozenset((a.id, b.id)) in self.listed:
+                continue
             if not self.book.is_checked(self.order[a.id], self.order[b.id]):
                 exempted += 1
             elif self.units[a.id] != self.units[b.id] or not (a.claims and b.claims):
@@ -211,68 +210,56 @@ class _Report:
             elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
             else:
-                faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
+                fault = f"{a.id} and {b.id} are not apart by their boxes, and not listed"
+                self.faults.append(fault)
         return pruned, exempted, left_open
 
-    def check_support(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
-        """The answers about the support of bodies; none if a file is missing."""
+    def check_support(self) -> tuple[CheckedSupport, ...]:
+        """The answers about the support of bodies."""
         statics = self.report.support
-        if statics is None and any(i.code in SUPPORT_CODES for i in self.report.issues):
-            faults.append("issues are about the support of bodies, and its section is missing")
-        if statics is None or self.missing:
+        if statics is None:
             return ()
         from satcheck.verify.statics.claims import Claims
 
-        return _judged("support", lambda: Claims(statics, self.bodies).judged(), faults)
+        return self._noting("support", lambda: tuple(Claims(statics, self.bodies).judged()))
 
-    def check_regions(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
-        """The answers about bodies in regions; none if a file is missing."""
+    def check_regions(self) -> tuple[CheckedSupport, ...]:
+        """The answers about bodies in regions."""
         regions = self.report.regions
-        if not regions or self.missing:
+        if not regions:
             return ()
         from satcheck.verify.inside import judged
 
-        return _judged("regions", lambda: judged(regions, self.bodies), faults)
+        return self._noting("regions", lambda: tuple(judged(regions, self.bodies)))
 
     def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the
         findings."""
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
-            listed_apart = self.listed_apart
-            counted = self.book.count()
-            check_summary(self.report, findings, counted, pruned, listed_apart, left_open)
+            counted, listed = self.book.count(), self.listed_apart
+            try:
+                check_summary(self.report, findings, counted, pruned, listed, left_open)
+            except Rejected as why:
+                self.faults.append(str(why))
 
-
-def _judged(
-    name: str, judge: Callable[[], Iterator[CheckedSupport]], faults: list[str]
-) -> tuple[CheckedSupport, ...]:
-    """Return what a part of the report claims about single bodies."""
-    try:
-        return tuple(judge())
-    except Rejected as why:
-        faults.append(f"{name}: {why}")
-    except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
-        faults.append(f"{name} cannot be checked: {type(error).__name__}: {error}")
-    return ()
+    def _noting(
+        self, part: str, judge: Callable[[], tuple[CheckedSupport, ...]]
+    ) -> tuple[CheckedSupport, ...]:
+        """What a part of the report claims about single bodies; of a part that has a fault nothing
+        does."""
+        try:
+            return judge()
+        except Rejected as why:
+            self.faults.append(f"{part}: {why}")
+        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+            self.faults.append(f"{part} cannot be checked: {type(error).__name__}: {error}")
+        return ()
 
 
 def _says_something(name: str, value: Any) -> bool:
     """A lower end of 0 says nothing."""
     return value is not None and not (name in ("depth_bounds", "thickness_bounds") and not value[0])
-
-
-def _faults_of_issues(report: Report, bodies: dict[str, Placed]) -> list[str]:
-    named = (issue.body for issue in report.issues if issue.body is not None)
-    strangers = [name for name in named if name not in bodies]
-    return [f"an issue is about {name}, which is no body" for name in strangers[:1]]
-
-
-def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tuple[Placed, Placed]]:
-    """Pairs without a finding."""
-    for a, b in combinations(bodies, 2):
-        if frozenset((a.id, b.id)) not in listed:
-            yield a, b
 
 
 def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Placed]) -> RuleBook:

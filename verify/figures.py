@@ -35,12 +35,11 @@ UNIT_ERROR = 1e-12  # of the length of a unit vector
 DIRECTION_ERROR = Fraction(1, 1000)
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
-THICKNESS_FIGURES = ("thickness", "thickness_bounds", "ball")
-ALL_FIGURES = (
-    *DEPTH_FIGURES,
-    *THICKNESS_FIGURES,
-    *("distance", "witness", "quality", "volume", "volume_error"),
-)
+# What an undecided pair states; it claims nothing else.
+OF_UNDECIDED = {
+    *("id", "a", "b", "relation", "placed_relation", "severity", "undecided", "reason"),
+    *("tolerance", "motion", "certificate", "plan", "baseline_state"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,11 +91,8 @@ def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) ->
 
 def check_no_figures(finding: Finding) -> None:
     """Rejects figures of an undecided pair."""
-    claims = [
-        key
-        for key in (*ALL_FIGURES, "exact_relation", "contacts", "components", "rule")
-        if getattr(finding, key)
-    ]
+    others = (key for key in Finding.__struct_fields__ if key not in OF_UNDECIDED)
+    claims = [key for key in others if getattr(finding, key)]
     if claims:
         raise Rejected(f"an indeterminate pair claims nothing, this one claims {claims[0]!r}")
 

@@ -34,6 +34,7 @@ BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1,
 Corner = tuple[int, int, int, int]
 HalfSpace = tuple[int, int, int, int]
 Polygon = list[Corner]
+Ends = tuple[Floats, Floats]
 
 
 class Frame:
@@ -275,3 +276,14 @@ def enters(triangle: Sequence[IntVector], spaces: Sequence[HalfSpace]) -> bool:
             region = clipped(region, heights)
     # The middle of the region is as far in as any of its points.
     return all(any(height(space, p) < 0 for p in region) for space in spaces)
+
+
+def is_outside(
+    body: Exact, triangles: Indices, box: Ends, spaces: Sequence[HalfSpace], p: Point
+) -> bool:
+    """Whether an open cell lies outside of the body. triangles: that may enter it. box: world
+    coordinates that it does not reach beyond. p: a point of it, or at its border."""
+    near = within(body, triangles, *box)
+    if any(enters(body.corners(t), spaces) for t in near.tolist()):
+        return False
+    return body.winding(p) == 0

@@ -36,7 +36,7 @@ from satcheck.verify.exact import (
     sub,
     turn,
 )
-from satcheck.verify.partition import Cell, Frame, enters, height, reverse, within
+from satcheck.verify.partition import Cell, Frame, height, is_outside, reverse
 from satcheck.verify.surfaces import up
 from satcheck.verify.world import Corners, Exact, rounded
 
@@ -117,10 +117,8 @@ class Side:
             return True
         world = Frame((0.0, 0.0, 0.0), self.body.k)
         spaces = [reverse(self.space), *world.box(low.tolist(), high.tolist())]
-        near = within(self.body, np.arange(len(self.body.world.triangles)), low, high)
-        if any(enters(self.body.corners(t), spaces) for t in near.tolist()):
-            return False
-        return self.body.winding((x, y, z)) == 0
+        everything = np.arange(len(self.body.world.triangles))
+        return is_outside(self.body, everything, (low, high), spaces, (x, y, z))
 
 
 def patch_of(patch: Face | Plane, body: Exact, frame: Frame) -> Piece | Side:

@@ -21,11 +21,9 @@ from satcheck.verify.partition import (
     BOUNDED,
     OUTSIDE_A,
     Cell,
-    Frame,
     Partition,
-    enters,
     exactly,
-    within,
+    is_outside,
 )
 from satcheck.verify.patches import (
     SUM_ERROR,
@@ -68,22 +66,13 @@ def at_most(
             if cell is not None:
                 bounded.append((cell, terms))
         elif cell is not None:
-            side = int(kind != OUTSIDE_A)
-            _is_outside(cell, partition.frame, partition.bodies[side], side)
+            side, frame = int(kind != OUTSIDE_A), partition.frame
+            around, p = (cell.box(frame), cell.half_spaces(frame)), cell.middle(frame)
+            if not is_outside(partition.bodies[side], cell.near[side], *around, p):
+                raise Rejected("a cell that should be outside of a body is not")
     if next(sums, None) is not None:
         raise Rejected("there are more bounds than cells")
     _Sums(cells, partition, less).are_at_most(bounded, most)
-
-
-def _is_outside(cell: Cell, frame: Frame, body: Exact, side: int) -> None:
-    """Rejects a cell with a point inside the body."""
-    near = within(body, cell.near[side], *cell.box(frame))
-    if near.size:
-        spaces = cell.half_spaces(frame)
-        if any(enters(body.corners(t), spaces) for t in near.tolist()):
-            raise Rejected("a surface runs through a cell that should be outside")
-    if body.winding(cell.middle(frame)) != 0:
-        raise Rejected("a cell that should be outside of a body is not")
 
 
 class _Sums:
