@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,8 +28,8 @@ from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
-from satcheck.verify.open_parts import bounds_nothing, with_backs
-from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
+from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
+from satcheck.verify.world import Indices, World, is_convex, placed
 
 # What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
@@ -103,6 +104,12 @@ class Placed:
         """Each coordinate is rounded once."""
         world = None if self.world is None else self.world.moved(offset)
         return replace(self, world=world, curved=self.curved and self.curved.moved(offset))
+
+
+def curve_error(a: Placed, b: Placed) -> Fraction:
+    """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
+    polygons are exact."""
+    return Fraction(a.deviation) + Fraction(b.deviation)
 
 
 class Bodies:
@@ -182,7 +189,10 @@ class Bodies:
             if isinstance(mesh, Refused):
                 absent = mesh.code == "file-not-found"
                 raise Missing("its file is not there") if absent else Rejected(str(mesh))
-            key, make = (entry.file, mesh.part), partial(shape_of, mesh, self._allow_open)
+            key, make = (
+                (entry.file, mesh.part),
+                partial(shape_of, mesh, allow_open=self._allow_open),
+            )
         elif entry.path is not None:
             raise Rejected("a shape is no node of a file")
         else:
@@ -260,7 +270,7 @@ def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:
         raise Rejected(f"convex is {shape.convex}")
 
 
-def shape_of(file: MeshFile, allow_open: bool = False) -> Shape:
+def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:
     """allow_open: open meshes are meant to be open."""
     vertices = np.array(file.mesh.vertices)
     triangles = np.array(file.mesh.triangles, dtype=np.int64)

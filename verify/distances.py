@@ -19,12 +19,11 @@ from satcheck.report.certificate import Certificate
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.scene.health import MOST_AROUND
-from satcheck.verify.bodies import Placed
+from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.evidence import given, vector
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
-from satcheck.verify.in_plane import curve_error
 from satcheck.verify.open_parts import turns_around
 from satcheck.verify.pairs import AnyPair, Pair
 from satcheck.verify.severity import check_severity

@@ -11,7 +11,7 @@ from msgspec import UnsetType
 from satcheck.report.certificate import Band, Certificate, Proof, SurfacesProof
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
-from satcheck.verify.bodies import Placed
+from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.depth import depth_is_at_least, inner_radius_exceeds
 from satcheck.verify.distances import (
     check_claims,
@@ -37,7 +37,6 @@ from satcheck.verify.figures import (
 from satcheck.verify.in_plane import (
     check_in_plane,
     check_overlap_of_curves,
-    curve_error,
     leaves_gap_of_curves,
     reaching,
 )

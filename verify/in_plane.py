@@ -25,7 +25,6 @@ from satcheck.report.certificate import (
 )
 from satcheck.report.report import Finding
 from satcheck.report.values import Relation
-from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import nothing_nearer
 from satcheck.verify.evidence import axis, vector
 from satcheck.verify.exact import Rejected
@@ -33,12 +32,6 @@ from satcheck.verify.pairs import AnyPair, Pair
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
-
-
-def curve_error(a: Placed, b: Placed) -> Fraction:
-    """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
-    polygons are exact."""
-    return Fraction(a.deviation) + Fraction(b.deviation)
 
 
 def check_overlap_of_curves(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.verify.exact import Floats
-from satcheck.verify.world import Indices, connected, count_by_triangle, is_balanced, is_flat
+from satcheck.verify.world import Indices, connected, count_by_triangle, is_flat
 
 Mask = NDArray[np.bool_]
 
@@ -24,6 +24,13 @@ def with_backs(vertices: Floats, triangles: Indices, *, allow_open: bool) -> Ind
         sheets |= _flaps(corners)
     both = np.vstack([triangles, triangles[sheets][:, ::-1]])
     return both if is_balanced(vertices, both) else None
+
+
+def is_balanced(vertices: Floats, triangles: Indices) -> bool:
+    """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
+    corners = _by_place(vertices)[triangles]
+    one_set = np.zeros(len(corners), dtype=np.int64)
+    return len(corners) > 0 and not len(_open_sets(one_set, corners, _edges(corners)))
 
 
 def turns_around(corners: Floats, point: Floats) -> float:

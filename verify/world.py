@@ -150,17 +150,6 @@ def is_flat(points: Floats) -> bool:
     return normal is None or all(dot(normal, v) == 0 for v in spokes)
 
 
-def is_balanced(vertices: Floats, triangles: Indices) -> bool:
-    """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
-    _, same = np.unique(vertices + 0.0, axis=0, return_inverse=True)
-    corner = same.reshape(-1)[triangles]
-    start, end = corner.ravel(), np.roll(corner, -1, axis=1).ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    edges, where = np.unique(np.column_stack([low, high]), axis=0, return_inverse=True)
-    runs = np.bincount(where.reshape(-1), weights=np.sign(end - start), minlength=len(edges))
-    return len(edges) > 0 and not runs.any()
-
-
 def is_convex(vertices: Floats, triangles: Indices) -> bool:
     """Whether a balanced surface winds around its hull and nothing else, outward.
 

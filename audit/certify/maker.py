@@ -21,9 +21,9 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.report import OVERLAPS, Finding
+from satcheck.verify.bodies import curve_error
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Rejected
-from satcheck.verify.in_plane import curve_error
 from satcheck.verify.pairs import AnyPair, any_pair_of
 
 T = TypeVar("T")
