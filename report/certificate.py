@@ -12,7 +12,8 @@ from msgspec import UNSET, Meta, UnsetType
 
 from satcheck.report.values import Count, Length, Value, Vector
 
-Exact = float | Annotated[str, Meta(pattern="^-?[0-9]+(/[0-9]+)?$")]
+# Longer numbers would take unbounded time.
+Exact = float | Annotated[str, Meta(pattern="^-?[0-9]{1,4000}(/[0-9]{1,4000})?$")]
 ExactVector = tuple[Exact, Exact, Exact]
 Indices = tuple[Count, Count]
 

@@ -16,10 +16,10 @@ from fractions import Fraction
 from math import ceil
 
 from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
-from satcheck.verify.cells import look, own_partners
+from satcheck.verify.cells import look
 from satcheck.verify.evidence import index
-from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, sub
-from satcheck.verify.surfaces import common
+from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, point, sub
+from satcheck.verify.surfaces import common, perhaps_close
 from satcheck.verify.world import Corners, Exact
 
 MOST_FACES = 100_000
@@ -157,21 +157,30 @@ def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
 def not_plain(body: Exact, triangles: list[int]) -> list[int]:
     """Triangles that a cover must not use: without area, crossed by another triangle of the
     surface, or with the solid on both sides or on none."""
-    partners = own_partners(body, triangles)
-    return [t for t in triangles if not _is_plain(body, t, partners.get(t, []))]
+    unfit = {t for t in triangles if not any(normal_of(body.corners(t)))}
+    for s, u in perhaps_close(body.part(triangles), body):
+        t = triangles[s]
+        if t not in unfit and t != u and _enters(body.corners(u), body.corners(t)):
+            unfit.add(t)
+    for t in set(triangles) - unfit:
+        [(front, back)] = look(normal_of(body.corners(t)), body.corners(t), [body])
+        if front == back:
+            unfit.add(t)
+    return sorted(unfit)
 
 
-def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
-    corners = body.corners(t)
+def _enters(other: Corners, corners: Corners) -> bool:
+    """Whether another triangle has a point of the inside of this one."""
     normal = normal_of(corners)
-    if not any(normal):
-        return False
-    inward = [cross(normal, sub(corners[(k + 1) % 3], corners[k])) for k in range(3)]
-    for u in partners:
-        shared = common(corners, body.corners(u))
-        # Where a convex set enters the triangle, so does its middle.
-        middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
-        if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
+    heights = [dot(normal, sub(p, corners[0])) for p in other]
+    if min(heights) >= 0 or max(heights) <= 0:  # it touches the plane at most
+        touching = {p for p, height in zip(other, heights, strict=True) if height == 0}
+        if touching.issubset(corners):
             return False
-    [(front, back)] = look(normal, corners, [body])
-    return front != back
+    shared = common(corners, other)
+    if not shared:
+        return False
+    # Where a convex set enters the triangle, so does its middle.
+    middle = point(sum(p[k] for p in shared) / len(shared) for k in range(3))
+    edges = ((corners[k], sub(corners[(k + 1) % 3], corners[k])) for k in range(3))
+    return all(dot(cross(normal, edge), sub(middle, p)) > 0 for p, edge in edges)

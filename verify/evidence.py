@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import TypeVar
@@ -14,8 +13,6 @@ from satcheck.report.certificate import OnBody
 from satcheck.verify.exact import Point, Rejected, point
 from satcheck.verify.world import Exact
 
-# Longer numbers would take unbounded time.
-NUMBER = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
 Part = TypeVar("Part")
 
 
@@ -27,12 +24,10 @@ def given(part: Part | UnsetType, name: str) -> Part:
 
 
 def rational(number: Number) -> Fraction:
-    if isinstance(number, str) and not NUMBER.fullmatch(number):
-        raise Rejected("a number is expected")
     try:
         return Fraction(number)
-    except (ValueError, OverflowError, ZeroDivisionError):
-        raise Rejected("a number is expected") from None
+    except ZeroDivisionError:
+        raise Rejected("a number over 0 is none") from None
 
 
 def vector(numbers: Sequence[Number]) -> Point:

@@ -58,11 +58,6 @@ class World:
     def lattice(self) -> int:
         return lattice(self.vertices)
 
-    @cached_property
-    def components(self) -> list[int]:
-        """One vertex of each part that is connected through vertices."""
-        return np.unique(self.labels(self.triangles)[self.used]).tolist()  # type: ignore[no-any-return]
-
     def labels(self, triangles: Indices) -> Indices:
         """For each vertex the least vertex that is connected with it through these triangles."""
         return connected(triangles, len(self.vertices))

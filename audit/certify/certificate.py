@@ -63,9 +63,10 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
     if isinstance(certificate, NoCertificate):
         return certificate
     why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
-    if why is not None and certificate.thickness is not UNSET:  # it may be that alone
-        certificate = replace(certificate, thickness=UNSET)
-        why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
+    for part in ("thickness", "cover"):  # it may be that alone
+        if why is not None and getattr(certificate, part) is not UNSET:
+            certificate = replace(certificate, **{part: UNSET})
+            why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
     return certificate if why is None else NoCertificate(f"what was found does not prove it: {why}")
 
 

@@ -12,9 +12,11 @@ from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Floats, NotCertified, Rejected, dot, point
+from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
 from satcheck.verify.findings import prove_way_out
+from satcheck.verify.pairs import any_pair_of, pair_of
 from satcheck.verify.patches import comes_within
+from satcheck.verify.relations import prove
 from satcheck.verify.statics.places import (
     SLACK,
     Place,
@@ -23,12 +25,9 @@ from satcheck.verify.statics.places import (
     places_of,
     places_of_ball,
 )
+from satcheck.verify.statics.terms import once
 from satcheck.verify.statics.weights import ball
-from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact, World
-
-# With more pairs of near triangles there is no proof.
-MOST_NEAR = 2_000_000
 
 
 def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
@@ -37,7 +36,8 @@ def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
     if _boxes_apart(a, b, tolerance):
         return
     if a.world is not None and b.world is not None:
-        _meshes_apart(a.world, b.world, tolerance)
+        pair = pair_of(a, b, a.world, b.world)
+        prove("separated", SurfacesProof(), pair, Fraction(tolerance), Fraction(0))
     elif a.world is not None:
         _ball_apart(b, a.world, tolerance)
     elif b.world is not None:
@@ -57,21 +57,6 @@ def _boxes_apart(a: Placed, b: Placed, tolerance: float) -> bool:
     return gap > Fraction(tolerance)
 
 
-def _meshes_apart(a: World, b: World, tolerance: float) -> None:
-    k = max(a.lattice, b.lattice)
-    one, other = Exact(a, k), Exact(b, k)
-    within = (Fraction(tolerance) * (1 << k)) ** 2
-    for _, _, squared in close_pairs(one, other, Fraction(tolerance), MOST_NEAR):
-        if squared <= within:
-            raise Rejected("bodies that should be apart are within the tolerance")
-    for inner, outer in ((one, other), (other, one)):
-        if not outer.world.solid:
-            continue
-        for v in inner.world.components:
-            if outer.winding(point(inner.points[v])) != 0:
-                raise Rejected("a body that should be apart lies in another")
-
-
 def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
     centre, radius = ball(round_)
     mesh = Exact(world, world.lattice)
@@ -84,10 +69,8 @@ def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
 
 
 def _balls_apart(a: Placed, b: Placed, tolerance: float) -> None:
-    (p, r), (q, s) = ball(a), ball(b)
-    step = [Fraction(x) - Fraction(y) for x, y in zip(p, q, strict=True)]
-    reach = max(Fraction(r) + Fraction(s) + Fraction(tolerance), Fraction(0))
-    if dot(step, step) <= reach * reach:
+    (p, _), (q, _) = ball(a), ball(b)
+    if any_pair_of(a, b).gap(sub(point(q), point(p)), Fraction(tolerance)) <= 0:
         raise Rejected("bodies that should be apart are within the tolerance")
 
 
@@ -105,7 +88,7 @@ class Contacts:
     def __init__(self, bodies: Mapping[str, Placed], tolerance: float) -> None:
         self._bodies, self._tolerance = bodies, tolerance
         self._places: dict[tuple[str, str], list[Place]] = {}
-        self._shallow: dict[frozenset[str], str | None] = {}
+        self._shallow = once(self._check_shallow)
 
     def near(self, name: str) -> list[str]:
         """Other bodies whose boxes are within the tolerance, or unknown."""
@@ -187,13 +170,11 @@ class Contacts:
         """Raises NotCertified if A and B may overlap by more than the tolerance: they may, unless A
         is seen to be free once it is moved by the tolerance along the normal of a contact. So may
         bodies that are thinner than the tolerance."""
-        pair = frozenset((a, b))
-        if pair not in self._shallow:
-            shallow = self._is_shallow(a, b)
-            why = f"how deep {a} and {b} overlap is not certified"
-            self._shallow[pair] = None if shallow else why
-        if self._shallow[pair] is not None:
-            raise NotCertified(str(self._shallow[pair]))
+        self._shallow(*sorted((a, b)))
+
+    def _check_shallow(self, a: str, b: str) -> None:
+        if not self._is_shallow(a, b):
+            raise NotCertified(f"how deep {a} and {b} overlap is not certified")
 
     def _is_shallow(self, a: str, b: str) -> bool:
         one, other = self._bodies[a], self._bodies[b]

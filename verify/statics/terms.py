@@ -29,6 +29,23 @@ def body_terms(
     return dict(zip(bodies, terms_of(list(bodies.values()), of_scene), strict=True))
 
 
+def once(check: Callable[..., None]) -> Callable[..., None]:
+    """A check that several answers share: for each of its arguments it is made once."""
+    results: dict[tuple[Any, ...], Rejected | NotCertified | None] = {}
+
+    def again(*of: Any) -> None:
+        if of not in results:
+            try:
+                results[of] = check(*of)  # type: ignore[func-returns-value]
+            except (Rejected, NotCertified) as why:
+                results[of] = why
+        refusal = results[of]
+        if refusal is not None:
+            raise type(refusal)(str(refusal))
+
+    return again
+
+
 def checked(finding: BodyAnswer, check: Callable[[], None]) -> CheckedSupport:
     """Return what a check says of an answer."""
     outcome: Outcome = "accepted"
