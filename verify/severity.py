@@ -81,6 +81,9 @@ def check_summary(
         indeterminate=indeterminate,
         exempt=bodies * (bodies - 1) // 2 - total,
     )
+    for key in ("total", "allowed", "indeterminate", "exempt"):
+        if (count := getattr(stated, key)) != (follows := getattr(pairs, key)):
+            raise Rejected(f"the summary counts {count!r} pairs as {key}, not {follows!r}")
     if stated.pruned != pruned and not (pruned == 0 and stated.pruned <= listed_apart):
         raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
     fail_on, issues, answers = report.settings.fail_on, report.issues, report.answers
