@@ -116,11 +116,8 @@ def _feet(points: Sequence[IntVector]) -> Iterator[tuple[Point, dict[int, Fracti
             weights = _foot([points[k] for k in chosen])
             if weights is not None and min(weights) >= 0:
                 shares = dict(zip(chosen, weights, strict=True))
-                x, y, z = (
-                    sum((w * points[k][axis] for k, w in shares.items()), Fraction())
-                    for axis in range(3)
-                )
-                yield (x, y, z), shares
+                foot = (sum(w * points[k][axis] for k, w in shares.items()) for axis in range(3))
+                yield point(foot), shares
 
 
 def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:

@@ -22,6 +22,8 @@ from itertools import pairwise
 from math import gcd, lcm
 from typing import Any
 
+import numpy as np
+
 from satcheck.report.certificate import Excuse
 from satcheck.verify.bodies import Placed
 from satcheck.verify.cells import Cell, Sides, chosen, sides_of
@@ -31,6 +33,7 @@ from satcheck.verify.pairs import Pair
 from satcheck.verify.reach import reaches_no_deeper
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.thickness import at_most, holds_ball
+from satcheck.verify.world import connected
 
 # No surface may reach deeper into the other body than this, times what both may be off.
 MOST_REACH = 4
@@ -93,15 +96,14 @@ def neither_passes(pair: Pair, contacts: list[tuple[int, int]]) -> None:
 
 def _no_piece_joins_two(around: list[list[Face]]) -> None:
     """around: faces next to each other."""
-    pieces = _Pieces()
-    by_body = [[[f for f in faces if f.body == body] for body in (0, 1)] for faces in around]
-    for of_both in by_body:
-        for one, other in (pair for faces in of_both for pair in pairwise(faces)):
-            pieces.join(one, other)
-    met: dict[Face, Face] = {}
+    by_body = [[[f.number for f in faces if f.body == body] for body in (0, 1)] for faces in around]
+    beside = [pair for of_both in by_body for faces in of_both for pair in pairwise(faces)]
+    joints = np.array([(one, other, other) for one, other in beside]).reshape(-1, 3).astype(int)
+    piece = connected(joints, 1 + max((f.number for faces in around for f in faces), default=0))
+    met: dict[int, int] = {}
     for of_a, of_b in by_body:
         if of_a and of_b:
-            a, b = pieces.of(of_a[0]), pieces.of(of_b[0])
+            a, b = int(piece[of_a[0]]), int(piece[of_b[0]])
             if met.setdefault(a, b) != b or met.setdefault(b, a) != a:
                 raise Rejected("one body passes through the other")
 
@@ -148,19 +150,3 @@ def _side_by_side(stretches: list[Stretch]) -> Iterator[list[Face]]:
         if len(here) - sum(shared) + max(shared) > 2:
             raise Rejected("the common part meets itself in an edge")
         yield here
-
-
-class _Pieces:
-    """Disjoint sets of faces."""
-
-    def __init__(self) -> None:
-        self._parent: dict[Face, Face] = {}
-
-    def of(self, face: Face) -> Face:
-        while (parent := self._parent.get(face, face)) != face:
-            self._parent[face] = self._parent.get(parent, parent)
-            face = parent
-        return face
-
-    def join(self, one: Face, other: Face) -> None:
-        self._parent[self.of(one)] = self.of(other)

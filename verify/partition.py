@@ -18,7 +18,7 @@ import numpy as np
 
 from satcheck.report.certificate import Cells
 from satcheck.report.values import Vector
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous, point
 from satcheck.verify.world import Exact, Indices
 
 MOST_CELLS = 100_000
@@ -43,13 +43,12 @@ class Frame:
     def __init__(self, origin: Sequence[float], k: int) -> None:
         self.scale = 1 << k
         self.floats: Floats = np.array(origin)
-        x, y, z = (Fraction(c) * self.scale for c in origin)
-        self.origin: Point = x, y, z
+        self.origin = point(Fraction(c) * self.scale for c in origin)
         self.is_plain = not any(origin)
 
     def point(self, p: Sequence[Any]) -> Corner:
-        x, y, z = (o + Fraction(c) * self.scale for o, c in zip(self.origin, p, strict=True))
-        return homogeneous((x, y, z))
+        ends = zip(self.origin, p, strict=True)
+        return homogeneous(point(o + Fraction(c) * self.scale for o, c in ends))
 
     def behind(self, normal: Sequence[float], height: float) -> HalfSpace:
         """The points with normal . p <= height."""
@@ -116,13 +115,12 @@ class Cell:
 
     def middle(self, frame: Frame) -> Point:
         """A point inside: about the middle, of few digits, or exactly."""
-        x, y, z = (Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
-        about = homogeneous((x, y, z))
+        near = point(Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
+        about = homogeneous(near)
         if all(height(space, about) < 0 for space in self.half_spaces(frame)):
-            return x, y, z
+            return near
         corners = [exactly(p) for p in self.corners(frame)]
-        x, y, z = (sum((p[k] for p in corners), Fraction()) / len(corners) for k in range(3))
-        return x, y, z
+        return point(sum(ends) / len(corners) for ends in zip(*corners, strict=True))
 
     def box(self, frame: Frame) -> tuple[Floats, Floats]:
         """World coordinates that it does not reach beyond."""

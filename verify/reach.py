@@ -3,8 +3,7 @@
 Its triangles are halved into pieces until each shows that it has none. Let a piece lie within r of
 a point c, and the surface of the solid be s from c. No point of the piece is deeper than
 
-    max |v - T|    v its corners, T a triangle or a convex patch of the solid: the distance to T is
-                   convex
+    max |v - T|    v its corners, T a triangle of the solid: the distance to T is convex
     s + r          the distance to the surface changes by no more than the way
     r - s          where c is outside: the way to a point inside leads through the surface
 
@@ -22,13 +21,12 @@ import numpy as np
 
 from satcheck.verify.cells import chosen
 from satcheck.verify.exact import Floats, Point, Rejected, point
-from satcheck.verify.patches import SUM_ERROR, TINY, Piece, joined, lengths, next_points, slack
+from satcheck.verify.patches import SUM_ERROR, TINY, lengths, next_points, slack
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices
 
 MOST_PIECES = 50_000
 MOST_HALVINGS = 64
-BENT = 2.0**-6  # how far a patch of two triangles may be from flat, of the length
 # How far all halvings together round a corner, of the largest coordinate.
 MIDDLE_ERROR = 2.0**-45
 
@@ -50,7 +48,6 @@ class _Reach:
 
     def __init__(self, body: Exact, solid: Exact, length: float) -> None:
         self.solid, self.length, self.pieces = solid, length, 0
-        self.patches: dict[int, Piece] = {}
         self.triangles: Floats = solid.world.vertices[solid.world.triangles]
         self.low, self.high = solid.world.bounds
         largest = max(np.abs(end).max() for e in (body, solid) for end in e.world.bounds)
@@ -76,28 +73,6 @@ class _Reach:
                 left = halves[~self.is_shallow(halves)]
                 pending += [(half, closest, halvings + 1) for half in left]
 
-    def _patch(self, triangle: int) -> Piece:
-        """A triangle, with its neighbour across its longest edge where both fill a convex patch."""
-        if triangle not in self.patches:
-            self.patches[triangle] = self._with_neighbour(triangle)
-        return self.patches[triangle]
-
-    def _with_neighbour(self, triangle: int) -> Piece:
-        world, corners = self.solid.world, self.solid.corners
-        p = self.triangles[triangle]
-        k = int(lengths(np.roll(p, -1, axis=0) - p).argmax())
-        ends = world.triangles[triangle][[k, (k + 1) % 3]]
-        beside = np.isin(world.triangles, ends).sum(axis=1) == 2
-        most_bend = BENT * self.length * (1 << self.solid.k)
-        for other in np.flatnonzero(beside).tolist():
-            try:
-                both = joined([triangle, other], [corners(triangle), corners(other)], self.solid)
-            except Rejected:
-                continue  # no patch
-            if other != triangle and both.bend <= most_bend:
-                return both
-        return Piece([corners(triangle)], Fraction(0), p[None], self.solid.k)
-
     def _near(self, piece: Floats) -> Indices:
         """The triangles whose boxes may be next to a point of the piece."""
         centre, radius = self._ball(piece)
@@ -120,7 +95,8 @@ class _Reach:
         surface, at_least = float(most[nearest]), float(least.min())
         if surface + radius <= self.length:
             return None
-        if self._patch(int(near[nearest])).above(piece).max() + self.off <= self.length:
+        spokes = self.triangles[near[nearest]] - piece[:, None]
+        if (lengths(next_points(spokes)) + slack(spokes)).max() + self.off <= self.length:
             return None
         if at_least > self.length or radius - at_least <= self.length:
             outside = self.solid.winding(self._on_lattice(centre)) == 0

@@ -21,7 +21,7 @@ from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import NotCertified, Point, Rejected
+from satcheck.verify.exact import NotCertified, Point, Rejected, sub
 from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
 from satcheck.verify.statics.sums import (
     Push,
@@ -220,8 +220,7 @@ class Claims:
             at = vector(place.at.tolist())
             own = velocity_at(motions.get(name), self._centre(name, weights), at)
             against = velocity_at(motions.get(other), self._centre(other, weights), at)
-            x, y, z = (p - q for p, q in zip(own, against, strict=True))
-            worst = max(worst, resistance(place, friction, (x, y, z)))
+            worst = max(worst, resistance(place, friction, sub(own, against)))
         return worst
 
     def _centre(self, name: str, weights: Mapping[str, Weight]) -> Point | None:
