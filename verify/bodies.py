@@ -27,7 +27,7 @@ from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Floats, Rejected
+from satcheck.verify.exact import Floats, Point, Rejected, point, sub
 from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
 from satcheck.verify.world import Indices, World, is_convex, placed
 
@@ -110,6 +110,15 @@ def curve_error(a: Placed, b: Placed) -> Fraction:
     """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
     polygons are exact."""
     return Fraction(a.deviation) + Fraction(b.deviation)
+
+
+def box_gaps(a: Placed, b: Placed) -> Point:
+    """How far the boxes of two bodies are apart along each axis, exactly; below 0 if they overlap
+    there. Rejects bodies without boxes."""
+    if a.bounds is None or b.bounds is None:
+        raise Rejected("a body that cannot be read may hold others")
+    (low_a, high_a), (low_b, high_b) = (tuple(map(point, body)) for body in (a.bounds, b.bounds))
+    return point(map(max, sub(low_b, high_a), sub(low_a, high_b)))
 
 
 class Bodies:

@@ -17,8 +17,8 @@ from math import ceil
 
 from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
 from satcheck.verify.cells import look
-from satcheck.verify.evidence import index
 from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, point, sub
+from satcheck.verify.pairs import index
 from satcheck.verify.surfaces import common, perhaps_close
 from satcheck.verify.world import Corners, Exact
 

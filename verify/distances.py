@@ -12,20 +12,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-import numpy as np
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Certificate
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.scene.health import MOST_AROUND
-from satcheck.verify.bodies import Placed, curve_error
+from satcheck.verify.bodies import Placed, box_gaps, curve_error
 from satcheck.verify.boundary import contacts_if_apart
-from satcheck.verify.evidence import given, vector
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
 from satcheck.verify.open_parts import turns_around
-from satcheck.verify.pairs import AnyPair, Pair
+from satcheck.verify.pairs import AnyPair, Pair, given, vector
 from satcheck.verify.severity import check_severity
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
@@ -122,11 +120,7 @@ def check_pieces(a: Placed, b: Placed) -> None:
 def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
     """Rejects bodies with holes unless the gap of their boxes is large enough: the fill of a hole
     may be anywhere near."""
-    if not (a.holed or b.holed) or a.bounds is None or b.bounds is None:
-        return
-    (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds
-    gaps = np.concatenate([b_low - a_high, a_low - b_high])
-    if Fraction(gaps.max()) <= margin * (1 + EXACT_WIDTH):
+    if (a.holed or b.holed) and max(box_gaps(a, b)) <= margin * (1 + EXACT_WIDTH):
         raise Rejected("what fills a hole is not certified, and may be where the other body is")
 
 
@@ -200,8 +194,4 @@ def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:
     if tolerance is None:
         tolerance = default_tolerance(a, b, request.across)
     beyond = max(Fraction(tolerance), Fraction(request.clearance or 0.0) + closer)
-    exact = [
-        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s), Fraction(0))
-        for p, q, r, s in zip(*(c.tolist() for c in (low_b, high_a, low_a, high_b)), strict=True)
-    ]
-    return sum(step * step for step in exact) > beyond * beyond
+    return sum(max(gap, Fraction(0)) ** 2 for gap in box_gaps(a, b)) > beyond * beyond

@@ -19,8 +19,8 @@ from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, point, root, sub
+from satcheck.verify.pairs import vector
 from satcheck.verify.patches import comes_within
 from satcheck.verify.world import Exact
 

@@ -22,7 +22,6 @@ from satcheck.verify.distances import (
     prove_apart,
     spanned,
 )
-from satcheck.verify.evidence import axis, given, vector
 from satcheck.verify.exact import Point, Rejected, dot, root
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
@@ -40,7 +39,7 @@ from satcheck.verify.in_plane import (
     leaves_gap_of_curves,
     reaching,
 )
-from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, pair_of
+from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, pair_of, vector
 from satcheck.verify.relations import prove, prove_free
 from satcheck.verify.thickness import at_most, holds_ball
 

@@ -26,9 +26,8 @@ from satcheck.report.certificate import (
 from satcheck.report.report import Finding
 from satcheck.report.values import Relation
 from satcheck.verify.distances import nothing_nearer
-from satcheck.verify.evidence import axis, vector
 from satcheck.verify.exact import Rejected
-from satcheck.verify.pairs import AnyPair, Pair
+from satcheck.verify.pairs import AnyPair, Pair, axis, vector
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}

@@ -17,7 +17,6 @@ from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import on_body, vector
 from satcheck.verify.exact import (
     IntVector,
     NotCertified,
@@ -27,7 +26,7 @@ from satcheck.verify.exact import (
     point,
     sign_of,
 )
-from satcheck.verify.pairs import pair_of, reach
+from satcheck.verify.pairs import on_body, pair_of, reach, vector
 from satcheck.verify.patches import comes_within
 from satcheck.verify.relations import check_within
 from satcheck.verify.statics.terms import body_terms, checked

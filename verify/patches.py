@@ -20,7 +20,6 @@ import numpy as np
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Face, Plane
-from satcheck.verify.evidence import index
 from satcheck.verify.exact import (
     Floats,
     Pair,
@@ -36,6 +35,7 @@ from satcheck.verify.exact import (
     sub,
     turn,
 )
+from satcheck.verify.pairs import index
 from satcheck.verify.partition import Cell, Frame, height, is_outside, reverse
 from satcheck.verify.surfaces import up
 from satcheck.verify.world import Corners, Exact, rounded

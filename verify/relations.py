@@ -24,7 +24,6 @@ from satcheck.verify.boundary import contacts_if_apart, meet, no_crossing
 from satcheck.verify.cells import Sides, chosen, sheets_among, sides_of
 from satcheck.verify.curved import Curved
 from satcheck.verify.depth import inner_radius_exceeds
-from satcheck.verify.evidence import axis, given, index
 from satcheck.verify.exact import (
     IntVector,
     Point,
@@ -36,7 +35,7 @@ from satcheck.verify.exact import (
     sign_of,
     sub,
 )
-from satcheck.verify.pairs import AnyPair, Pair
+from satcheck.verify.pairs import AnyPair, Pair, axis, given, index
 from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 

@@ -15,8 +15,8 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
-from satcheck.verify.evidence import index
 from satcheck.verify.exact import Floats, Point, Rejected, point
+from satcheck.verify.pairs import index
 from satcheck.verify.partition import (
     BOUNDED,
     OUTSIDE_A,

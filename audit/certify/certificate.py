@@ -43,10 +43,10 @@ from satcheck.report.report import Finding
 from satcheck.report.request import Request
 from satcheck.verify import Rejected, pairs
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import vector
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import reaching
+from satcheck.verify.pairs import vector
 
 
 def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:

@@ -17,9 +17,8 @@ from satcheck.report.certificate import AxisProof, Ends, NestedProof, OnBody, Po
 from satcheck.report.report import Finding
 from satcheck.verify import Rejected
 from satcheck.verify.curved import Curved
-from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, cross, dot, point, sub
-from satcheck.verify.pairs import AnyPair
+from satcheck.verify.pairs import AnyPair, vector
 from satcheck.verify.world import Exact
 
 Move = tuple[float, float, float]

@@ -22,9 +22,8 @@ from satcheck.report.certificate import (
 )
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.verify.bodies import curve_error
-from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Rejected
-from satcheck.verify.pairs import AnyPair, any_pair_of
+from satcheck.verify.pairs import AnyPair, any_pair_of, vector
 
 T = TypeVar("T")
 # The candidates to try first, along and against each coordinate.

@@ -20,8 +20,8 @@ from satcheck.report.statics import (
 from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import vector
 from satcheck.verify.exact import NotCertified, Point, Rejected, sub
+from satcheck.verify.pairs import vector
 from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
 from satcheck.verify.statics.sums import (
     Push,

@@ -10,11 +10,10 @@ import numpy as np
 
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
-from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import vector
+from satcheck.verify.bodies import Placed, box_gaps
 from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
 from satcheck.verify.findings import prove_way_out
-from satcheck.verify.pairs import any_pair_of, pair_of
+from satcheck.verify.pairs import any_pair_of, pair_of, vector
 from satcheck.verify.patches import comes_within
 from satcheck.verify.relations import prove
 from satcheck.verify.statics.places import (
@@ -33,7 +32,7 @@ from satcheck.verify.world import Exact, World
 def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
     """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
     may be negative: then the bodies may overlap by less than that."""
-    if _boxes_apart(a, b, tolerance):
+    if max(box_gaps(a, b)) > Fraction(tolerance):
         return
     if a.world is not None and b.world is not None:
         pair = pair_of(a, b, a.world, b.world)
@@ -44,17 +43,6 @@ def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
         _ball_apart(a, b.world, tolerance)
     else:
         _balls_apart(a, b, tolerance)
-
-
-def _boxes_apart(a: Placed, b: Placed, tolerance: float) -> bool:
-    if a.bounds is None or b.bounds is None:
-        raise Rejected("a body that cannot be read may hold others")
-    (low_a, high_a), (low_b, high_b) = a.bounds, b.bounds
-    gap = max(
-        Fraction(float(low)) - Fraction(float(high))
-        for low, high in (*zip(low_a, high_b, strict=True), *zip(low_b, high_a, strict=True))
-    )
-    return gap > Fraction(tolerance)
 
 
 def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
@@ -109,25 +97,21 @@ class Contacts:
 
     def between(self, a: str, b: str) -> list[Place]:
         """Contacts of A and B, normals from B to A. Raises NotCertified if they cannot be found."""
+        if (b, a) in self._places:
+            return [place.turned for place in self._places[b, a]]
         if (a, b) not in self._places:
-            if (b, a) in self._places:
-                turned = self._places[b, a]
-                self._places[a, b] = [Place(p.at, -p.normal, p.height, p.exact) for p in turned]
-            else:
-                try:
-                    self._places[a, b] = self._found(a, b)
-                except Rejected as why:
-                    raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
+            try:
+                self._places[a, b] = self._found(a, b)
+            except Rejected as why:
+                raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
         return self._places[a, b]
 
     def _found(self, a: str, b: str) -> list[Place]:
         one, other = self._bodies[a], self._bodies[b]
-        if one.bounds is None or other.bounds is None:
-            raise Rejected("a body that cannot be read may hold others")
-        tolerance, rounding = self._tolerance, self.rounding(a, b)
-        gap = np.maximum(one.bounds[0] - other.bounds[1], other.bounds[0] - one.bounds[1])
-        if float(gap.max()) > tolerance * (1 + SLACK):
+        tolerance = self._tolerance
+        if max(box_gaps(one, other)) > tolerance * (1 + SLACK):
             return []
+        rounding = self.rounding(a, b)
         of_a, of_b = self._surfaces.get(a), self._surfaces.get(b)
         if of_a is not None and of_b is not None:
             return places_of(of_a, of_b, tolerance, rounding)
@@ -137,7 +121,7 @@ class Contacts:
         if of_a is not None:
             centre, radius = ball(other)
             places = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
-            return [Place(p.at, -p.normal, p.height, p.exact) for p in places]
+            return [place.turned for place in places]
         (p, r), (q, s) = ball(one), ball(other)
         return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
 

@@ -9,7 +9,7 @@ is missed.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,6 +37,11 @@ class Place:
     normal: Floats
     height: float
     exact: bool
+
+    @property
+    def turned(self) -> Place:
+        """As a contact of B and A."""
+        return replace(self, normal=-self.normal)
 
 
 class Surface:

@@ -9,8 +9,8 @@ from fractions import Fraction
 from typing import Any
 
 from satcheck.report.statics import FirstMotion
-from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, cross, dot, point, sub
+from satcheck.verify.pairs import vector
 from satcheck.verify.statics.places import Place
 from satcheck.verify.statics.weights import Weight
 
