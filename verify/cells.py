@@ -116,17 +116,6 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
         yield region.tolist(), int(a.world.triangles[region[0], 0])
 
 
-def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
-    """The other triangles of A that meet those of the index; empty if A has no inside."""
-    partners: dict[int, list[int]] = {}
-    if not a.world.solid or not index:
-        return partners
-    for s, t in meeting(a.part(index), a):
-        if index[s] != t:
-            partners.setdefault(index[s], []).append(t)
-    return partners
-
-
 def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
     """The triangles in contact, on this side of each pair, that have a part without material on
     either side."""
@@ -139,15 +128,18 @@ def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set
 def _with_own_partners(
     a: Exact, triangles: list[int]
 ) -> Iterator[tuple[Corners, list[Corners], int]]:
-    """The corners of those that have an area, and of the triangles of A that they meet; in blocks,
-    because the first few triangles reveal most false claims."""
+    """The corners of those that have an area, and of the other triangles of A that they meet, if it
+    has an inside; in blocks, because the first few triangles reveal most false claims."""
     for start in range(0, len(triangles), BLOCK):
         block = triangles[start : start + BLOCK]
-        own = own_partners(a, block)
+        own: dict[int, list[Corners]] = {}
+        for s, u in meeting(a.part(block), a) if a.world.solid else ():
+            if block[s] != u:
+                own.setdefault(block[s], []).append(a.corners(u))
         for t in block:
             corners = a.corners(t)
             if any(normal_of(corners)):
-                yield corners, [a.corners(u) for u in own.get(t, [])], t
+                yield corners, own.get(t, []), t
 
 
 def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:

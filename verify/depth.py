@@ -175,7 +175,7 @@ def _enters(other: Corners, corners: Corners) -> bool:
     heights = [dot(normal, sub(p, corners[0])) for p in other]
     if min(heights) >= 0 or max(heights) <= 0:  # it touches the plane at most
         touching = {p for p, height in zip(other, heights, strict=True) if height == 0}
-        if touching.issubset(corners):
+        if len(touching) < len(corners) and touching.issubset(corners):
             return False
     shared = common(corners, other)
     if not shared:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -168,9 +167,8 @@ def is_convex(vertices: Floats, triangles: Indices) -> bool:
 
 def rounded(vector: Sequence[Any]) -> Floats:
     """About this direction, its largest component about 1."""
-    values = [Fraction(c) for c in vector]
-    largest = max(abs(c) for c in values)
-    return np.array([float(c / largest) for c in values])
+    largest = max(map(abs, vector))
+    return np.array([float(c / largest) for c in vector])
 
 
 def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:

@@ -58,6 +58,8 @@ def cover(pair: Pair, depth: Fraction) -> Cover | None:
         if not unfit_a and not unfit_b:
             break
         search.leave_out(np.isin(i, unfit_a) | np.isin(j, unfit_b))
+    else:
+        return None
     number = {leaf: place for place, leaf in enumerate(used)} | {SPLIT: SPLIT}
     return Cover(
         tuple((int(i[leaf]), int(j[leaf])) for leaf in used),
