@@ -17,6 +17,7 @@ IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
 Vector = tuple[Any, Any, Any]  # of integers or rationals
 Pair = tuple[Any, Any]  # coordinates in a plane
+HalfSpace = tuple[Vector, Any]  # normal . x <= limit
 
 SIGNIFICANT_BITS = 53
 ROOT_BITS = 128
@@ -97,6 +98,28 @@ def homogeneous(p: Point) -> tuple[int, int, int, int]:
     """(X, Y, Z, W) with p = (X, Y, Z) / W and W > 0."""
     w = lcm(*(c.denominator for c in p))
     return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
+
+
+def half_spaces(t: Sequence[Vector]) -> list[HalfSpace]:
+    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
+    segment or a point."""
+    n = normal_of(t)
+    if any(n):
+        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
+        anchors = [t[0], t[0], *t]
+    else:
+        spans = [(p, q) for p in t for q in t if p != q]
+        p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
+        along = sub(q, p)
+        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        across = [cross(along, u) for u in units] if any(along) else units
+        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
+        anchors = [q] + [p] * (len(normals) - 1)
+    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
+
+
+def _negated(v: IntVector) -> IntVector:
+    return -v[0], -v[1], -v[2]
 
 
 def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fraction]]:

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
-    IntVector,
     Point,
     TooMany,
     Vector,
-    cross,
     dot,
+    half_spaces,
     nearest_to_origin,
     normal_of,
     point,
@@ -26,7 +25,6 @@ from satcheck.verify.world import Corners, Exact, Indices
 
 BLOCK = 4096  # pairs compared at once
 MOST_PAIRS = 50_000_000  # with more pairs a check would take too long
-HalfSpace = tuple[IntVector, int]
 Mask = NDArray[np.bool_]
 
 
@@ -174,28 +172,6 @@ def common(a: Corners, b: Corners) -> list[Point]:
         if not region:
             break
     return [point(p) for p in region]
-
-
-def half_spaces(t: Corners) -> list[HalfSpace]:
-    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
-    segment or a point."""
-    n = normal_of(t)
-    if any(n):
-        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
-        anchors = [t[0], t[0], *t]
-    else:
-        spans = [(p, q) for p in t for q in t if p != q]
-        p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
-        along = sub(q, p)
-        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
-        across = [cross(along, u) for u in units] if any(along) else units
-        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
-        anchors = [q] + [p] * (len(normals) - 1)
-    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
-
-
-def _negated(v: IntVector) -> IntVector:
-    return -v[0], -v[1], -v[2]
 
 
 def clipped(region: Sequence[Any], normal: Vector, limit: Any) -> list[Any]:

@@ -17,6 +17,7 @@ from satcheck.verify.exact import (
     Rejected,
     cross,
     dot,
+    half_spaces,
     homogeneous,
     integers,
     lattice,
@@ -241,7 +242,7 @@ class Exact:
             in_plane = (
                 height == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
             )
-            if height == 0 and not in_plane and holds(corners, normal, x):
+            if height == 0 and not in_plane and holds(corners, x):
                 return None
             side = projected_side(corners, x, axis)
             if in_plane:
@@ -279,26 +280,9 @@ def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
     return sides.pop() if len(sides) == 1 else 0
 
 
-def holds(corners: Corners, normal: IntVector, x: Homogeneous) -> bool:
-    """Whether a closed triangle holds a point of its plane; where it has no area, whether the
-    segment that it is does."""
-    w = x[3]
-    if any(normal):
-        turns = set()
-        for k in range(3):
-            u, v = corners[k], corners[(k + 1) % 3]
-            step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
-            turns.add(sign(dot(normal, cross(sub(v, u), step))))
-        return not {1, -1} <= turns
-    for k in range(3):
-        u, v = corners[k], corners[(k + 1) % 3]
-        step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
-        along = sub(v, u)
-        if any(cross(along, step)) or (any(step) and not any(along)):
-            continue
-        if 0 <= dot(along, step) <= dot(along, along) * w:
-            return True
-    return False
+def holds(corners: Corners, x: Homogeneous) -> bool:
+    """Whether a closed triangle, which may be a segment or a point, holds a point."""
+    return all(dot(normal, x) <= limit * x[3] for normal, limit in half_spaces(corners))
 
 
 def count_by_triangle(
