@@ -112,8 +112,7 @@ class Side:
         low, high = np.nextafter(low - reach, -np.inf), np.nextafter(high + reach, np.inf)
         lattice = [[Fraction(c) * self.frame.scale for c in end.tolist()] for end in (low, high)]
         x, y, z = (lattice[c > 0][k] for k, c in enumerate(self.normal))
-        corner = homogeneous((x, y, z))
-        if height(self.space, corner) <= 0:
+        if height(self.space, (x, y, z)) <= 0:
             return True
         world = Frame((0.0, 0.0, 0.0), self.body.k)
         spaces = [reverse(self.space), *world.box(low.tolist(), high.tolist())]

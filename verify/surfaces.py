@@ -13,7 +13,6 @@ from satcheck.verify.exact import (
     Floats,
     Point,
     TooMany,
-    Vector,
     dot,
     half_spaces,
     nearest_to_origin,
@@ -174,7 +173,7 @@ def common(a: Corners, b: Corners) -> list[Point]:
     return [point(p) for p in region]
 
 
-def clipped(region: Sequence[Any], normal: Vector, limit: Any) -> list[Any]:
+def clipped(region: Sequence[Any], normal: Sequence[Any], limit: Any) -> list[Any]:
     """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
     heights = [dot(normal, p) - limit for p in region]
     kept: list[Any] = []

@@ -22,7 +22,6 @@ from satcheck.verify.partition import (
     OUTSIDE_A,
     Cell,
     Partition,
-    exactly,
     is_outside,
 )
 from satcheck.verify.patches import (
@@ -97,7 +96,7 @@ class _Sums:
         limit = most * self.frame.scale
         for number in self._open(bounded, most):
             cell, terms = bounded[number]
-            if any(self._exceeds(exactly(p), terms, limit) for p in cell.corners(self.frame)):
+            if any(self._exceeds(p, terms, limit) for p in cell.corners(self.frame)):
                 raise Rejected("a cell is not shown to be as thin as that")
 
     def _are_clear(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:
