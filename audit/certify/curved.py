@@ -47,7 +47,8 @@ class CurvedMaker(Maker):
         if exact == "touching":
             if self.proof is None or self.proof.point is None:
                 return None
-            contact = self._shared(_rational(self.proof.point, self.bits))
+            shared = _rational(self.proof.point, self.bits)
+            contact = self._ends(shared, shared)
             return None if contact is None else AxisProof(axis_of(self.proof.axis), contact)
         return self._overlap() if exact == "penetrating" else None
 
@@ -79,11 +80,7 @@ class CurvedMaker(Maker):
     def _inside_both(self, p: Point) -> Ends | None:
         curved = [x for x in (self.placed.a, self.placed.b) if isinstance(x, Curved)]
         inner, closed = [x.side(p) > 0 for x in curved], [x.side(p) >= 0 for x in curved]
-        return self._shared(p) if any(inner) and all(closed) else None
-
-    def _shared(self, p: Point) -> Ends | None:
-        """A point as one of both bodies."""
-        return self._ends(p, p)
+        return self._ends(p, p) if any(inner) and all(closed) else None
 
     def _ends(self, p: Point, q: Point) -> Ends | None:
         """p as a point of A, and q as one of B."""

@@ -68,18 +68,11 @@ def leading_axes(
 ) -> tuple[ExactVector, ExactVector] | None:
     """An axis along which A reaches at least as far as B, and one along which B does; along one of
     them farther. leads: axes, each with the sign of what A reaches beyond B."""
-    a = b = even = None
+    found: dict[int, ExactVector] = {}
     for axis, lead in leads:
-        if lead > 0:
-            a = a or axis
-        elif lead < 0:
-            b = b or axis
-        else:
-            even = even or axis
-    if a is None and b is None:
-        return None
-    a, b = a or even, b or even
-    return None if a is None or b is None else (a, b)
+        found.setdefault((lead > 0) - (lead < 0), axis)
+    a, b = found.get(1, found.get(0)), found.get(-1, found.get(0))
+    return None if a is None or b is None or found.keys() == {0} else (a, b)
 
 
 class Maker:
