@@ -12,7 +12,8 @@ from msgspec import UNSET, Meta, UnsetType
 
 from satcheck.report.values import Count, Length, Value, Vector
 
-Exact = float | Annotated[str, Meta(pattern="^-?[0-9]+(/[0-9]+)?$")]
+# Longer numbers would take unbounded time.
+Exact = float | Annotated[str, Meta(pattern="^-?[0-9]{1,4000}(/[0-9]{1,4000})?$")]
 ExactVector = tuple[Exact, Exact, Exact]
 Indices = tuple[Count, Count]
 
@@ -33,10 +34,6 @@ class Ends(Value, frozen=True):
     b: OnBody
 
 
-# Coordinates; if one body is an open surface, a point of that surface.
-Point = ExactVector | OnBody
-
-
 class Polytope(Value, frozen=True):
     """vertices: pairs of vertices of A and B, for their differences. faces: outward."""
 
@@ -52,21 +49,10 @@ class AxisProof(Value, frozen=True, tag_field="kind", tag="axis"):
 
 
 class SurfacesProof(Value, frozen=True, tag_field="kind", tag="surfaces"):
-    """The checker decides all close pairs of triangles again. contact: a common point of both
-    boundaries. both: a point inside both bodies."""
+    """For meshes: the checker decides all close pairs of triangles again. triangles: one of A and
+    one of B that meet, beside which an overlap is looked for first."""
 
-    contact: Ends | UnsetType = UNSET
-    both: Point | UnsetType = UNSET
-
-
-class OverlapProof(Value, frozen=True, tag_field="kind", tag="overlap"):
-    """A point inside both bodies, and a point inside each body only; or a point inside one body
-    only, and a common boundary point."""
-
-    both: Point
-    a_alone: Point | UnsetType = UNSET
-    b_alone: Point | UnsetType = UNSET
-    meet: Ends | UnsetType = UNSET
+    triangles: Indices | UnsetType = UNSET
 
 
 class PointProof(Value, frozen=True, tag_field="kind", tag="point"):
@@ -89,33 +75,12 @@ class PolytopeProof(Value, frozen=True, tag_field="kind", tag="polytope"):
     b_reaches: ExactVector
 
 
-class CrossingProof(Value, frozen=True, tag_field="kind", tag="crossing"):
-    """For open surfaces: a triangle of A and one of B that pass through each other."""
-
-    triangles: Indices
-
-
-class SameProof(Value, frozen=True, tag_field="kind", tag="same"):
-    """The checker compares the surfaces. both: a point inside both bodies."""
-
-    both: Point | UnsetType = UNSET
-
-
 class NestedProof(Value, frozen=True, tag_field="kind", tag="nested"):
     """For a curved shape and a convex body, one inside the other. The checker computes this
     again."""
 
 
-Proof = (
-    AxisProof
-    | SurfacesProof
-    | OverlapProof
-    | PointProof
-    | PolytopeProof
-    | CrossingProof
-    | SameProof
-    | NestedProof
-)
+Proof = AxisProof | SurfacesProof | PointProof | PolytopeProof | NestedProof
 
 
 class DepthProof(Value, frozen=True):
@@ -211,11 +176,11 @@ class Certificate(Value, frozen=True):
     """The evidence for a finding. Each part proves one statement.
 
     relation: proves exact_relation. mtv: proves that A, moved by mtv, has no common interior with
-    B. depth: for convex bodies. distance: for meshes of which one is not convex: a point of each
-    boundary, as far apart as the bodies. The checker looks again at all triangles that could be
-    nearer. cover: proves the lower end of a concave depth. thickness: proves the upper end of the
-    thickness; a ball proves the lower end. gap: points that prove that separated bodies are close
-    enough to be touching or near. band: proves that an overlap counts as touching.
+    B. depth: for convex bodies. distance: for convex meshes, a point of each, as far apart as they
+    are; of other meshes the checker looks again at all triangles that could be nearer. cover:
+    proves the lower end of a concave depth. thickness: proves the upper end of the thickness; a
+    ball proves the lower end. gap: points of separated convex bodies that are close enough to be
+    touching or near. band: proves that an overlap counts as touching.
     """
 
     relation: Proof

@@ -11,6 +11,6 @@ to the code that checks it. Read it in this order: `document` (the report), `fin
 from satcheck.report.verification import Checked, VerificationReport
 from satcheck.verify.document import is_certified, verify
 from satcheck.verify.exact import Rejected
-from satcheck.verify.strict_json import parse
+from satcheck.verify.published import parse
 
 __all__ = ["Checked", "Rejected", "VerificationReport", "is_certified", "parse", "verify"]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,9 +28,9 @@ from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Floats, Rejected
-from satcheck.verify.open_parts import bounds_nothing, with_backs
-from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
+from satcheck.verify.exact import Floats, Point, Rejected, point, sub
+from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
+from satcheck.verify.world import Indices, World, is_convex, placed
 
 # What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
@@ -52,11 +54,12 @@ class Shape:
     curved: Primitive | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Missing:
-    """A file that does not exist, as the report names it."""
+class Missing(Rejected):
+    """A file does not exist."""
 
-    file: str
+
+class Unread(Rejected):
+    """The report states that it could not read a body."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +107,21 @@ class Placed:
         return replace(self, world=world, curved=self.curved and self.curved.moved(offset))
 
 
+def curve_error(a: Placed, b: Placed) -> Fraction:
+    """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
+    polygons are exact."""
+    return Fraction(a.deviation) + Fraction(b.deviation)
+
+
+def box_gaps(a: Placed, b: Placed) -> Point:
+    """How far the boxes of two bodies are apart along each axis, exactly; below 0 if they overlap
+    there. Rejects bodies without boxes."""
+    if a.bounds is None or b.bounds is None:
+        raise Rejected("a body that cannot be read may hold others")
+    (low_a, high_a), (low_b, high_b) = (tuple(map(point, body)) for body in (a.bounds, b.bounds))
+    return point(map(max, sub(low_b, high_a), sub(low_a, high_b)))
+
+
 class Bodies:
     """Reads each file once. allow_open: open meshes are meant to be open. reading: as the report
     states it."""
@@ -119,125 +137,121 @@ class Bodies:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)
         self._files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
-        self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
+        self._shapes: dict[tuple[str, str | None], Shape] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
         """The report's bodies; with --planar, the prisms over their outlines. If a file is missing
         or has changed, the body has a reason instead of a mesh."""
-        read = [self._find(entry) for entry in entries]
-        prisms: dict[str, MeshFile] = {}
+        found: dict[str, tuple[Body, Shape]] = {}
+        placed: dict[str, Placed] = {}
+        for entry in entries:
+            try:
+                found[entry.id] = self._find(entry)
+            except Rejected as why:
+                placed[entry.id] = _lost(entry, why)
+        outlined, prisms = None if plane is None else found, {}
         if plane is not None:
-            bodies = tuple(body[0] for body in read if not isinstance(body, Placed))
+            bodies = tuple(body for body, _ in found.values())
             flat = flat_scene(Scene("", None, bodies), plane, allow_open=self._allow_open)
             prisms = {body.id: body.file for body in flat.bodies}
-        placed = []
-        for entry, result in zip(entries, read, strict=True):
-            if isinstance(result, Placed):
-                placed.append(result)
-                continue
-            body, shape = result
-            if plane is None:
-                placed.append(_place(body, shape, body.transform, entry))
-            else:
-                placed.append(_outline(body, prisms.get(body.id), entry))
-        in_space = [None if isinstance(result, Placed) else result[0] for result in read]
-        for k, floor in enumerate(in_space):
-            if floor is not None and isinstance(floor.shape, HalfSpace):
-                _require_reach(placed, k, floor, in_space if plane is not None else None)
-        return placed
+        of_found = [entry for entry in entries if entry.id in found]
+        for entry in of_found:
+            body, shape = found[entry.id]
+            try:
+                if outlined is None:
+                    placed[entry.id] = _place(body, shape, body.transform, entry)
+                elif entry.id in prisms:
+                    placed[entry.id] = _place(body, shape_of(prisms[entry.id]), None, entry)
+                else:
+                    raise Rejected("it has no outline in the plane")
+            except Rejected as why:
+                placed[entry.id] = _lost(entry, why)
+        for entry in of_found:
+            body, _ = found[entry.id]
+            if isinstance(body.shape, HalfSpace):
+                try:
+                    _require_reach(body, placed, outlined)
+                except Rejected as why:
+                    placed[entry.id] = _lost(entry, why)
+        return [placed[entry.id] for entry in entries]
 
-    def _find(self, entry: BodyReport) -> tuple[Body, Shape] | Placed:
-        """The body as the report places it, or the reason why it cannot be read."""
-        name, file = entry.id, entry.file
-        unread = Placed(name, frozenset(entry.groups), None, static=entry.static)
+    def _find(self, entry: BodyReport) -> tuple[Body, Shape]:
+        """The body as the report places it."""
         if entry.sha256 is None:
             if any(getattr(entry, key) is not None for key in _OF_A_MESH):
-                raise Rejected(f"{name}: not read, and figures of its mesh")
-            return replace(unread, reason="the report could not read it", claims=False)
-        if entry.shape is None:
-            shape = self._read(file, entry.path)
-        elif entry.path is not None:
-            raise Rejected("a shape is no node of a file")
-        else:
-            shape = self._primitive(file, to_builtins(entry.shape))
-        if isinstance(shape, Missing):
-            return replace(unread, reason="its file is not there", missing=shape.file)
-        if isinstance(shape, str):
-            return replace(unread, reason=shape)
+                raise Rejected("not read, and figures of its mesh")
+            raise Unread("the report could not read it")
+        shape = self._shape(entry)
         if shape.file.sha256 != entry.sha256:
-            return replace(unread, reason=f"{file} has changed: its SHA-256 is another")
-        primitive = None
-        if entry.shape is not None:
-            primitive = shape_from(to_builtins(entry.shape))
+            raise Rejected(f"{entry.file} has changed: its SHA-256 is another")
         body = Body(
-            name,
-            name,
-            shape.file,
-            entry.transform,
-            entry.groups,
+            *(entry.id, entry.id, shape.file, entry.transform, entry.groups),
             static=entry.static,
-            shape=primitive,
+            shape=None if entry.shape is None else shape_from(to_builtins(entry.shape)),
         )
         return body, shape
 
-    def _read(self, file: str, path: str | None) -> Shape | Missing | str:
-        """The file, or the mesh of its node `path`."""
-        mesh = self._files.mesh(FilePart(file, str(self._root / file), path))
-        if isinstance(mesh, Refused):
-            return Missing(file) if mesh.code == "file-not-found" else str(mesh)
-        key = (file, mesh.part, "")
+    def _shape(self, entry: BodyReport) -> Shape:
+        """The file or its node, or a primitive as the report states it: the scene file that stated
+        it is not read again."""
+        if entry.shape is None:
+            mesh = self._files.mesh(FilePart(entry.file, str(self._root / entry.file), entry.path))
+            if isinstance(mesh, Refused):
+                absent = mesh.code == "file-not-found"
+                raise Missing("its file is not there") if absent else Rejected(str(mesh))
+            key, make = (
+                (entry.file, mesh.part),
+                partial(shape_of, mesh, allow_open=self._allow_open),
+            )
+        elif entry.path is not None:
+            raise Rejected("a shape is no node of a file")
+        else:
+            values = to_builtins(entry.shape)
+            key, make = (entry.file, json.dumps(values)), partial(_primitive, entry.file, values)
         if key not in self._shapes:
-            self._shapes[key] = _checked_shape(mesh, self._allow_open)
+            self._shapes[key] = make()
         return self._shapes[key]
 
-    def _primitive(self, file: str, values: Any) -> Shape | str:
-        """A primitive as the report states it; the scene file that stated it is not read again."""
-        key = (file, None, json.dumps(values))
-        if key not in self._shapes:
-            try:
-                shape = shape_from(values)
-                made = shape_file(shape, file)
-                self._shapes[key] = (
-                    curved_of(made, shape) if is_curved(shape) else _checked_shape(made, False)
-                )
-            except (Refused, ValueError) as error:
-                self._shapes[key] = f"{file}: not a shape: {error}"
-        return self._shapes[key]
+
+def _primitive(file: str, values: Any) -> Shape:
+    try:
+        shape = shape_from(values)
+        made = shape_file(shape, file)
+    except (Refused, ValueError) as error:
+        raise Rejected(f"{file}: not a shape: {error}") from None
+    return curved_of(made, shape) if is_curved(shape) else shape_of(made)
 
 
 def _require_reach(
-    placed: list[Placed], k: int, floor: Body, outlined: Sequence[Body | None] | None
+    floor: Body,
+    placed: Mapping[str, Placed],
+    outlined: Mapping[str, tuple[Body, Shape]] | None,
 ) -> None:
-    """Lose the half space `placed[k]` if its block is too small for another body. outlined: the
-    bodies in space, if those of `placed` are prisms, which are taller than any body."""
-    for number, other in enumerate(placed):
+    """Rejects a half space whose block is too small for another body. outlined: the bodies in
+    space, if those of `placed` are prisms, which are taller than any body."""
+    for other in placed.values():
         bounds = other.bounds
-        if outlined is not None and (body := outlined[number]) is not None:
-            bounds = body.world_mesh().bounds  # type: ignore[assignment]
-        if number != k and bounds is not None and not other.endless:
+        if outlined is not None and other.id in outlined:
+            bounds = outlined[other.id][0].world_mesh().bounds  # type: ignore[assignment]
+        if other.id != floor.id and bounds is not None and not other.endless:
             low, high = (tuple(map(float, corner)) for corner in bounds)
             if not holds(floor, (low, high)):  # type: ignore[arg-type]
-                placed[k] = _lost(floor, f"{other.id} lies beyond the reach of the half space")
-                return
+                raise Rejected(f"{other.id} lies beyond the reach of the half space")
 
 
-def _lost(body: Body, reason: str) -> Placed:
-    return Placed(body.id, frozenset(body.groups), None, static=body.static, reason=reason)
-
-
-def _outline(body: Body, prism: MeshFile | None, entry: BodyReport) -> Placed:
-    if prism is None:
-        return _lost(body, "it has no outline in the plane")
-    shape = _checked_shape(prism, False)
-    return _lost(body, shape) if isinstance(shape, str) else _place(body, shape, None, entry)
+def _lost(entry: BodyReport, why: Rejected) -> Placed:
+    return Placed(
+        *(entry.id, frozenset(entry.groups), None),
+        static=entry.static,
+        reason=str(why),
+        claims=not isinstance(why, Unread),
+        missing=entry.file if isinstance(why, Missing) else None,
+    )
 
 
 def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: BodyReport) -> Placed:
-    try:
-        placed = place_shape(body.id, body.groups, shape, pose)
-        _check_figures(entry, shape, placed.resolution)
-    except Rejected as why:
-        return _lost(body, str(why))
+    placed = place_shape(body.id, body.groups, shape, pose)
+    _check_figures(entry, shape, placed.resolution)
     return replace(
         placed,
         static=body.static,
@@ -264,13 +278,6 @@ def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:
         raise Rejected(f"its resolution is {resolution!r}")
     if entry.convex not in (None, shape.convex):
         raise Rejected(f"convex is {shape.convex}")
-
-
-def _checked_shape(file: MeshFile, allow_open: bool) -> Shape | str:
-    try:
-        return shape_of(file, allow_open=allow_open)
-    except Rejected as why:
-        return str(why)
 
 
 def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:

@@ -5,97 +5,163 @@ thickness (outside on both sides) is a sheet and belongs to the boundary. A face
 (inside on both sides) does not. A triangle is cut along everything it shares with other triangles
 of its surface. Each cell then belongs to the boundary as a whole or not at all. All points of a
 surface that is not solid belong to the boundary.
+
+Two surfaces without an inside may meet and not cross. If a contact is a segment, triangles of both
+surfaces stand on its line like the pages of a book. The surfaces cross if, going around the line,
+the pages of both alternate. A contact in a single point is no crossing, because a disk without one
+point is connected. Coplanar triangles that overlap stay undecided.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache, cmp_to_key, partial
 from itertools import pairwise, product
 from typing import Any
 
-import numpy as np
-
-from satcheck.report.certificate import OnBody
-from satcheck.verify.cells import cells_of, in_space, look, own_partners
-from satcheck.verify.evidence import on_body
-from satcheck.verify.exact import Point, Rejected, cross, dot, nearest_to_origin, sub
+from satcheck.verify.cells import own_sides
+from satcheck.verify.exact import (
+    Point,
+    Rejected,
+    cross,
+    dot,
+    normal_of,
+    sign,
+    sub,
+)
 from satcheck.verify.surfaces import close_pairs, common
-from satcheck.verify.world import Exact
+from satcheck.verify.world import Corners, Exact
 
 Piece = tuple[Any, Any, Any]  # the corners of a triangle, rational
 
 
-class Boundary:
-    """The boundary by triangles; each triangle is cut once."""
-
-    def __init__(self, body: Exact) -> None:
-        self.body = body
-        self._pieces: dict[int, list[Piece]] = {}
-
-    def pieces(self, t: int) -> list[Piece]:
-        """Closed triangles that make up the boundary part of triangle t."""
-        if t not in self._pieces:
-            self._pieces[t] = self._cut(t)
-        return self._pieces[t]
-
-    def _cut(self, t: int) -> list[Piece]:
-        body = self.body
-        corners = body.corners(t)
-        if not body.world.solid:
-            return [corners]
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
-        if not any(normal):
-            return []
-        others = [body.corners(u) for u in own_partners(body, [t]).get(t, [])]
-        pieces: list[Piece] = []
-        for cell in cells_of(corners, normal, others):
-            _, [(front, back)] = look(corners, normal, cell, [body])
-            if not (front and back):
-                polygon = [in_space(corners, p) for p in cell]
-                pieces += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
-        return pieces
-
-    def holds(self, p: Point) -> bool:
-        """p: on the lattice of the body."""
-        world = self.body.world
-        at = [float(c / (1 << self.body.k)) for c in p]
-        low, high = np.nextafter(at, -np.inf), np.nextafter(at, np.inf)
-        near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
-        point: Piece = (p, p, p)
-        return any(common(piece, point) for t in near.tolist() for piece in self.pieces(t))
+def boundary_of(body: Exact, t: int) -> list[Piece]:
+    """Closed triangles that make up the boundary part of a triangle."""
+    if not body.world.solid:
+        return [body.corners(t)]
+    pieces: list[Piece] = []
+    for _, cell, (front, back) in own_sides(body, [t]):
+        if not (front and back):
+            pieces += [(cell[0], p, q) for p, q in pairwise(cell[1:])]
+    return pieces
 
 
-def boundary_point(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
-    """The point of the evidence: any point of a convex body, a boundary point of another body."""
-    p = on_body(point, body, of_hull=of_hull)
-    if not of_hull and not Boundary(body).holds(p):
-        raise Rejected("a point lies within the material")
-    return p
+def meet(a: Exact, b: Exact, contacts: list[tuple[int, int]], across: int | None = None) -> bool:
+    """Whether one of these pairs of triangles has a common point of both boundaries. across: of
+    prisms of one height along this axis, a point between their ends."""
+    of_a, of_b = (cache(partial(boundary_of, body)) for body in (a, b))
+    for s, t in contacts:
+        for p, q in product(of_a(s), of_b(t)):
+            shared = common(p, q)
+            if shared and (across is None or not _is_at_end(shared, a, across)):
+                return True
+    return False
+
+
+def _is_at_end(shared: list[Point], prism: Exact, across: int) -> bool:
+    middle = sum((p[across] for p in shared), Fraction()) / len(shared)
+    return abs(middle) == abs(prism.points[0][across])
 
 
 def contacts_if_apart(
     a: Exact, b: Exact, beyond: Fraction, least: Fraction
 ) -> list[tuple[int, int]]:
     """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or whose gap is not
-    greater than `beyond` and at least `least`."""
+    greater than `beyond` and at least `least`. Faces within the material of a body are no nearer to
+    what is outside of it than its boundary."""
     scale = 1 << a.k
     low, high = (beyond * scale) ** 2, (least * scale) ** 2
-    of_a, of_b = Boundary(a), Boundary(b)
     contacts = []
     for s, t, squared in close_pairs(a, b, max(beyond, least)):
         if squared == 0:
             contacts.append((s, t))
-        if squared > low and squared >= high:
-            continue
-        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
-            step = _distance_squared(p, q)
-            if step <= low or step < high:
-                raise Rejected("the boundaries are closer than claimed, or meet")
+        elif squared <= low or squared < high:
+            raise Rejected("the boundaries are closer than claimed")
+    if meet(a, b, contacts):
+        raise Rejected("the boundaries meet")
     return contacts
 
 
-def _distance_squared(p: Piece, q: Piece) -> Fraction:
-    if common(p, q):
-        return Fraction(0)
-    x, _ = nearest_to_origin([sub(v, u) for u in p for v in q])
-    return Fraction(dot(x, x))
+# The most points of a segment that are tried; one must lie on no crossing edge.
+SHARES = (Fraction(1, 2), Fraction(2, 5), Fraction(3, 7), Fraction(5, 11), Fraction(6, 13))
+CROSSING = 4  # changes around the line: A, B, A, B
+
+
+def no_crossing(a: Exact, b: Exact, contacts: list[tuple[int, int]]) -> None:
+    """Rejects surfaces that cross, or lie in each other. contacts: all pairs that meet."""
+    of_a: dict[int, list[int]] = {}
+    of_b: dict[int, list[int]] = {}
+    for s, t in contacts:
+        of_a.setdefault(t, []).append(s)
+        of_b.setdefault(s, []).append(t)
+    for s, t in contacts:
+        shared = common(a.corners(s), b.corners(t))
+        if len(shared) > 2:
+            raise Rejected("two open surfaces lie in each other")
+        if len(shared) == 2:
+            around = [a.corners(k) for k in of_a[t]], [b.corners(k) for k in of_b[s]]
+            if _changes(shared[0], shared[1], *around) >= CROSSING:
+                raise Rejected("the surfaces cross")
+
+
+def _changes(p: Point, q: Point, of_a: list[Corners], of_b: list[Corners]) -> int:
+    """The number of changes between pages of A and pages of B, going around the line p q."""
+    line = sub(q, p)
+    for share in SHARES:
+        point: Any = tuple(x + share * along for x, along in zip(p, line, strict=True))
+        try:
+            pages = [(w, True) for c in of_a for w in _pages(c, point, line)]
+            pages += [(w, False) for c in of_b for w in _pages(c, point, line)]
+        except _OnAnEdge:
+            continue
+        return _count(pages, line)
+    raise Rejected("every point tried of a contact lies on an edge across it")
+
+
+class _OnAnEdge(Exception):
+    pass
+
+
+def _pages(corners: Corners, x: Point, line: Any) -> Iterator[Any]:
+    """The directions, square to the line, in which a triangle leaves a point of the line."""
+    normal = normal_of(corners)
+    if not any(normal) or dot(normal, x) != dot(normal, corners[0]):
+        return
+    edge_inward = None
+    for k in range(3):
+        edge = sub(corners[(k + 1) % 3], corners[k])
+        inward = cross(normal, edge)
+        height = dot(inward, x) - dot(inward, corners[k])
+        if height < 0:
+            return
+        if height == 0:
+            if any(cross(edge, line)):
+                raise _OnAnEdge
+            edge_inward = inward
+    if edge_inward is not None:
+        yield edge_inward
+        return
+    across = cross(normal, line)
+    yield across
+    yield tuple(-c for c in across)
+
+
+def _count(pages: list[tuple[Any, bool]], line: Any) -> int:
+    east = pages[0][0]
+    north = cross(line, east)
+
+    def half(w: Any) -> bool:
+        return (dot(w, north), dot(w, east)) < (0, 0)
+
+    def order(page: tuple[Any, bool], other: tuple[Any, bool]) -> int:
+        u, v = page[0], other[0]
+        if half(u) != half(v):
+            return -1 if half(v) else 1
+        return -sign(dot(cross(u, v), line))
+
+    turned = sorted(pages, key=cmp_to_key(order))
+    for page, following in pairwise(turned):
+        if page[1] != following[1] and order(page, following) == 0:
+            raise Rejected("two open surfaces lie in each other")
+    return sum(turned[k - 1][1] != turned[k][1] for k in range(len(turned)))

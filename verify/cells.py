@@ -14,104 +14,83 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from operator import mul
 
 import numpy as np
 
-from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub, turn
-from satcheck.verify.surfaces import common, meeting
+from satcheck.verify.exact import (
+    Point,
+    Rejected,
+    Vector,
+    cross,
+    dot,
+    normal_of,
+    point,
+    sub,
+)
+from satcheck.verify.surfaces import clipped, common, meeting
 from satcheck.verify.world import Corners, Exact
 
-Plane = tuple[
-    Fraction, Fraction
-]  # s, r: corner 0 + s (corner 1 - corner 0) + r (corner 2 - corner 0)
-Segment = tuple[Plane, Plane]
-UNIT_CELL: list[Plane] = [
-    (Fraction(0), Fraction(0)),
-    (Fraction(1), Fraction(0)),
-    (Fraction(0), Fraction(1)),
-]
+Cell = Sequence[Vector]  # a convex polygon, in the plane of its triangle
+Segment = tuple[Point, Point]
 ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
 MOST_CELLS = 200_000
 BLOCK = 256  # triangles whose own partners are looked up at once
+FIRST = 4  # triangles of each region, most of which show how it lies
 
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """A point of a triangle, off all edges, and the facts in front of it and behind it: (in A, in
-    B).
+    """The facts in front of a cell and behind it: (in A, in B). A surface that is not solid has no
+    inside."""
 
-    A surface that is not solid has no inside.
-    """
-
-    triangle: int
-    point: Point
-    normal: IntVector
+    cell: Cell
     front: tuple[bool, bool]
     back: tuple[bool, bool]
 
 
-@dataclass(frozen=True, slots=True)
-class CutTriangle:
-    """A triangle of a surface, and the convex cells that all it shares with others cut it into."""
-
-    number: int
-    corners: Corners
-    normal: IntVector
-    cells: list[list[Plane]]
-
-
 def sides_of(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], triangles: list[int]
 ) -> Iterator[Sides]:
-    """Both sides of every cell of the triangles of A, as `cells_in` has them."""
-    for triangle in cells_in(a, b, contacts, wanted):
-        for cell in triangle.cells:
-            yield sides_of_cell(triangle, cell, a, b)
-
-
-def cells_in(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
-) -> Iterator[CutTriangle]:
-    """The triangles of A that have an area.
-
-    contacts: all pairs of triangles that meet. wanted: whether to include a region that B does not
-    meet; its argument: whether the region lies inside B.
-    """
+    """Both sides of the cells that all they share with others cut these triangles of A into.
+    contacts: all pairs in which they meet B."""
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
         partners.setdefault(s, []).append(t)
     total = 0
-    for t, own in _with_own_partners(a, chosen(a, b, set(partners), wanted)):
-        corners = a.corners(t)
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
-        if not any(normal):
-            continue
-        others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own]
-        cells = cells_of(corners, normal, *others)
+    for corners, own, t in _with_own_partners(a, triangles):
+        cells = _cells(corners, [b.corners(u) for u in partners.get(t, [])], own)
         total += len(cells)
         if total > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
-        yield CutTriangle(t, corners, normal, cells)
+        for cell in cells:
+            in_a, in_b = look(normal_of(corners), cell, (a, b))
+            yield Sides(cell, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
 
 
-def chosen(a: Exact, b: Exact, touching: set[int], wanted: Callable[[bool], bool]) -> list[int]:
-    """The triangles of A that touch B, and those of the regions that are wanted."""
-    triangles = sorted(touching)
-    for region, vertex in _regions(a, touching):
-        if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
-            triangles += region
-    return triangles
+def own_sides(body: Exact, triangles: list[int]) -> Iterator[tuple[int, Cell, tuple[bool, bool]]]:
+    """The cells that their own surface cuts these triangles into, each with whether material lies
+    in front and behind."""
+    for corners, own, t in _with_own_partners(body, triangles):
+        for cell in _cells(corners, own):
+            [sides] = look(normal_of(corners), cell, [body])
+            yield t, cell, sides
 
 
-def sides_of_cell(triangle: CutTriangle, cell: list[Plane], a: Exact, b: Exact) -> Sides:
-    """Of a triangle of A."""
-    corners, normal = triangle.corners, triangle.normal
-    point, (in_a, in_b) = look(corners, normal, cell, (a, b))
-    return Sides(triangle.number, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
-
-
-def _point(p: IntVector) -> Point:
-    return Fraction(p[0]), Fraction(p[1]), Fraction(p[2])
+def chosen(
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+) -> list[int]:
+    """The triangles of A that touch B, then a few of each region that B does not meet, and then the
+    others. contacts: all pairs that meet. wanted: whether to include a region; its argument:
+    whether it lies inside B."""
+    touching = {s for s, _ in contacts}
+    regions = [
+        region
+        for region, vertex in _regions(a, touching)
+        if wanted(b.world.solid and _winding(b, point(a.points[vertex])) != 0)
+    ]
+    parts = [slice(FIRST), slice(FIRST, None)]
+    return sorted(touching) + [t for part in parts for region in regions for t in region[part]]
 
 
 def _winding(solid: Exact, p: Point) -> int:
@@ -137,47 +116,33 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
         yield region.tolist(), int(a.world.triangles[region[0], 0])
 
 
-def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
-    """The other triangles of A that meet those of the index; empty if A has no inside."""
-    partners: dict[int, list[int]] = {}
-    if not a.world.solid or not index:
-        return partners
-    for s, t in meeting(a.part(index), a):
-        if index[s] != t:
-            partners.setdefault(index[s], []).append(t)
-    return partners
-
-
 def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
     """The triangles in contact, on this side of each pair, that have a part without material on
     either side."""
     triangles = sorted({pair[side] for pair in contacts})
     if not body.world.solid:
         return set(triangles)
-    sheets = set()
-    for t, own in _with_own_partners(body, triangles):
-        corners = body.corners(t)
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
-        if not own or not any(normal):
-            continue  # only where it meets its own surface has a triangle the same on both sides
-        for cell in cells_of(corners, normal, [body.corners(u) for u in own]):
-            _, [sides] = look(corners, normal, cell, [body])
-            if sides == (False, False):
-                sheets.add(t)
-                break
-    return sheets
+    return {t for t, _, sides in own_sides(body, triangles) if sides == (False, False)}
 
 
-def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[int]]]:
-    """In blocks, because the first few triangles reveal most false claims."""
-    for start in range(0, len(chosen), BLOCK):
-        block = chosen[start : start + BLOCK]
-        own = own_partners(a, block)
+def _with_own_partners(
+    a: Exact, triangles: list[int]
+) -> Iterator[tuple[Corners, list[Corners], int]]:
+    """The corners of those that have an area, and of the other triangles of A that they meet, if it
+    has an inside; in blocks, because the first few triangles reveal most false claims."""
+    for start in range(0, len(triangles), BLOCK):
+        block = triangles[start : start + BLOCK]
+        own: dict[int, list[Corners]] = {}
+        for s, u in meeting(a.part(block), a) if a.world.solid else ():
+            if block[s] != u:
+                own.setdefault(block[s], []).append(a.corners(u))
         for t in block:
-            yield t, own.get(t, [])
+            corners = a.corners(t)
+            if any(normal_of(corners)):
+                yield corners, own.get(t, []), t
 
 
-def _cuts(corners: Corners, normal: IntVector, others: list[Corners]) -> list[Segment]:
+def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:
     """The segments within a triangle along which it meets others.
 
     An edge between triangles in its plane, run equally often in both directions, is no cut: winding
@@ -186,58 +151,37 @@ def _cuts(corners: Corners, normal: IntVector, others: list[Corners]) -> list[Se
     crossing: set[Segment] = set()
     flat: Counter[Segment] = Counter()
     for other in others:
-        shared = [_in_plane(corners, normal, p) for p in common(corners, other)]
+        shared = common(corners, other)
         edges = [(shared[k - 1], p) for k, p in enumerate(shared)]
         if len(shared) > 2:
             flat.update(edges)
         elif len(shared) == 2:
             crossing.add(edges[0])
     kept = crossing | {(p, q) for p, q in flat if flat[p, q] != flat[q, p]}
-    return [edge for edge in kept if _inside(edge)]
+    return [edge for edge in kept if _enters(corners, edge, normal)]
 
 
-def _in_plane(corners: Corners, normal: IntVector, p: Point) -> Plane:
-    origin, e, f = corners[0], sub(corners[1], corners[0]), sub(corners[2], corners[0])
-    step = [p[k] - origin[k] for k in range(3)]
-    size = dot(normal, normal)
-    s = (
-        step[1] * f[2] - step[2] * f[1],
-        step[2] * f[0] - step[0] * f[2],
-        step[0] * f[1] - step[1] * f[0],
-    )
-    r = (
-        e[1] * step[2] - e[2] * step[1],
-        e[2] * step[0] - e[0] * step[2],
-        e[0] * step[1] - e[1] * step[0],
-    )
-    return dot(s, normal) / Fraction(size), dot(r, normal) / Fraction(size)
-
-
-def _inside(edge: Segment) -> bool:
-    """Whether the edge, which lies in the triangle, runs through its open interior."""
-    s, r = edge[0][0] + edge[1][0], edge[0][1] + edge[1][1]
-    return s > 0 and r > 0 and s + r < 2
-
-
-def cells_of(corners: Corners, normal: IntVector, *surfaces: list[Corners]) -> list[list[Plane]]:
+def _cells(corners: Corners, *surfaces: list[Corners]) -> list[Cell]:
     """Convex pieces of a triangle, cut along all that it shares with triangles of each surface."""
-    cells = [UNIT_CELL]
+    cells: list[Cell] = [corners]
+    normal = normal_of(corners)
     for edge in (cut for others in surfaces for cut in _cuts(corners, normal, others)):
-        after: list[list[Plane]] = []
+        after: list[Cell] = []
         for cell in cells:
-            after += _split(cell, edge) if _enters(cell, edge) else [cell]
+            after += _split(cell, edge, normal) if _enters(cell, edge, normal) else [cell]
         cells = after
         if len(cells) > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
     return cells
 
 
-def _enters(cell: list[Plane], edge: Segment) -> bool:
+def _enters(cell: Cell, edge: Segment, normal: Vector) -> bool:
     """Whether a part of the segment, longer than 0, runs through the open cell: M. Cyrus, J. Beck,
     "Generalized two- and three-dimensional clipping" (1978)."""
     start, end = Fraction(0), Fraction(1)
-    for k in range(len(cell)):
-        at, to = turn(cell[k - 1], cell[k], edge[0]), turn(cell[k - 1], cell[k], edge[1])
+    for k, p in enumerate(cell):
+        inward = cross(normal, sub(p, cell[k - 1]))
+        at, to = (Fraction(dot(inward, sub(x, p))) for x in edge)
         if at <= 0 and to <= 0:
             return False
         if at < 0 < to:
@@ -249,49 +193,22 @@ def _enters(cell: list[Plane], edge: Segment) -> bool:
     return True
 
 
-def _split(cell: list[Plane], edge: Segment) -> list[list[Plane]]:
+def _split(cell: Cell, edge: Segment, normal: Vector) -> list[Cell]:
     """The cell on either side of the line of the segment."""
-    turns = [turn(*edge, p) for p in cell]
-    halves: list[list[Plane]] = []
-    for side in (1, -1):
-        kept: list[Plane] = []
-        for k, (p, height) in enumerate(zip(cell, turns, strict=True)):
-            before = turns[k - 1]
-            if before * height < 0:
-                q, s = cell[k - 1], before / (before - height)
-                kept.append((q[0] + s * (p[0] - q[0]), q[1] + s * (p[1] - q[1])))
-            if height * side >= 0:
-                kept.append(p)
-        halves.append(kept)
-    return halves
+    across = cross(normal, sub(edge[1], edge[0]))
+    limit = dot(across, edge[0])
+    return [clipped(cell, across, limit), clipped(cell, sub((0, 0, 0), across), -limit)]
 
 
-def in_space(corners: Corners, p: Plane) -> Point:
-    x, y, z = (
-        corners[0][k]
-        + p[0] * (corners[1][k] - corners[0][k])
-        + p[1] * (corners[2][k] - corners[0][k])
-        for k in range(3)
-    )
-    return x, y, z
-
-
-def look(
-    corners: Corners, normal: IntVector, cell: list[Plane], bodies: Sequence[Exact]
-) -> tuple[Point, list[tuple[bool, bool]]]:
-    """A point of the open cell, and for each body whether it lies in front of and behind the point.
-
-    The point is the middle, or a point near it that lies on no triangle of another plane.
-    """
+def look(normal: Vector, cell: Cell, bodies: Sequence[Exact]) -> list[tuple[bool, bool]]:
+    """For each body whether it lies in front of and behind a point of the open cell: the middle, or
+    a point near it that lies on no triangle of another plane."""
     for attempt in range(ATTEMPTS):
         weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]
-        s, r = (
-            sum((w * p[k] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
-            for k in range(2)
-        )
-        point = in_space(corners, (s, r))
-        seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in bodies]
+        share = Fraction(1, sum(weights))
+        at = point(share * sum(map(mul, weights, places)) for places in zip(*cell, strict=True))
+        seen = [e.beside(at, normal) if e.world.solid else (0, 0) for e in bodies]
         sides = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
         if len(sides) == len(seen):
-            return point, sides
+            return sides
     raise Rejected("every point tried of a piece of the contact lies on another triangle")

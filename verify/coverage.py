@@ -22,140 +22,103 @@ class Cover:
     called: str = ""
 
 
-PROVEN, FOLLOWS = Cover("proven"), Cover("follows")
-
-
-def _stated(called: str) -> Cover:
-    return Cover("stated", called)
-
-
-def _certified(called: str) -> Cover:
-    return Cover("certified", called)
-
-
-def _not(called: str) -> Cover:
-    return Cover("not covered", called)
-
-
+# By kind, and by the name that the output has for them: the fields.
+GROUPS: dict[Kind, dict[str, str]] = {
+    "proven": {
+        # Of a body: its file is read again and placed again.
+        "": """
+            bodies[].file bodies[].sha256 bodies[].path bodies[].triangles bodies[].health
+            bodies[].resolution bodies[].convex
+            findings[].relation findings[].placed_relation findings[].exact_relation
+            findings[].certificate
+            regions.findings[].answer regions.findings[].sticks_out regions.findings[].shift
+            regions.findings[].point
+            statics.bodies[].mass statics.bodies[].centre statics.findings[].answer
+        """,
+    },
+    "follows": {
+        "": """
+            schema tool.name summary effects[].effect
+            findings[].id findings[].a findings[].b findings[].rule findings[].severity
+            findings[].tolerance findings[].quality findings[].mtv_moves findings[].mtv_verified
+            findings[].witness
+            issues[].body truncated.pairs
+            regions.findings[].body regions.findings[].region regions.findings[].rule
+            regions.findings[].severity
+            statics.bodies[].id statics.bodies[].fixed statics.findings[].body
+            statics.findings[].question statics.findings[].rule statics.findings[].severity
+        """,
+    },
+    "stated": {
+        "units": "units bodies[].units bodies[].unit_scale",
+        "settings": "settings",
+        "how files are read": "reading",
+        "poses": "pose bodies[].transform",
+        "the list of bodies": "bodies[].id bodies[].name",
+        "primitive shapes": "bodies[].shape",
+        "groups": "bodies[].groups",
+        "which bodies are static": "bodies[].static",
+        "surface tolerances": "bodies[].surface_tolerance",
+        "exempt pairs": "exempt",
+        "rules": "rules[] regions.rules[] statics.rules[]",
+        "gravity, friction and tolerance of contacts": """
+            regions.tolerance statics.gravity statics.friction statics.tolerance
+        """,
+    },
+    "certified": {
+        "that something could not be decided": "findings[].undecided",
+        "distance": "findings[].distance findings[].distance_bounds",
+        "depth": "findings[].depth",
+        "lower end of the depth": "findings[].depth_bounds",
+        "direction": "findings[].normal",
+        "way out": "findings[].mtv",
+        "thickness": "findings[].thickness",
+        "lower end of the thickness": "findings[].thickness_bounds findings[].ball",
+        "common volume": "findings[].volume findings[].volume_error",
+        "contacts": "findings[].contacts",
+    },
+    "not covered": {
+        "the version of satcheck": "tool.version",
+        "motions": "motions",
+        "convex parts": "bodies[].parts bodies[].part_error",
+        "lines of files": "bodies[].stated_at",
+        "which flags and rules required an effect": "effects[].asked_by statics.asked_by",
+        "on how many pairs an effect ran": "effects[].pairs effects[].not_run statics.pairs",
+        "times": "effects[].microseconds regions.microseconds statics.microseconds",
+        "the components of overlaps": "findings[].components",
+        "what happens while bodies move": "findings[].motion",
+        "reasons": """
+            findings[].reason truncated.reason regions.findings[].reason statics.findings[].reason
+        """,
+        "plans": "findings[].plan",
+        "which findings a baseline accepts": """
+            findings[].baseline_state baseline.file baseline.absent
+        """,
+        "issues": """
+            issues[].code issues[].severity issues[].file issues[].line issues[].message
+            issues[].state
+        """,
+        "what is assumed about gravity, friction and tolerance": "statics.stated",
+        "how bodies are connected": """
+            statics.bodies[].island statics.bodies[].floating statics.bodies[].held_by
+            statics.bodies[].chain statics.islands[]
+        """,
+        "how fast falling bodies start": "statics.bodies[].motion",
+        "which contacts carry how much": "statics.contacts[]",
+        "where options come from": "config.file config.options",
+    },
+}
 COVERAGE: dict[str, Cover] = {
-    "schema": FOLLOWS,  # a constant
-    "tool.name": FOLLOWS,
-    "tool.version": _not("the version of satcheck"),
-    "units": _stated("units"),
-    "settings": _stated("settings"),
-    "summary": FOLLOWS,
-    "reading": _stated("how files are read"),
-    "pose": _stated("poses"),
-    "motions": _not("motions"),
-    # The body: its file is read again and placed again.
-    "bodies[].id": _stated("the list of bodies"),
-    "bodies[].name": _stated("the list of bodies"),
-    "bodies[].file": PROVEN,
-    "bodies[].sha256": PROVEN,
-    "bodies[].path": PROVEN,
-    "bodies[].shape": _stated("primitive shapes"),
-    "bodies[].transform": _stated("poses"),
-    "bodies[].units": _stated("units"),
-    "bodies[].unit_scale": _stated("units"),
-    "bodies[].groups": _stated("groups"),
-    "bodies[].static": _stated("which bodies are static"),
-    "bodies[].triangles": PROVEN,
-    "bodies[].health": PROVEN,
-    "bodies[].resolution": PROVEN,
-    "bodies[].surface_tolerance": _stated("surface tolerances"),
-    "bodies[].convex": PROVEN,
-    "bodies[].parts": _not("convex parts"),
-    "bodies[].part_error": _not("convex parts"),
-    "bodies[].stated_at": _not("lines of files"),
-    "exempt": _stated("exempt pairs"),
-    "rules[]": _stated("rules"),
-    "effects[].effect": FOLLOWS,
-    "effects[].asked_by": _not("which flags and rules required an effect"),
-    "effects[].pairs": _not("on how many pairs an effect ran"),
-    "effects[].not_run": _not("on how many pairs an effect ran"),
-    "effects[].microseconds": _not("times"),
-    "findings[].id": FOLLOWS,
-    "findings[].a": FOLLOWS,
-    "findings[].b": FOLLOWS,
-    "findings[].rule": FOLLOWS,
-    "findings[].severity": FOLLOWS,
-    "findings[].undecided": _certified("that something could not be decided"),
-    "findings[].relation": PROVEN,
-    "findings[].placed_relation": PROVEN,
-    "findings[].exact_relation": PROVEN,
-    "findings[].tolerance": FOLLOWS,
-    "findings[].distance": _certified("distance"),
-    "findings[].distance_bounds": _certified("distance"),
-    "findings[].depth": _certified("depth"),
-    "findings[].depth_bounds": _certified("lower end of the depth"),
-    "findings[].quality": FOLLOWS,
-    "findings[].normal": _certified("direction"),
-    "findings[].mtv": _certified("way out"),
-    "findings[].mtv_moves": FOLLOWS,
-    "findings[].mtv_verified": FOLLOWS,
-    "findings[].witness": FOLLOWS,
-    "findings[].thickness": _certified("thickness"),
-    "findings[].thickness_bounds": _certified("lower end of the thickness"),
-    "findings[].ball": _certified("lower end of the thickness"),
-    "findings[].volume": _certified("common volume"),
-    "findings[].volume_error": _certified("common volume"),
-    "findings[].contacts": _certified("contacts"),
-    "findings[].components": _not("the components of overlaps"),
-    "findings[].motion": _not("what happens while bodies move"),
-    "findings[].certificate": PROVEN,
-    "findings[].reason": _not("reasons"),
-    "findings[].plan": _not("plans"),
-    "findings[].baseline_state": _not("which findings a baseline accepts"),
-    "issues[].code": _not("issues"),
-    "issues[].severity": _not("issues"),
-    "issues[].body": FOLLOWS,
-    "issues[].file": _not("issues"),
-    "issues[].line": _not("issues"),
-    "issues[].message": _not("issues"),
-    "issues[].state": _not("issues"),
-    "truncated.pairs": FOLLOWS,
-    "truncated.reason": _not("reasons"),
-    "regions.tolerance": _stated("gravity, friction and tolerance of contacts"),
-    "regions.rules[]": _stated("rules"),
-    "regions.findings[].body": FOLLOWS,
-    "regions.findings[].region": FOLLOWS,
-    "regions.findings[].rule": FOLLOWS,
-    "regions.findings[].severity": FOLLOWS,
-    "regions.findings[].answer": PROVEN,
-    "regions.findings[].reason": _not("reasons"),
-    "regions.findings[].sticks_out": PROVEN,
-    "regions.findings[].shift": PROVEN,
-    "regions.findings[].point": PROVEN,
-    "regions.microseconds": _not("times"),
-    "statics.gravity": _stated("gravity, friction and tolerance of contacts"),
-    "statics.friction": _stated("gravity, friction and tolerance of contacts"),
-    "statics.tolerance": _stated("gravity, friction and tolerance of contacts"),
-    "statics.stated": _not("what is assumed about gravity, friction and tolerance"),
-    "statics.asked_by": _not("which flags and rules required an effect"),
-    "statics.rules[]": _stated("rules"),
-    "statics.bodies[].id": FOLLOWS,
-    "statics.bodies[].fixed": FOLLOWS,
-    "statics.bodies[].mass": PROVEN,
-    "statics.bodies[].centre": PROVEN,
-    "statics.bodies[].island": _not("how bodies are connected"),
-    "statics.bodies[].floating": _not("how bodies are connected"),
-    "statics.bodies[].held_by": _not("how bodies are connected"),
-    "statics.bodies[].chain": _not("how bodies are connected"),
-    "statics.bodies[].motion": _not("how fast falling bodies start"),
-    "statics.contacts[]": _not("which contacts carry how much"),
-    "statics.islands[]": _not("how bodies are connected"),
-    "statics.findings[].body": FOLLOWS,
-    "statics.findings[].question": FOLLOWS,
-    "statics.findings[].rule": FOLLOWS,
-    "statics.findings[].severity": FOLLOWS,
-    "statics.findings[].answer": PROVEN,
-    "statics.findings[].reason": _not("reasons"),
-    "statics.pairs": _not("on how many pairs an effect ran"),
-    "statics.microseconds": _not("times"),
-    "baseline.file": _not("which findings a baseline accepts"),
-    "baseline.absent": _not("which findings a baseline accepts"),
-    "config.file": _not("where options come from"),
-    "config.options": _not("where options come from"),
+    field: Cover(kind, called)
+    for kind, groups in GROUPS.items()
+    for called, fields in groups.items()
+    for field in fields.split()
+}
+# The name of the field in a finding.
+CERTIFIED = {
+    field: field.removeprefix("findings[].")
+    for field, cover in COVERAGE.items()
+    if cover.kind == "certified"
 }
 
 

@@ -10,11 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, ShapeImage, Sphere
-from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, sign
-from satcheck.verify.roots import Reach, root
-
-# Bits of a root before it is rounded to a float64 bound.
-_BITS = 128
+from satcheck.verify.exact import Floats, Point, Reach, Rejected, cross, dot, point, root, sign, sub
 
 
 @dataclass(frozen=True)
@@ -36,18 +32,18 @@ class Curved:
 
     @cached_property
     def _columns(self) -> tuple[Point, Point, Point]:
-        x, y, z = (_exact(column) for column in self.image.columns)
+        x, y, z = map(point, self.image.columns)
         return x, y, z
 
     @cached_property
     def _origin(self) -> Point:
-        return _exact(self.image.origin)
+        return point(self.image.origin)
 
     @cached_property
     def _rows(self) -> tuple[Point, Point, Point]:
         """Of the inverse of the matrix, times its determinant."""
         x, y, z = self._columns
-        return cross(y, z), cross(z, x), cross(x, y)  # type: ignore[arg-type, return-value]
+        return cross(y, z), cross(z, x), cross(x, y)
 
     @cached_property
     def determinant(self) -> Fraction:
@@ -80,7 +76,7 @@ class Curved:
 
     def side(self, p: Point) -> int:
         """1 inside, 0 on its border, -1 outside."""
-        step = tuple(c - d for c, d in zip(p, self._origin, strict=True))
+        step = sub(p, self._origin)
         x, y, z = (Fraction(dot(row, step)) / self.determinant for row in self._rows)
         across = x * x + y * y
         match self.image.primitive:
@@ -108,15 +104,10 @@ class Curved:
         """A box around it, rounded outward."""
         low, high = np.empty(3), np.empty(3)
         for k in range(3):
-            forth, back = (self.reach(_unit(k, way)) for way in (1, -1))
-            low[k] = _outward(-(back.q + root(back.p, _BITS)[1]), -math.inf)
-            high[k] = _outward(forth.q + root(forth.p, _BITS)[1], math.inf)
+            forth, back = (self.reach(point(way * (j == k) for j in range(3))) for way in (1, -1))
+            low[k] = _outward(-(back.q + root(back.p)[1]), -math.inf)
+            high[k] = _outward(forth.q + root(forth.p)[1], math.inf)
         return low, high
-
-
-def _unit(k: int, way: int) -> Point:
-    x, y, z = (Fraction(way * (j == k)) for j in range(3))
-    return x, y, z
 
 
 def _outward(number: Fraction, way: float) -> float:
@@ -126,8 +117,3 @@ def _outward(number: Fraction, way: float) -> float:
         raise Rejected("its placement is out of range") from None
     is_beyond = Fraction(near) >= number if way > 0 else Fraction(near) <= number
     return near if is_beyond else math.nextafter(near, way)
-
-
-def _exact(v: tuple[float, ...]) -> Point:
-    x, y, z = map(Fraction, v)
-    return x, y, z

@@ -1,9 +1,10 @@
-"""The proof of the distance of two bodies.
+"""The proofs of how far two bodies are apart.
 
-The certificate names a point of each mesh. For convex meshes the planes normal to the step between
-them prove that nothing is nearer; for other meshes every triangle that could be nearer is checked.
-The distance may be off by the last rounding of a figure, and by no more. For curved shapes the
-normal and the witness points of the finding are the proof, up to their own rounding.
+The certificate names a point of each convex body: the planes normal to the step between them show
+that nothing is nearer. For other meshes every triangle that could be nearer is checked. The
+distance may be off by the last rounding of a figure, and by no more. For curved shapes the normal
+and the witness points of the finding are the proof, up to their own rounding. Of an open surface
+the fills of its holes may be nearer, and pieces of it may surround the other body.
 """
 
 from __future__ import annotations
@@ -11,13 +12,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from satcheck.report.certificate import Ends
-from satcheck.report.report import Finding
-from satcheck.verify.boundary import boundary_point
-from satcheck.verify.evidence import gap_along, vector
-from satcheck.verify.exact import Point, Rejected, dot, sub
-from satcheck.verify.figures import EXACT_WIDTH, Rounding
-from satcheck.verify.relations import Pair
+from msgspec import UnsetType
+
+from satcheck.report.certificate import Certificate
+from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.request import Request
+from satcheck.scene.health import MOST_AROUND
+from satcheck.verify.bodies import Placed, box_gaps, curve_error
+from satcheck.verify.boundary import contacts_if_apart
+from satcheck.verify.exact import Rejected, TooMany, dot
+from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
+from satcheck.verify.open_parts import turns_around
+from satcheck.verify.pairs import AnyPair, Pair, given, vector
+from satcheck.verify.severity import check_severity
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
 
@@ -25,63 +32,166 @@ from satcheck.verify.world import Exact
 MOST_NEAR = 2_000_000
 
 
-def squared_gap(ends: Ends, pair: Pair) -> Fraction:
-    """Return the squared distance of a point of either body, world units."""
-    p = boundary_point(ends.a, pair.a, of_hull=pair.convex)
-    q = boundary_point(ends.b, pair.b, of_hull=pair.convex)
-    step = sub(q, p)  # type: ignore[arg-type]
-    return Fraction(dot(step, step)) / (1 << 2 * pair.a.k)
-
-
-def spanned(
-    finding: Finding, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]
-) -> bool:
+def spanned(finding: Finding, rounding: Rounding, pair: AnyPair) -> bool:
     """Return whether the gap or the overlap of a convex pair along the normal is what the finding
-    states. Rejects a closer pair. is_apart: whether the gap along an axis is at least a length,
-    world units; the length may be negative.
-    """
+    states. Rejects a closer pair."""
     figure = finding.distance if finding.depth is None else -finding.depth
     if finding.normal is None or figure is None:
         return False
     length = Fraction(figure)
-    if not is_apart(vector(finding.normal), length - 2 * rounding.of(length)):
+    if pair.gap(vector(finding.normal), length - 2 * rounding.of(length)) < 0:
         raise Rejected("along the normal the bodies are closer than the finding says")
     return finding.witness is not None
 
 
-def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
-    def is_apart(n: Point, length: Fraction) -> bool:
-        gap = gap_along(pair.a, pair.b, n)
-        longer = gap * gap - length * length * dot(n, n)
-        if gap >= 0:
-            return length <= 0 or longer >= 0
-        return length < 0 and longer <= 0
-
-    return is_apart
-
-
-def check_distance(distance: float, ends: Ends, pair: Pair) -> Fraction:
-    """Returns how far the distance of meshes may be off. ends: points of them with that
-    distance."""
-    length = Fraction(distance)
+def check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
+    """Return how far the distance of meshes may be off; None: it is not proven."""
+    if finding.exact_relation == "touching":
+        return Fraction(0)
+    if finding.distance is None:
+        return None
+    length = Fraction(finding.distance)
     error = EXACT_WIDTH * length
-    p = boundary_point(ends.a, pair.a, of_hull=pair.convex)
-    q = boundary_point(ends.b, pair.b, of_hull=pair.convex)
-    step: Point = sub(q, p)  # type: ignore[arg-type, assignment]
-    if Fraction(dot(step, step)) / (1 << 2 * pair.a.k) > (length + error) ** 2:
-        raise Rejected("the points of the distance are further apart than that")
     if not pair.convex:
-        nothing_nearer(pair.a, pair.b, length - error)
-    elif not hulls_are_apart(pair)(step, length - error):
+        try:
+            nearest = nothing_nearer(pair.a, pair.b, length - error, length + error)
+        except TooMany:
+            return None
+        if not nearest:
+            raise Rejected("the bodies are further apart than the distance")
+        return error
+    if isinstance(certificate.distance, UnsetType):
+        return None
+    step = pair.step(certificate.distance)
+    if dot(step, step) > (length + error) ** 2:
+        raise Rejected("the points of the distance are further apart than that")
+    if pair.gap(step, length - error) < 0:
         raise Rejected("the bodies are closer than the distance")
     return error
 
 
-def nothing_nearer(a: Exact, b: Exact, length: Fraction) -> None:
-    """Rejects surfaces that are closer than this, world units."""
-    if length <= 0:
-        return
-    least = (length * (1 << a.k)) ** 2
-    for _, _, squared in close_pairs(a, b, length, MOST_NEAR):
-        if squared < least:
+def nothing_nearer(a: Exact, b: Exact, length: Fraction, most: Fraction) -> bool:
+    """Rejects surfaces that are closer than a length. Returns whether they are within `most` of
+    each other. Both in world units."""
+    least, found = (length * (1 << a.k)) ** 2, False
+    for _, _, squared in close_pairs(a, b, most, MOST_NEAR):
+        found = True
+        if length > 0 and squared < least:
             raise Rejected("triangles of the bodies are closer than the distance")
+    return found
+
+
+def is_within(certificate: Certificate, pair: AnyPair, length: Fraction, *, open_: bool) -> bool:
+    """Return whether the gap of separated bodies is shown to be at most a length, world units.
+    open_: or less than that."""
+    if isinstance(pair, Pair) and not pair.convex:
+        least = (length * (1 << pair.a.k)) ** 2
+        return any(s < least or not open_ for *_, s in close_pairs(pair.a, pair.b, length))
+    step = pair.step(given(certificate.gap, "gap"))
+    squared = dot(step, step)
+    return bool(squared < length**2 if open_ else squared <= length**2)
+
+
+def prove_apart(
+    certificate: Certificate, pair: AnyPair, bodies: tuple[Placed, Placed], least: Fraction
+) -> None:
+    """Rejects separated bodies with a narrower gap."""
+    if isinstance(pair, Pair) and not pair.convex:
+        check_holes(*bodies, least)
+        contacts_if_apart(pair.a, pair.b, Fraction(0), least)
+        return
+    n = pair.step(given(certificate.gap, "gap"))
+    if pair.gap(n) <= 0 or pair.gap(n, least) < 0:
+        raise Rejected("the gap is not shown to be as wide")
+
+
+def check_pieces(a: Placed, b: Placed) -> None:
+    """Rejects bodies that do not meet if open pieces of one surround the other."""
+    for outer, inner in ((a, b), (b, a)):
+        if outer.world is None or inner.world is None or outer.pieces is None:
+            continue
+        world, point = outer.world, inner.world.vertices[0]
+        low, high = world.bounds
+        is_within = (low <= point).all() and (point <= high).all()
+        if is_within and abs(turns_around(world.vertices[outer.pieces], point)) > MOST_AROUND:
+            raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
+
+
+def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
+    """Rejects bodies with holes unless the gap of their boxes is large enough: the fill of a hole
+    may be anywhere near."""
+    if (a.holed or b.holed) and max(box_gaps(a, b)) <= margin * (1 + EXACT_WIDTH):
+        raise Rejected("what fills a hole is not certified, and may be where the other body is")
+
+
+CERTAINLY = 1 + 1e-12  # far more than the rounding of a difference
+
+
+def least_gap(finding: Finding, request: Request) -> Fraction:
+    """The least gap that a finding may have if it claims to keep its clearance. A gap that equals
+    the clearance up to rounding keeps it."""
+    if finding.relation != "separated" or finding.undecided == "limit":
+        return Fraction(0)
+    return Fraction(request.clearance or 0.0) * (1 - EXACT_WIDTH)
+
+
+def check_claims(
+    finding: Finding,
+    certificate: Certificate,
+    pair: AnyPair,
+    bodies: tuple[Placed, Placed],
+    request: Request,
+    tolerance: Fraction,
+    is_in_band: Callable[[Fraction], bool],
+    bounds: tuple[Fraction | None, Fraction | None],
+) -> None:
+    """Checks that the relation and the severity follow from the exact relation, which is proven.
+    is_in_band: whether an overlap is within such a band. bounds: proven upper bounds of depth and
+    thickness."""
+    relation, exact = finding.relation, finding.exact_relation
+    band, clearance = tolerance * (1 + EXACT_WIDTH), Fraction(request.clearance or 0.0)
+    if exact == "separated" and relation in ("touching", "near"):
+        near = relation == "near"
+        if not is_within(certificate, pair, clearance if near else band, open_=near):
+            raise Rejected("the gap is wider than that")
+    elif relation != exact and not (
+        exact in OVERLAPS and relation == "touching" and is_in_band(band)
+    ):
+        raise Rejected(f"{relation!r} does not follow from {exact!r}")
+
+    def keeps(length: Fraction) -> bool | None:
+        """Whether the gap keeps the clearance, whatever the touch band; None: not proven either
+        way."""
+        if exact != "separated":
+            return False
+        if relation == "separated":  # then that is a part of what was proven
+            return None if finding.undecided == "limit" else True
+        if is_within(certificate, pair, length, open_=True):
+            return False
+        try:
+            least = length * (1 - EXACT_WIDTH) + curve_error(*bodies)
+            prove_apart(certificate, pair, bodies, least)
+        except Rejected:
+            return None
+        return True
+
+    check_severity(finding, request, bounds, keeps)
+
+
+def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:
+    """Return whether the boxes of two bodies are too far apart to matter."""
+    if a.bounds is None or b.bounds is None:
+        return False
+    (low_a, high_a), (low_b, high_b) = a.bounds, b.bounds
+    most = a.resolution + b.resolution if request.tolerance is None else request.tolerance
+    widest = max((low_b - high_a).max(), (low_a - high_b).max())
+    if widest <= 0:
+        return False
+    closer = curve_error(a, b)
+    if widest > max(most, (request.clearance or 0.0) + float(closer)) * CERTAINLY:
+        return True
+    tolerance = request.tolerance
+    if tolerance is None:
+        tolerance = default_tolerance(a, b, request.across)
+    beyond = max(Fraction(tolerance), Fraction(request.clearance or 0.0) + closer)
+    return sum(max(gap, Fraction(0)) ** 2 for gap in box_gaps(a, b)) > beyond * beyond

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
+from collections.abc import Callable, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -12,12 +11,10 @@ from msgspec import UNSET, to_builtins
 
 from satcheck._version import __version__
 from satcheck.report.report import (
-    OVERLAPS,
     SUPPORT_OPEN,
     UNSUPPORTED,
     Exempt,
     Finding,
-    Report,
     RuleReport,
     Tool,
 )
@@ -27,15 +24,14 @@ from satcheck.report.verification import Checked, CheckedSupport, Outcome, Verif
 from satcheck.scene.read_options import as_stated
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
-from satcheck.verify.clearance import boxes_apart
-from satcheck.verify.coverage import uncovered
+from satcheck.verify.coverage import CERTIFIED, uncovered
+from satcheck.verify.distances import boxes_apart
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
-from satcheck.verify.findings import check_finding
+from satcheck.verify.findings import Proven, check_finding
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import report_of
-from satcheck.verify.severity import ProvenFields
-from satcheck.verify.summary import check_summary
+from satcheck.verify.severity import check_summary
 
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
 
@@ -59,24 +55,20 @@ def verify(
         checked.append(report.check(finding))
         if progress is not None:
             progress(done, count)
-    faults = list(report.faults)
-    support = report.check_support(faults) + report.check_regions(faults)
+    support: tuple[CheckedSupport, ...] = ()
     pruned = exempt = 0
     if not report.missing:
-        pruned, exempt, left_open = report.check_unlisted(faults)
-        try:
-            report.check_summary(pruned, left_open)
-        except Rejected as why:
-            faults.append(str(why))
-    not_certified = tuple(report.beyond)
+        support = report.check_support() + report.check_regions()
+        pruned, exempt, left_open = report.check_unlisted()
+        report.check_summary(pruned, left_open)
     outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
-    whole = not (faults or not_certified or report.missing)
+    whole = not (report.faults or report.beyond or report.missing)
     return VerificationReport(
         tool=Tool("satcheck", __version__),
         accepted=whole and outcomes <= {"accepted", "open"},
         findings=tuple(checked),
-        faults=tuple(faults),
-        not_certified=not_certified,
+        faults=tuple(report.faults),
+        not_certified=tuple(report.beyond),
         pruned=pruned,
         exempt=exempt,
         missing=report.missing,
@@ -92,7 +84,7 @@ def is_certified(result: VerificationReport, document: Any) -> bool:
     return asked or "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
 
 
-class _NoFile(Exception):
+class _NoFile(NotCertified):
     """The claim may be true, but the file of a body is missing."""
 
 
@@ -120,7 +112,10 @@ class _Report:
         unplaced = [b for b in placed if b.claims and b.reason and b.missing is None]
         self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
         self.beyond: list[str] = []
-        self.faults += _faults_of_issues(report, self.bodies)
+        strangers = [i.body for i in report.issues if i.body not in {None, *self.bodies}]
+        self.faults += [f"an issue is about {name}, which is no body" for name in strangers[:1]]
+        if report.support is None and any(i.code in SUPPORT_CODES for i in report.issues):
+            self.faults.append("issues are about the support of bodies, and its section is missing")
         if report.motions:
             self.beyond.append("bodies move: what happens on the way is not certified")
         if report.summary.accepted and report.summary.verdict != "fail":
@@ -134,9 +129,8 @@ class _Report:
         try:
             proven = self._check(finding)
         except NotCertified as why:
-            return Checked(a, b, relation, "not certified", str(why))
-        except _NoFile as why:
-            return Checked(a, b, relation, "no file", str(why))
+            beyond: Outcome = "no file" if isinstance(why, _NoFile) else "not certified"
+            return Checked(a, b, relation, beyond, str(why))
         except Rejected as why:
             outcome: Outcome = "rejected" if finding.certificate else "not certified"
             return Checked(a, b, relation, outcome, str(why))
@@ -145,14 +139,19 @@ class _Report:
             return Checked(a, b, relation, "rejected", reason)
         if proven is None:
             return Checked(a, b, relation, "open", str(finding.reason))
-        left = _left(finding, proven)
-        thick = finding.thickness is not None and proven.ball and proven.thickness
+        left = (
+            field
+            for field, name in CERTIFIED.items()
+            if _says_something(name, getattr(finding, name)) and name not in proven.fields
+        )
         off = None if finding.distance is None else proven.distance
         return Checked(
             *(a, b, relation, "accepted", None),
-            *(proven.depth, proven.mtv, thick),
-            None if off is None else float(off),
-            left,
+            depth="depth_bounds" in proven.fields,
+            mtv="mtv" in proven.fields,
+            thickness={"ball", "thickness"} <= proven.fields and finding.thickness is not None,
+            distance_error=None if off is None else float(off),
+            left=tuple(left),
         )
 
     def _list(self, *names: str) -> tuple[Placed, Placed]:
@@ -165,7 +164,7 @@ class _Report:
         self.listed.add(frozenset(names))
         return a, b
 
-    def _check(self, finding: Finding) -> ProvenFields | None:
+    def _check(self, finding: Finding) -> Proven | None:
         a, b = self._list(finding.a, finding.b)
         if not self.book.is_checked(self.order[a.id], self.order[b.id]):
             raise Rejected("the scene does not ask about this pair")
@@ -197,11 +196,13 @@ class _Report:
         across = None if settings.planar is None else ACROSS[settings.planar]
         return request_of(terms, settings.clearance, tolerance, across)
 
-    def check_unlisted(self, faults: list[str]) -> tuple[int, int, int]:
+    def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
         nothing decides, because a body cannot be used or compared."""
         pruned = exempted = left_open = 0
-        for a, b in _unlisted(list(self.bodies.values()), self.listed):
+        for a, b in combinations(self.bodies.values(), 2):
+            if frozenset((a.id, b.id)) in self.listed:
+                continue
             if not self.book.is_checked(self.order[a.id], self.order[b.id]):
                 exempted += 1
             elif self.units[a.id] != self.units[b.id] or not (a.claims and b.claims):
@@ -209,97 +210,56 @@ class _Report:
             elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
             else:
-                faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
+                fault = f"{a.id} and {b.id} are not apart by their boxes, and not listed"
+                self.faults.append(fault)
         return pruned, exempted, left_open
 
-    def check_support(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
-        """The answers about the support of bodies; none if a file is missing."""
+    def check_support(self) -> tuple[CheckedSupport, ...]:
+        """The answers about the support of bodies."""
         statics = self.report.support
-        if statics is None and any(i.code in SUPPORT_CODES for i in self.report.issues):
-            faults.append("issues are about the support of bodies, and its section is missing")
-        if statics is None or self.missing:
+        if statics is None:
             return ()
         from satcheck.verify.statics.claims import Claims
 
-        return _judged("support", lambda: Claims(statics, self.bodies).judged(), faults)
+        return self._noting("support", lambda: tuple(Claims(statics, self.bodies).judged()))
 
-    def check_regions(self, faults: list[str]) -> tuple[CheckedSupport, ...]:
-        """The answers about bodies in regions; none if a file is missing."""
+    def check_regions(self) -> tuple[CheckedSupport, ...]:
+        """The answers about bodies in regions."""
         regions = self.report.regions
-        if not regions or self.missing:
+        if not regions:
             return ()
         from satcheck.verify.inside import judged
 
-        return _judged("regions", lambda: judged(regions, self.bodies), faults)
+        return self._noting("regions", lambda: tuple(judged(regions, self.bodies)))
 
     def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the
         findings."""
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
-            listed_apart = self.listed_apart
-            counted = self.book.count()
-            check_summary(self.report, findings, counted, pruned, listed_apart, left_open)
+            counted, listed = self.book.count(), self.listed_apart
+            try:
+                check_summary(self.report, findings, counted, pruned, listed, left_open)
+            except Rejected as why:
+                self.faults.append(str(why))
+
+    def _noting(
+        self, part: str, judge: Callable[[], tuple[CheckedSupport, ...]]
+    ) -> tuple[CheckedSupport, ...]:
+        """What a part of the report claims about single bodies; of a part that has a fault nothing
+        does."""
+        try:
+            return judge()
+        except Rejected as why:
+            self.faults.append(f"{part}: {why}")
+        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+            self.faults.append(f"{part} cannot be checked: {type(error).__name__}: {error}")
+        return ()
 
 
-def _judged(
-    name: str, judge: Callable[[], Iterator[CheckedSupport]], faults: list[str]
-) -> tuple[CheckedSupport, ...]:
-    """Return what a part of the report claims about single bodies."""
-    try:
-        return tuple(judge())
-    except Rejected as why:
-        faults.append(f"{name}: {why}")
-    except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
-        faults.append(f"{name} cannot be checked: {type(error).__name__}: {error}")
-    return ()
-
-
-def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
-    """The fields of an accepted finding that have a value and are not proven."""
-    bounds, overlap = finding.depth_bounds, finding.exact_relation in OVERLAPS
-    least = finding.thickness_bounds and finding.thickness_bounds[0]
-    is_left = {
-        "undecided": finding.undecided == "limit",
-        "distance": finding.distance is not None and proven.distance is None,
-        "distance_bounds": not _bounds_follow(finding, proven.distance),
-        "depth": finding.depth is not None and not (proven.depth or proven.mtv),
-        "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
-        "normal": finding.normal is not None and not proven.normal,
-        "mtv": finding.mtv is not None and not proven.mtv,
-        "thickness": finding.thickness is not None and not proven.thickness,
-        "thickness_bounds": bool(least) and not proven.ball,
-        "ball": finding.ball is not None and not proven.ball,
-        "volume": overlap and finding.volume is not None,
-        "volume_error": overlap and finding.volume_error is not None,
-        "contacts": finding.contacts is not None and not proven.contacts,
-    }
-    return tuple(f"findings[].{key}" for key, left in is_left.items() if left)
-
-
-def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
-    """Return whether bounds of the distance, if the finding has any, are as wide as the proof of
-    it. error: how far it may be off; None: it is not proven."""
-    bounds, distance = finding.distance_bounds, finding.distance
-    if bounds is None or distance is None:
-        return True
-    if error is None:
-        return False
-    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
-    return low <= max(length - error, Fraction(0)) and length + error <= high
-
-
-def _faults_of_issues(report: Report, bodies: dict[str, Placed]) -> list[str]:
-    named = (issue.body for issue in report.issues if issue.body is not None)
-    strangers = [name for name in named if name not in bodies]
-    return [f"an issue is about {name}, which is no body" for name in strangers[:1]]
-
-
-def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tuple[Placed, Placed]]:
-    """Pairs without a finding."""
-    for a, b in combinations(bodies, 2):
-        if frozenset((a.id, b.id)) not in listed:
-            yield a, b
+def _says_something(name: str, value: Any) -> bool:
+    """A lower end of 0 says nothing."""
+    return value is not None and not (name in ("depth_bounds", "thickness_bounds") and not value[0])
 
 
 def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Placed]) -> RuleBook:

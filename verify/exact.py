@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import isqrt, lcm
@@ -14,14 +15,22 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
+Vector = tuple[Any, Any, Any]  # of integers or rationals
 Pair = tuple[Any, Any]  # coordinates in a plane
+HalfSpace = tuple[Vector, Any]  # normal . x <= limit
 
 SIGNIFICANT_BITS = 53
 ROOT_BITS = 128
+# Bits of the roots of a sum, in turn.
+BITS = (64, 256, 1024, 4096)
 
 
 class Rejected(Exception):
     """A claim that its certificate does not prove, in one sentence."""
+
+
+class TooMany(Rejected):
+    """A claim whose check would take too long."""
 
 
 class NotCertified(Exception):
@@ -54,7 +63,13 @@ def shifted(number: int, by: int) -> int:
     return number << by if by >= 0 else number >> -by
 
 
-def sub(p: IntVector, q: IntVector) -> IntVector:
+def point(p: Iterable[Any]) -> Point:
+    """Three numbers, each exactly."""
+    x, y, z = map(Fraction, p)
+    return x, y, z
+
+
+def sub(p: Vector, q: Vector) -> Vector:
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
@@ -62,12 +77,17 @@ def dot(p: Sequence[Any], q: Sequence[Any]) -> Any:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
-def cross(p: IntVector, q: IntVector) -> IntVector:
+def cross(p: Vector, q: Vector) -> Vector:
     return (
         p[1] * q[2] - p[2] * q[1],
         p[2] * q[0] - p[0] * q[2],
         p[0] * q[1] - p[1] * q[0],
     )
+
+
+def normal_of(t: Sequence[Vector]) -> Vector:
+    """The normal of a triangle, twice as long as its area; 0 where it has none."""
+    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
 
 
 def sign(number: int | Fraction) -> int:
@@ -78,6 +98,28 @@ def homogeneous(p: Point) -> tuple[int, int, int, int]:
     """(X, Y, Z, W) with p = (X, Y, Z) / W and W > 0."""
     w = lcm(*(c.denominator for c in p))
     return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
+
+
+def half_spaces(t: Sequence[Vector]) -> list[HalfSpace]:
+    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
+    segment or a point."""
+    n = normal_of(t)
+    if any(n):
+        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
+        anchors = [t[0], t[0], *t]
+    else:
+        spans = [(p, q) for p in t for q in t if p != q]
+        p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
+        along = sub(q, p)
+        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        across = [cross(along, u) for u in units] if any(along) else units
+        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
+        anchors = [q] + [p] * (len(normals) - 1)
+    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
+
+
+def _negated(v: IntVector) -> IntVector:
+    return -v[0], -v[1], -v[2]
 
 
 def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fraction]]:
@@ -97,11 +139,8 @@ def _feet(points: Sequence[IntVector]) -> Iterator[tuple[Point, dict[int, Fracti
             weights = _foot([points[k] for k in chosen])
             if weights is not None and min(weights) >= 0:
                 shares = dict(zip(chosen, weights, strict=True))
-                x, y, z = (
-                    sum((w * points[k][axis] for k, w in shares.items()), Fraction())
-                    for axis in range(3)
-                )
-                yield (x, y, z), shares
+                foot = (sum(w * points[k][axis] for k, w in shares.items()) for axis in range(3))
+                yield point(foot), shares
 
 
 def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:
@@ -142,20 +181,46 @@ def turn(p: Pair, q: Pair, x: Pair) -> Any:
     return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
 
 
-def root_above(value: Fraction) -> Fraction:
-    """The square root if it is a multiple of 2**-ROOT_BITS, else a little more, by less than 2**-60
-    of it."""
-    shift = _root_shift(value)
-    scaled = -(-(value.numerator << 2 * shift) // value.denominator)
-    root = isqrt(scaled)
-    return Fraction(root + (root * root < scaled), 1 << shift)
+def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, Fraction]:
+    """Bounds of its root, equal if it is rational; else no farther apart than 2**-bits of it."""
+    whole = square.numerator * square.denominator
+    low = isqrt(whole)
+    if low * low == whole:
+        exact = Fraction(low, square.denominator)
+        return exact, exact
+    low = isqrt(whole << 2 * bits)
+    below = square.denominator << bits
+    return Fraction(low, below), Fraction(low + 1, below)
 
 
-def root_below(value: Fraction) -> Fraction:
-    """The square root if it is a multiple of 2**-ROOT_BITS, else a little less."""
-    shift = _root_shift(value)
-    return Fraction(isqrt((value.numerator << 2 * shift) // value.denominator), 1 << shift)
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """q + sqrt(p), p >= 0."""
+
+    q: Fraction
+    p: Fraction = Fraction(0)
 
 
-def _root_shift(value: Fraction) -> int:
-    return ROOT_BITS + max(0, value.denominator.bit_length() - value.numerator.bit_length())
+def sign_of(c: Fraction, less: Sequence[Fraction] = (), more: Sequence[Fraction] = ()) -> int:
+    """The sign of c - the roots of `less` + the roots of `more`. Raises Rejected if it is too close
+    to 0.
+
+    A sum of square roots of rationals, all with one sign, is rational only if each root is. So
+    narrower bounds find every sign except 0, and 0 comes only from exact roots.
+    """
+    less, more = list(less), list(more)
+    for p in [p for p in less if p in more]:
+        if p in more:
+            less.remove(p)
+            more.remove(p)
+    for bits in BITS:
+        low = high = c
+        for p in less:
+            below, above = root(p, bits)
+            low, high = low - above, high - below
+        for p in more:
+            below, above = root(p, bits)
+            low, high = low + below, high + above
+        if low > 0 or high < 0 or low == high == 0:
+            return (low > 0) - (high < 0)
+    raise Rejected("a length is too close to another one to be told from it")

@@ -9,7 +9,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -20,9 +19,10 @@ from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
-from satcheck.verify.world import World
+from satcheck.verify.exact import Point, Rejected, point, root, sub
+from satcheck.verify.pairs import vector
+from satcheck.verify.patches import comes_within
+from satcheck.verify.world import Exact
 
 # An interval of this relative width comes from rounding alone.
 EXACT_WIDTH = Fraction(1, 10**9)
@@ -35,12 +35,11 @@ UNIT_ERROR = 1e-12  # of the length of a unit vector
 DIRECTION_ERROR = Fraction(1, 1000)
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
-THICKNESS_FIGURES = ("thickness", "thickness_bounds", "ball")
-ALL_FIGURES = (
-    *DEPTH_FIGURES,
-    *THICKNESS_FIGURES,
-    *("distance", "witness", "quality", "volume", "volume_error"),
-)
+# What an undecided pair states; it claims nothing else.
+OF_UNDECIDED = {
+    *("id", "a", "b", "relation", "placed_relation", "severity", "undecided", "reason"),
+    *("tolerance", "motion", "certificate", "plan", "baseline_state"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,11 +91,8 @@ def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) ->
 
 def check_no_figures(finding: Finding) -> None:
     """Rejects figures of an undecided pair."""
-    claims = [
-        key
-        for key in (*ALL_FIGURES, "exact_relation", "contacts", "components", "rule")
-        if getattr(finding, key)
-    ]
+    others = (key for key in Finding.__struct_fields__ if key not in OF_UNDECIDED)
+    claims = [key for key in others if getattr(finding, key)]
     if claims:
         raise Rejected(f"an indeterminate pair claims nothing, this one claims {claims[0]!r}")
 
@@ -177,7 +173,7 @@ def _check_witness(finding: Finding, bodies: tuple[Placed, Placed], rounding: Ro
     if witness is None:
         return
     ends = vector(witness.a), vector(witness.b)
-    step = sub(ends[1], ends[0])  # type: ignore[arg-type]
+    step = sub(ends[1], ends[0])
     overlap = finding.exact_relation in OVERLAPS
     length = Fraction(-(finding.depth or 0.0) if overlap else finding.distance or 0.0)
     slack = rounding.of(length)
@@ -204,7 +200,8 @@ def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
     """Return whether a point is within this distance of the surface, world units."""
     if body.curved is not None:
         return _on_curved(p, body.curved, slack)
-    return body.world is not None and _on_mesh(p, body.world, slack)
+    mesh = Exact(body.mesh, body.mesh.lattice)
+    return comes_within(mesh, point(c * (1 << mesh.k) for c in p), slack, open_=False)
 
 
 def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
@@ -221,18 +218,6 @@ def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
         return x + scale * step[0], y + scale * step[1], z + scale * step[2]
 
     return shape.side(at(1 - share)) >= 0 >= shape.side(at(1 + share))
-
-
-def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
-    at, reach = np.array([float(c) for c in p]), float(slack) * 1.001
-    low, high = np.nextafter(at - reach, -np.inf), np.nextafter(at + reach, np.inf)
-    near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
-    for corners in world.vertices[world.triangles[near]].tolist():
-        points: Any = [tuple(Fraction(c) - q for c, q in zip(v, p, strict=True)) for v in corners]
-        x, _ = nearest_to_origin(points)
-        if dot(x, x) <= slack * slack:
-            return True
-    return False
 
 
 def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:
@@ -300,13 +285,4 @@ def _unit(direction: Vector) -> Point:
 
 
 def _length(v: Sequence[Fraction | int]) -> Fraction:
-    return square_root(Fraction(sum(c * c for c in v)))
-
-
-def square_root(squared: Fraction) -> Fraction:
-    """To a relative 2**-60."""
-    if squared == 0:
-        return Fraction(0)
-    shift = max(squared.denominator.bit_length() - squared.numerator.bit_length(), 0) // 2 + 64
-    whole = math.isqrt((squared.numerator << 2 * shift) // squared.denominator)
-    return Fraction(whole, 1 << shift)
+    return root(Fraction(sum(c * c for c in v)))[0]

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
+import numpy as np
 from msgspec import UnsetType
 
-from satcheck.report.certificate import Band, Certificate
+from satcheck.report.certificate import Band, Certificate, Proof, SurfacesProof
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
-from satcheck.verify.bodies import Placed
-from satcheck.verify.clearance import GapProof, check_claims, least_gap, prove_apart
-from satcheck.verify.cover import depth_is_at_least
-from satcheck.verify.curved_finding import check_curved
-from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
-from satcheck.verify.evidence import axis, gap_along, given, vector
-from satcheck.verify.exact import Point, Rejected, dot
+from satcheck.verify.bodies import Placed, curve_error
+from satcheck.verify.depth import depth_is_at_least, inner_radius_exceeds
+from satcheck.verify.distances import (
+    check_claims,
+    check_distance,
+    check_holes,
+    check_pieces,
+    least_gap,
+    prove_apart,
+    spanned,
+)
+from satcheck.verify.exact import Point, Rejected, dot, root
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
+    EXACT_WIDTH,
     Rounding,
     check_figures,
     check_id,
@@ -26,22 +33,27 @@ from satcheck.verify.figures import (
     rounding_of,
     shows_direction,
 )
-from satcheck.verify.holes import check_holes, check_pieces
 from satcheck.verify.in_plane import (
     check_in_plane,
     check_overlap_of_curves,
-    check_proof_in_plane,
-    curve_error,
+    leaves_gap_of_curves,
     reaching,
 )
-from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.relations import Pair, pair_of, prove
-from satcheck.verify.severity import ProvenFields, proven_depth
+from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, pair_of, vector
+from satcheck.verify.relations import prove, prove_free
 from satcheck.verify.thickness import at_most, holds_ball
-from satcheck.verify.way_out import check_mtv, prove_way_out
 
 
-def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> ProvenFields:
+@dataclass(frozen=True, slots=True)
+class Proven:
+    """fields: of an accepted finding, those that are proven, with or without a value. distance: how
+    far it may be off; None: it is not proven."""
+
+    fields: frozenset[str]
+    distance: Fraction | None
+
+
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
     """Rejects an unproven finding of two readable bodies."""
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
@@ -51,120 +63,140 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
     check_figures(finding, a, b)
-    if a.curved is not None or b.curved is not None:
-        return check_curved(finding, certificate, a, b, request, tolerance)
-    pair = pair_of(a, b, a.mesh, b.mesh)
-    relation, exact = finding.relation, finding.exact_relation
+    pair = any_pair_of(a, b)
     closer = curve_error(a, b)
-    hulls_apart = _prove_relation(finding, certificate, pair, a, b, request, tolerance)
+    hulls_apart = _prove_relation(finding, certificate, pair, (a, b), request, tolerance)
+    overlap = finding.exact_relation in OVERLAPS
     mtv = check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair, closer)
-    covered = _check_cover(finding, certificate, pair)
+    both_ends = depth or (_check_cover(finding, certificate, pair) and mtv)
     rounding = rounding_of(a, b)
-    if pair.convex:
-        directed = spanned(finding, rounding, hulls_are_apart(pair))
-    else:
-        directed = mtv or shows_direction(finding, a, b)
-    error = _check_distance(finding, certificate, pair)
-    block = (a.endless or b.endless) and exact != "touching"
-    if closer or a.holed or b.holed or block:  # the block of a half space may be off
-        error = None
-    proven = ProvenFields(depth or (covered and mtv), mtv, error, directed or mtv)
-    most = proven_depth(finding, replace(proven, depth=depth))
+    spans = pair.convex and spanned(finding, rounding, pair)
+    directed = spans or mtv or (not pair.convex and shows_direction(finding, a, b))
+    block = (a.endless or b.endless) and finding.exact_relation != "touching"
+    error = None
+    if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
+        error = _check_distance(finding, certificate, pair, rounding, spans)
+    most = _most_depth(finding, depth=depth, mtv=mtv)
     thickest = _check_thickness(finding, certificate, pair, closer, most)
-    proven = _with_thickness(proven, finding, closer, thickest, rounding)
-    if exact not in OVERLAPS and not hulls_apart:
+    if not overlap and not hulls_apart:
         check_holes(a, b, max(tolerance, Fraction(request.clearance or 0.0)))
         check_pieces(a, b)
 
     slack = rounding.of(tolerance)
-    if relation == "near":
+    if finding.relation == "near":
         prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
-    if relation in OVERLAPS and most is not None and most + slack < tolerance:
+    if finding.relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    gap = GapProof(
-        lambda: squared_gap(given(certificate.gap, "gap"), pair),
-        lambda least: prove_apart(certificate, pair, (a, b), least),
-        closer,
-    )
 
     def is_in_band(band: Fraction) -> bool:
-        return _is_in_band(finding, certificate.band, pair, (a, b), band, proven)
+        if isinstance(certificate.band, UnsetType):
+            is_shallow = both_ends and finding.depth is not None and finding.depth <= band
+            return is_shallow or (mtv and _is_short(vector(finding.mtv or ()), band))
+        return _is_in_band(finding, certificate.band, pair, (a, b), band)
 
-    check_claims(finding, request, tolerance, gap, is_in_band, (most, thickest))
-    return proven
+    bounds = most, thickest
+    check_claims(finding, certificate, pair, (a, b), request, tolerance, is_in_band, bounds)
+    thick = Fraction(finding.thickness or 0)
+    ball = isinstance(pair, Pair) and finding.thickness_bounds is not None and not closer
+    shown = {
+        "undecided": finding.undecided != "limit",
+        "distance": error is not None,
+        "distance_bounds": _bounds_follow(finding, error),
+        "depth": both_ends or mtv,
+        "depth_bounds": both_ends,
+        "normal": directed,
+        "mtv": mtv,
+        "thickness": thickest is not None and thickest <= thick + rounding.of(thick),
+        "thickness_bounds": ball,
+        "ball": ball,
+        "volume": not overlap,
+        "volume_error": not overlap,
+    }
+    return Proven(frozenset(name for name, is_shown in shown.items() if is_shown), error)
 
 
-def _with_thickness(
-    proven: ProvenFields,
-    finding: Finding,
-    closer: Fraction,
-    thickest: Fraction | None,
-    rounding: Rounding,
-) -> ProvenFields:
-    """thickest: a proven upper bound of the thickness; None: there is none."""
-    return replace(
-        proven,
-        ball=finding.thickness_bounds is not None and not closer,
-        thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
-    )
+def _most_depth(finding: Finding, *, depth: bool, mtv: bool) -> Fraction | None:
+    """An upper bound, world units, of the depth that is certified; None: none is."""
+    bounds = []
+    if depth and finding.depth is not None:
+        bounds.append(Fraction(finding.depth))
+    if mtv and finding.mtv is not None:
+        move = vector(finding.mtv)
+        bounds.append(root(dot(move, move))[1])
+    return min(bounds, default=None)
+
+
+def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
+    """Return whether bounds of the distance, if the finding has any, are as wide as the proof of
+    it. error: how far it may be off; None: it is not proven."""
+    bounds, distance = finding.distance_bounds, finding.distance
+    if bounds is None or distance is None:
+        return True
+    if error is None:
+        return False
+    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
+    return low <= max(length - error, Fraction(0)) and length + error <= high
 
 
 def _prove_relation(
     finding: Finding,
     certificate: Certificate,
-    pair: Pair,
-    a: Placed,
-    b: Placed,
+    pair: AnyPair,
+    bodies: tuple[Placed, Placed],
     request: Request,
     tolerance: Fraction,
 ) -> bool:
     """Returns whether the relation also holds for the hulls; then neither body can lie inside the
     other."""
-    relation, proof, ends = finding.exact_relation, certificate.relation, pair
-    closer = curve_error(a, b)
-    if request.across is not None:
+    relation, ends = finding.exact_relation, pair
+    closer = curve_error(*bodies)
+    if request.across is not None and isinstance(pair, Pair):
         check_in_plane(finding, certificate, request.across)
-        ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, request.across))
-        check_proof_in_plane(proof, ends, request.across)
+        worlds = reaching(relation, pair.a.world, pair.b.world, request.across)
+        ends = replace(pair_of(*bodies, *worlds), across=request.across)
         if relation != "separated":
             check_overlap_of_curves(relation, closer, ends, request.across)
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
     least = least_gap(finding, request) + closer
-    return prove(relation, proof, ends, max(beyond, closer), least)
+    return prove(relation, certificate.relation, ends, max(beyond, closer), least)
 
 
-def _check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
+def _check_distance(
+    finding: Finding, certificate: Certificate, pair: AnyPair, rounding: Rounding, spans: bool
+) -> Fraction | None:
     """Return how far the distance may be off; None: it is not proven."""
+    if isinstance(pair, Pair):
+        return check_distance(finding, certificate, pair)
     if finding.exact_relation == "touching":
         return Fraction(0)
-    if isinstance(certificate.distance, UnsetType) or finding.distance is None:
-        return None
-    return check_distance(finding.distance, certificate.distance, pair)
+    return 2 * rounding.of(Fraction(finding.distance or 0.0)) if spans else None
 
 
-def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, closer: Fraction) -> bool:
+def _check_depth(
+    finding: Finding, certificate: Certificate, pair: AnyPair, closer: Fraction
+) -> bool:
     """Checks the interval of the depth: a ball in the Minkowski difference proves the lower bound,
     an axis the upper bound."""
     bounds, proof = finding.depth_bounds, certificate.depth
     if bounds is None or isinstance(proof, UnsetType):
         return False
     low, high = map(Fraction, bounds)
-    if not pair.convex:
-        raise Rejected("a depth is certified for convex bodies only")
+    if not (isinstance(pair, Pair) and pair.convex):
+        raise Rejected("a depth is certified for convex meshes only")
     inner_radius_exceeds(proof.lower, pair.a, pair.b, low)
-    if not depth_at_most(axis(proof.upper), pair, high - closer):
+    if pair.gap(axis(proof.upper), closer - high) < 0:
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
 
 
-def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool:
+def _check_cover(finding: Finding, certificate: Certificate, pair: AnyPair) -> bool:
     """Checks the lower bound of the depth of bodies that are not both convex, if it is
     certified."""
     if isinstance(certificate.cover, UnsetType):
         return False
-    if finding.depth_bounds is None:
-        raise Rejected("a cover, and no depth")
+    if finding.depth_bounds is None or not isinstance(pair, Pair):
+        raise Rejected("a cover, and no depth of meshes")
     depth_is_at_least(certificate.cover, pair.a, pair.b, Fraction(finding.depth_bounds[0]))
     return True
 
@@ -172,7 +204,7 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool
 def _check_thickness(
     finding: Finding,
     certificate: Certificate,
-    pair: Pair,
+    pair: AnyPair,
     closer: Fraction,
     depth: Fraction | None,
 ) -> Fraction | None:
@@ -181,7 +213,7 @@ def _check_thickness(
     check in a plane are higher than wide: the largest ball in both has the diameter of the largest
     disc. Of curves nothing is proven."""
     cells = certificate.thickness
-    if finding.thickness is None or closer:
+    if finding.thickness is None or closer or not isinstance(pair, Pair):
         if not isinstance(cells, UnsetType):
             raise Rejected("cells, and no thickness of polyhedra")
         return depth
@@ -195,38 +227,21 @@ def _check_thickness(
     return thickness if depth is None else min(thickness, depth)
 
 
-def _granted(figure: float | None, rounding: Rounding) -> Fraction:
-    length = Fraction(figure or 0)
-    return length + rounding.of(length)
-
-
-def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
-    """Return whether a translation of A against this axis by the length, world units, frees it from
-    B."""
-    overlap = -gap_along(pair.a, pair.b, n)
-    return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
-
-
 def _is_in_band(
     finding: Finding,
-    proof: Band | UnsetType,
-    pair: Pair,
+    proof: Band,
+    pair: AnyPair,
     bodies: tuple[Placed, Placed],
     band: Fraction,
-    proven: ProvenFields,
 ) -> bool:
     """Return whether a way out of the overlap is within the tolerance, or surfaces that may be off
     explain it."""
-    if isinstance(proof, UnsetType):
-        if proven.depth and finding.depth is not None and finding.depth <= band:
-            return True
-        return proven.mtv and finding.mtv is not None and _is_short(vector(finding.mtv), band)
     if not isinstance(proof.axis, UnsetType):
-        if pair.convex and depth_at_most(axis(proof.axis), pair, band):
+        if pair.convex and pair.gap(axis(proof.axis), -band) >= 0:
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
     if not isinstance(proof.excuse, UnsetType):
-        if curve_error(*bodies):
+        if curve_error(*bodies) or not isinstance(pair, Pair):
             raise Rejected("an excuse of polygons, and not of their curves")
         is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
         return True
@@ -241,3 +256,40 @@ def _is_in_band(
 
 def _is_short(move: Point, band: Fraction) -> bool:
     return bool(dot(move, move) <= band * band)
+
+
+def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
+    """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
+
+    The MTV is longer than the depth by some rounding, because it is lengthened until the rounded
+    coordinates are free. Returns False if the finding does not claim this, or if it is not
+    certified.
+    """
+    if finding.mtv_verified is not True:
+        return False
+    if finding.exact_relation not in OVERLAPS:
+        raise Rejected("only an overlap has a way out")
+    if finding.depth is None or finding.mtv is None:
+        raise Rejected("a verified MTV comes with its depth")
+    depth, move = Fraction(finding.depth), vector(finding.mtv)
+    if dot(move, move) > (depth + EXACT_WIDTH * (depth + rounding_of(a, b).largest)) ** 2:
+        raise Rejected("the MTV is longer than the depth")
+    if isinstance(certificate.mtv, UnsetType):
+        if curve_error(a, b):
+            return False
+        raise Rejected("the certificate has no 'mtv'")
+    prove_way_out(move, certificate.mtv, a, b)
+    return True
+
+
+def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
+    offset = [float(c) for c in move]
+    if not np.isfinite(offset).all():
+        raise Rejected("a translation is finite")
+    moved = a.moved(offset)
+    if isinstance(proof, SurfacesProof):
+        check_holes(moved, b, Fraction(0))
+    pair = any_pair_of(moved, b)
+    prove_free(proof, pair)
+    if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
+        raise Rejected("the way out is shown of polygons alone, not of the curves")

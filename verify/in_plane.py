@@ -21,27 +21,16 @@ from satcheck.report.certificate import (
     AxisProof,
     Certificate,
     ExactVector,
-    OverlapProof,
-    PointProof,
-    PolytopeProof,
     Proof,
 )
 from satcheck.report.report import Finding
 from satcheck.report.values import Relation
-from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import nothing_nearer
-from satcheck.verify.evidence import exceeds, gap_along, on_body, vector
 from satcheck.verify.exact import Rejected
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import AnyPair, Pair, axis, vector
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
-
-
-def curve_error(a: Placed, b: Placed) -> Fraction:
-    """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
-    polygons are exact."""
-    return Fraction(a.deviation) + Fraction(b.deviation)
 
 
 def check_overlap_of_curves(
@@ -57,7 +46,7 @@ def check_overlap_of_curves(
     if not closer:
         return
     if relation in ("contains", "inside"):
-        nothing_nearer(pair.a, pair.b, closer)
+        nothing_nearer(pair.a, pair.b, closer, closer)
         return
     if relation != "penetrating":
         raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
@@ -75,14 +64,9 @@ def _sticks_out(world: World, other: World, closer: Fraction, across: int) -> bo
     )
 
 
-def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: Pair) -> bool:
+def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: AnyPair) -> bool:
     """Return whether the polygons are as far apart along the axis as the curves may be off them."""
-    if not closer:
-        return True
-    if not isinstance(proof, AxisProof):
-        return False
-    n = vector(proof.axis)
-    return any(n) and exceeds(gap_along(pair.a, pair.b, n), n, closer)
+    return not closer or (isinstance(proof, AxisProof) and pair.gap(axis(proof.axis), closer) > 0)
 
 
 def reaching(relation: Relation | None, a: World, b: World, across: int) -> tuple[World, World]:
@@ -116,17 +100,3 @@ def check_in_plane(finding: Finding, certificate: Certificate, across: int) -> N
     for direction in directions:
         if isinstance(direction, tuple) and vector(direction)[across] != 0:
             raise Rejected("a direction leaves the plane")
-
-
-def check_proof_in_plane(proof: Proof, pair: Pair, across: int) -> None:
-    """Check what shows that neither outline holds the other: no axis across the plane, and no point
-    at the ends of the prisms, which are of one height."""
-    if isinstance(proof, PointProof | PolytopeProof) and any(
-        vector(reach)[across] != 0 for reach in (proof.a_reaches, proof.b_reaches)
-    ):
-        raise Rejected("an axis leaves the plane")
-    if isinstance(proof, OverlapProof) and not isinstance(proof.meet, UnsetType):
-        p = on_body(proof.meet.a, pair.a, of_hull=False)
-        ends = {abs(point[across]) for point in pair.a.points}
-        if abs(p[across]) in ends:
-            raise Rejected("the common point lies at the end of a prism")

@@ -9,26 +9,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.verdict import severity_of_answer
-from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import on_body, vector
 from satcheck.verify.exact import (
     IntVector,
     NotCertified,
     Rejected,
-    cross,
     dot,
-    nearest_to_origin,
-    sub,
+    normal_of,
+    point,
+    sign_of,
 )
-from satcheck.verify.relations import check_within, pair_of
-from satcheck.verify.roots import sign_of
-from satcheck.verify.statics.terms import body_terms
+from satcheck.verify.pairs import on_body, pair_of, reach, vector
+from satcheck.verify.patches import comes_within
+from satcheck.verify.relations import check_within
+from satcheck.verify.statics.terms import body_terms, checked
 from satcheck.verify.world import Exact, World
 
 
@@ -39,27 +40,26 @@ def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSu
     if [(f.body, f.region) for f in regions.findings] != list(asked):
         raise Rejected("the questions about regions are not those that rules ask")
     for finding in regions.findings:
-        rule, severity = asked[finding.body, finding.region]
-        try:
-            _check_words(finding, rule, severity)
-            if finding.answer == "open":
-                _check_form(finding, convex=False)
-            else:
-                body, region = bodies[finding.body], bodies[finding.region]
-                check_answer(finding, body, region, regions.tolerance)
-        except NotCertified as why:
-            yield _checked(finding, "not certified", str(why))
-        except Rejected as why:
-            yield _checked(finding, "rejected", str(why))
-        else:
-            if finding.answer == "open":
-                yield _checked(finding, "open", finding.reason)
-            else:
-                yield _checked(finding, "accepted", None)
+        check = partial(_check, finding, *asked[finding.body, finding.region], regions, bodies)
+        yield checked(finding, check)
 
 
-def _checked(finding: InsideFinding, outcome: Outcome, reason: str | None) -> CheckedSupport:
-    return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
+def _check(
+    finding: InsideFinding,
+    rule: str,
+    severity: str | None,
+    regions: Regions,
+    bodies: Mapping[str, Placed],
+) -> None:
+    if finding.rule != rule:
+        raise Rejected("another rule asks this")
+    if finding.severity != severity_of_answer(finding.answer, severity):
+        raise Rejected("the severity does not follow from the answer and the rules")
+    if finding.answer == "open":
+        _check_form(finding, convex=False)
+    else:
+        body, region = bodies[finding.body], bodies[finding.region]
+        check_answer(finding, body, region, regions.tolerance)
 
 
 def _asked(
@@ -73,13 +73,6 @@ def _asked(
         for id_, own in terms.items()
         if (region := own.region_for(id_)) is not None
     }
-
-
-def _check_words(finding: InsideFinding, rule: str, severity: str | None) -> None:
-    if finding.rule != rule:
-        raise Rejected("another rule asks this")
-    if finding.severity != severity_of_answer(finding.answer, severity):
-        raise Rejected("the severity does not follow from the answer and the rules")
 
 
 def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
@@ -127,42 +120,27 @@ def _check_beyond_faces(
 def _is_beyond(body: Placed, region: World, limit: float) -> bool:
     """Return whether a point of the body lies farther beyond a face of the convex region than the
     limit, or as far and the limit is not 0."""
-    k = region.lattice if body.world is None else max(region.lattice, body.world.lattice)
-    faces = Exact(region, k)
-    mesh = None if body.world is None else Exact(body.world, k)
-    return any(
-        _reaches(body, mesh, normal, at, k, Fraction(limit)) for normal, at in _planes(faces)
-    )
+    faces = Exact(region, region.lattice)
+    shape = body.curved or Exact(body.mesh, body.mesh.lattice)
+    for n, at in _planes(faces):
+        far, level = reach(shape, point(n)), Fraction(dot(n, at), 1 << faces.k)
+        if sign_of(far.q - level, [Fraction(limit) ** 2 * dot(n, n)], [far.p]) > 0:
+            return True
+    return False
 
 
 def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
     """The plane of each face that has an area, once: its outward normal, and a point of it."""
     seen = set()
     for t in range(len(faces.world.triangles)):
-        a, b, c = faces.corners(t)
-        normal = cross(sub(b, a), sub(c, a))
+        a, *_ = corners = faces.corners(t)
+        normal = normal_of(corners)
         if any(normal):
             divisor = int(np.gcd.reduce(np.array(normal, dtype=object)))
             x, y, z = (n // divisor for n in normal)
             if ((x, y, z), dot((x, y, z), a)) not in seen:
                 seen.add(((x, y, z), dot((x, y, z), a)))
                 yield (x, y, z), a
-
-
-def _reaches(
-    body: Placed, mesh: Exact | None, normal: IntVector, at: IntVector, k: int, limit: Fraction
-) -> bool:
-    """Return whether the body reaches beyond the plane by more than the limit."""
-    squared = (limit * (1 << k)) ** 2 * dot(normal, normal)
-    if mesh is not None:
-        height = mesh.extent(normal) - dot(normal, at)
-        return bool(height > 0 and height * height > squared)
-    assert body.curved is not None
-    x, y, z = map(Fraction, normal)
-    reach = body.curved.reach((x, y, z))
-    scale = 1 << k
-    # q + root(p) > level + root(limit): the sign of their difference, on the lattice.
-    return sign_of(reach.q * scale - dot(normal, at), [squared], [reach.p * scale * scale]) > 0
 
 
 def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
@@ -179,21 +157,6 @@ def _check_point(finding: InsideFinding, body: World, region: World, tolerance: 
     p, surface = on_body(finding.point, Exact(body, k), of_hull=False), Exact(region, k)
     if surface.winding(p) != 0:
         raise Rejected("the point is not outside of the region")
-    reach = max(tolerance, finding.sticks_out or 0.0)
-    if _is_near(p, surface, Fraction(reach)):
+    furthest = max(tolerance, finding.sticks_out or 0.0)
+    if comes_within(surface, p, Fraction(furthest), open_=True):
         raise Rejected("the point is closer to the region than claimed")
-
-
-def _is_near(p: tuple[Fraction, ...], surface: Exact, reach: Fraction) -> bool:
-    """Return whether the surface is closer than `reach`, or as close as the tolerance."""
-    scale = 1 << surface.k
-    at = np.array([float(c / scale) for c in p])
-    wide = np.nextafter(float(reach), np.inf) + np.spacing(np.abs(at))
-    world = surface.world
-    near = ((world.low <= at + wide) & (world.high >= at - wide)).all(axis=1)
-    within = (reach * scale) ** 2
-    for t in np.flatnonzero(near).tolist():
-        x, _ = nearest_to_origin([sub(c, p) for c in surface.corners(t)])  # type: ignore[arg-type]
-        if dot(x, x) < within:
-            return True
-    return False

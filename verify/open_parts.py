@@ -7,13 +7,11 @@ reverse cancel. Any other open part has holes.
 
 from __future__ import annotations
 
-from collections import Counter
-
 import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.verify.exact import Floats
-from satcheck.verify.world import Indices, connected, is_balanced, is_flat
+from satcheck.verify.world import Indices, connected, count_by_triangle, is_flat
 
 Mask = NDArray[np.bool_]
 
@@ -26,6 +24,13 @@ def with_backs(vertices: Floats, triangles: Indices, *, allow_open: bool) -> Ind
         sheets |= _flaps(corners)
     both = np.vstack([triangles, triangles[sheets][:, ::-1]])
     return both if is_balanced(vertices, both) else None
+
+
+def is_balanced(vertices: Floats, triangles: Indices) -> bool:
+    """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
+    corners = _by_place(vertices)[triangles]
+    one_set = np.zeros(len(corners), dtype=np.int64)
+    return len(corners) > 0 and not len(_open_sets(one_set, corners, _edges(corners)))
 
 
 def turns_around(corners: Floats, point: Floats) -> float:
@@ -44,12 +49,8 @@ def turns_around(corners: Floats, point: Floats) -> float:
 
 def bounds_nothing(vertices: Floats, triangles: Indices) -> bool:
     """Whether each triangle comes as often in one winding as in the other."""
-    left: Counter[tuple[int, ...]] = Counter()
-    for triangle in _by_place(vertices)[triangles].tolist():
-        first = _least(triangle)
-        p, q, r = triangle[first:] + triangle[:first]
-        left[p, min(q, r), max(q, r)] += 1 if q < r else -1
-    return not any(left.values())
+    ways = (count_by_triangle(vertices, way, True) for way in (triangles, triangles[:, ::-1]))
+    return next(ways) == next(ways)
 
 
 def _by_place(vertices: Floats) -> Indices:
@@ -66,10 +67,6 @@ def _flat_parts(vertices: Floats, triangles: Indices, corners: Indices) -> Mask:
     for members in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
         sheets[members] = is_flat(vertices[np.unique(triangles[members])])
     return sheets
-
-
-def _least(triangle: list[int]) -> int:
-    return triangle.index(min(triangle))
 
 
 def _flaps(corners: Indices) -> Mask:

@@ -11,14 +11,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
-from math import gcd, lcm
+from math import lcm
 from typing import Any
 
 import numpy as np
 
+from satcheck.report import values
 from satcheck.report.certificate import Cells
-from satcheck.report.values import Vector
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, Vector, dot, point
+from satcheck.verify.surfaces import clipped
 from satcheck.verify.world import Exact, Indices
 
 MOST_CELLS = 100_000
@@ -29,11 +30,10 @@ FEW = 32
 # The corners of each face of a box, by their places in a product of its ends, each edge run once in
 # either direction.
 BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-# Of points of the lattice, in integers. A point is (X, Y, Z, W), its coordinates times some W > 0;
-# the half-space (n, d) holds those with n . X <= d W.
-Corner = tuple[int, int, int, int]
+# The half-space (n, d) holds the points p of the lattice with n . p <= d.
 HalfSpace = tuple[int, int, int, int]
-Polygon = list[Corner]
+Polygon = list[Point]
+Ends = tuple[Floats, Floats]
 
 
 class Frame:
@@ -42,13 +42,12 @@ class Frame:
     def __init__(self, origin: Sequence[float], k: int) -> None:
         self.scale = 1 << k
         self.floats: Floats = np.array(origin)
-        x, y, z = (Fraction(c) * self.scale for c in origin)
-        self.origin: Point = x, y, z
+        self.origin = point(Fraction(c) * self.scale for c in origin)
         self.is_plain = not any(origin)
 
-    def point(self, p: Sequence[Any]) -> Corner:
-        x, y, z = (o + Fraction(c) * self.scale for o, c in zip(self.origin, p, strict=True))
-        return homogeneous((x, y, z))
+    def point(self, p: Sequence[Any]) -> Point:
+        ends = zip(self.origin, p, strict=True)
+        return point(o + Fraction(c) * self.scale for o, c in ends)
 
     def behind(self, normal: Sequence[float], height: float) -> HalfSpace:
         """The points with normal . p <= height."""
@@ -78,13 +77,9 @@ def reverse(space: HalfSpace) -> HalfSpace:
     return -x, -y, -z, -limit
 
 
-def height(space: HalfSpace, p: Corner) -> int:
-    """Over 0 beyond the half-space; times something over 0."""
-    return space[0] * p[0] + space[1] * p[1] + space[2] * p[2] - space[3] * p[3]
-
-
-def exactly(p: Corner) -> Point:
-    return Fraction(p[0], p[3]), Fraction(p[1], p[3]), Fraction(p[2], p[3])
+def height(space: HalfSpace, p: Vector) -> Any:
+    """Over 0 beyond the half-space."""
+    return dot(space, p) - space[3]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,13 +87,13 @@ class Cell:
     """low, high: of a box that it lies in. cuts: half-spaces that it lies in besides, and then its
     faces, convex polygons. near: the triangles of A, and of B, that may enter it."""
 
-    low: Vector
-    high: Vector
+    low: values.Vector
+    high: values.Vector
     near: tuple[Indices, Indices]
     cuts: tuple[HalfSpace, ...] = ()
     faces: list[Polygon] | None = None
 
-    def corners(self, frame: Frame) -> list[Corner]:
+    def corners(self, frame: Frame) -> list[Point]:
         if self.faces is None:
             return [frame.point(p) for p in product(*zip(self.low, self.high, strict=True))]
         return list(dict.fromkeys(p for face in self.faces for p in face))
@@ -107,21 +102,18 @@ class Cell:
         """Its corners in the world, (n, 3), each coordinate rounded once."""
         if self.faces is None:
             return frame.world(np.array([*product(*zip(self.low, self.high, strict=True))]))
-        scale = frame.scale
-        return np.array([[c / (w * scale) for c in p] for *p, w in self.corners(frame)])
+        return np.array([[float(c / frame.scale) for c in p] for p in self.corners(frame)])
 
     def half_spaces(self, frame: Frame) -> list[HalfSpace]:
         return [*frame.box(self.low, self.high), *self.cuts]
 
     def middle(self, frame: Frame) -> Point:
         """A point inside: about the middle, of few digits, or exactly."""
-        x, y, z = (Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
-        about = homogeneous((x, y, z))
-        if all(height(space, about) < 0 for space in self.half_spaces(frame)):
-            return x, y, z
-        corners = [exactly(p) for p in self.corners(frame)]
-        x, y, z = (sum((p[k] for p in corners), Fraction()) / len(corners) for k in range(3))
-        return x, y, z
+        near = point(Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
+        if all(height(space, near) < 0 for space in self.half_spaces(frame)):
+            return near
+        corners = self.corners(frame)
+        return point(sum(ends) / len(corners) for ends in zip(*corners, strict=True))
 
     def box(self, frame: Frame) -> tuple[Floats, Floats]:
         """World coordinates that it does not reach beyond."""
@@ -181,7 +173,7 @@ class Partition:
         side = self.frame.below(axis, place)
         return [self._clipped(below, side), self._clipped(above, reverse(side))]
 
-    def _cut(self, cell: Cell | None, cut: tuple[Vector, float] | None) -> list[Cell | None]:
+    def _cut(self, cell: Cell | None, cut: tuple[values.Vector, float] | None) -> list[Cell | None]:
         """What is behind a plane, and what is in front of it."""
         if cut is None or not any(cut[0]):
             raise Rejected("a cell is cut nowhere")
@@ -209,7 +201,7 @@ class Partition:
         return replace(cell, near=(near[0], near[1]))
 
 
-def _with(ends: Vector, axis: int, place: float) -> Vector:
+def _with(ends: values.Vector, axis: int, place: float) -> values.Vector:
     x, y, z = (place if k == axis else end for k, end in enumerate(ends))
     return x, y, z
 
@@ -229,7 +221,7 @@ def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
         return None
     if max(heights.values()) <= 0:
         return faces
-    kept = [part for face in faces if len(part := clipped(face, heights)) > 2]
+    kept = [part for face in faces if len(part := clipped(face, space, space[3])) > 2]
     # The new face runs along the others, in the other direction.
     after = {
         p: q
@@ -243,35 +235,25 @@ def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
     return [*kept, cap]
 
 
-def clipped(polygon: Polygon, heights: dict[Corner, int]) -> Polygon:
-    """The part of a convex polygon, segment or point whose heights are not over 0: I. E.
-    Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping" (1974)."""
-    kept: Polygon = []
-    for k, p in enumerate(polygon):
-        q = polygon[k - 1]
-        g, h = heights[q], heights[p]
-        if g < 0 < h or h < 0 < g:
-            kept.append(_between(q, p, abs(g), abs(h)))
-        if h <= 0:
-            kept.append(p)
-    return kept
-
-
-def _between(q: Corner, p: Corner, g: int, h: int) -> Corner:
-    """Where the height is 0 that is g at q and h at p, one of them below."""
-    x, y, z, w = (h * c + g * d for c, d in zip(q, p, strict=True))
-    common = gcd(x, y, z, w)
-    return x // common, y // common, z // common, w // common
-
-
 def enters(triangle: Sequence[IntVector], spaces: Sequence[HalfSpace]) -> bool:
     """Whether a triangle has a point in the open cell that these half-spaces bound."""
-    region: Polygon = [(x, y, z, 1) for x, y, z in triangle]
+    region: list[Any] = list(triangle)
     for space in spaces:
-        heights = {p: height(space, p) for p in region}
-        if min(heights.values()) >= 0:
+        heights = [height(space, p) for p in region]
+        if min(heights) >= 0:
             return False
-        if max(heights.values()) > 0:
-            region = clipped(region, heights)
+        if max(heights) > 0:
+            region = clipped(region, space, space[3])
     # The middle of the region is as far in as any of its points.
     return all(any(height(space, p) < 0 for p in region) for space in spaces)
+
+
+def is_outside(
+    body: Exact, triangles: Indices, box: Ends, spaces: Sequence[HalfSpace], p: Point
+) -> bool:
+    """Whether an open cell lies outside of the body. triangles: that may enter it. box: world
+    coordinates that it does not reach beyond. p: a point of it, or at its border."""
+    near = within(body, triangles, *box)
+    if any(enters(body.corners(t), spaces) for t in near.tolist()):
+        return False
+    return body.winding(p) == 0

@@ -20,24 +20,23 @@ import numpy as np
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Face, Plane
-from satcheck.verify.evidence import index
 from satcheck.verify.exact import (
     Floats,
-    IntVector,
     Pair,
     Point,
     Rejected,
-    cross,
     dot,
     homogeneous,
+    integers,
     nearest_to_origin,
+    normal_of,
     planar_hull,
-    root_above,
-    root_below,
+    root,
     sub,
     turn,
 )
-from satcheck.verify.partition import Cell, Frame, enters, height, reverse, within
+from satcheck.verify.pairs import index
+from satcheck.verify.partition import Cell, Frame, height, is_outside, reverse
 from satcheck.verify.surfaces import up
 from satcheck.verify.world import Corners, Exact, rounded
 
@@ -45,6 +44,8 @@ from satcheck.verify.world import Corners, Exact, rounded
 # from the point to a corner: fewer than 60 roundings in the point next to it and in its length.
 DISTANCE_ERROR = 2.0**-46
 TINY = 2.0**-1000  # more than what underflow takes
+# How far rounding takes a weighted sum, of the sum of its terms without their signs.
+SUM_ERROR = 2.0**-46
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +60,7 @@ class Piece:
 
     def distance(self, p: Point) -> Fraction:
         """On the lattice, no less than it is."""
-        return min(root_above(squared_distance(p, t)) for t in self.triangles) + self.bend
+        return min(root(squared_distance(p, t))[1] for t in self.triangles) + self.bend
 
     def above(self, points: Floats) -> Floats:
         """At least the distances of points (n, 3) of the world, (n,)."""
@@ -91,7 +92,7 @@ class Side:
         """How far behind the plane, on the lattice, no less than it is; below 0 in front of it."""
         behind = self.limit - dot(self.normal, p)
         squared = Fraction(behind) ** 2 / dot(self.normal, self.normal)
-        return root_above(squared) if behind >= 0 else -root_below(squared)
+        return root(squared)[1] if behind >= 0 else -root(squared)[0]
 
     def above(self, points: Floats) -> Floats:
         """At least how far points (n, 3) of the world are behind the plane, (n,)."""
@@ -111,15 +112,12 @@ class Side:
         low, high = np.nextafter(low - reach, -np.inf), np.nextafter(high + reach, np.inf)
         lattice = [[Fraction(c) * self.frame.scale for c in end.tolist()] for end in (low, high)]
         x, y, z = (lattice[c > 0][k] for k, c in enumerate(self.normal))
-        corner = homogeneous((x, y, z))
-        if height(self.space, corner) <= 0:
+        if height(self.space, (x, y, z)) <= 0:
             return True
         world = Frame((0.0, 0.0, 0.0), self.body.k)
         spaces = [reverse(self.space), *world.box(low.tolist(), high.tolist())]
-        near = within(self.body, np.arange(len(self.body.world.triangles)), low, high)
-        if any(enters(self.body.corners(t), spaces) for t in near.tolist()):
-            return False
-        return self.body.winding((x, y, z)) == 0
+        everything = np.arange(len(self.body.world.triangles))
+        return is_outside(self.body, everything, (low, high), spaces, (x, y, z))
 
 
 def patch_of(patch: Face | Plane, body: Exact, frame: Frame) -> Piece | Side:
@@ -135,13 +133,9 @@ def patch_of(patch: Face | Plane, body: Exact, frame: Frame) -> Piece | Side:
     return joined(numbers, corners, body)
 
 
-def _normal(t: Corners) -> IntVector:
-    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
-
-
 def joined(numbers: list[int], corners: list[Corners], body: Exact) -> Piece:
     """The hull of triangles that fill one. Rejects others."""
-    normal = next((n for t in corners if any(n := _normal(t))), (0, 0, 0))
+    normal = next((n for t in corners if any(n := normal_of(t))), (0, 0, 0))
     across = max(range(3), key=lambda k: abs(normal[k]))
     if normal[across] == 0:
         raise Rejected("a patch has an area")
@@ -179,6 +173,29 @@ def _covers(triangles: list[Corners], hull: list[Pair], across: int) -> None:
             raise Rejected("the triangles of a patch do not fill a convex polygon")
     if area == 0:
         raise Rejected("the triangles of a patch cover nothing")
+
+
+def comes_within(body: Exact, p: Point, length: Fraction, *, open_: bool) -> bool:
+    """Whether the surface of a body comes within a length, world units, of a point of the lattice.
+    open_: or nearer than that."""
+    world, scale = body.world, 1 << body.k
+    at = np.array([float(Fraction(c) / scale) for c in p])
+    radius = up(length) + float(lengths(np.spacing(np.abs(at))))
+    gaps = np.maximum(np.maximum(world.low - at, at - world.high), 0.0)
+    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
+    spokes = world.vertices[world.triangles[near]] - at
+    with np.errstate(all="ignore"):
+        direction = next_points(spokes)
+        direction /= lengths(direction)[:, None]
+        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
+        beyond = heights - slack(spokes) >= radius
+    most = (length * scale) ** 2
+    for t in near[~beyond].tolist():
+        i, j, k = integers(world.vertices[world.triangles[t]], body.k)
+        squared = squared_distance(p, (i, j, k))
+        if squared < most or (squared == most and not open_):
+            return True
+    return False
 
 
 def squared_distance(p: Point, triangle: Corners) -> Fraction:

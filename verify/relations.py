@@ -1,118 +1,163 @@
-"""The exact check of each kind of certificate of a relation."""
+"""The exact check of what proves the relation of two bodies.
+
+Of meshes that are not convex the checker decides all close pairs of triangles again: beside each
+piece of the surfaces lie points of both bodies, of one of them alone, or of none.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 from fractions import Fraction
 
-from msgspec import UNSET, UnsetType
+from msgspec import UnsetType
 
 from satcheck.report.certificate import (
     AxisProof,
-    CrossingProof,
-    Ends,
-    ExactVector,
-    OnBody,
-    OverlapProof,
+    NestedProof,
+    PointProof,
     PolytopeProof,
     Proof,
-    SameProof,
     SurfacesProof,
 )
-from satcheck.report.certificate import Point as ProofPoint
 from satcheck.report.values import Relation
-from satcheck.verify.bodies import Placed
-from satcheck.verify.boundary import boundary_point, contacts_if_apart
-from satcheck.verify.cells import Sides, sheets_among, sides_of
-from satcheck.verify.evidence import (
-    axis,
-    exceeds,
-    gap_along,
-    given,
-    index,
-    on_body,
-    triangle_of,
-    vector,
+from satcheck.verify.boundary import contacts_if_apart, meet, no_crossing
+from satcheck.verify.cells import Sides, chosen, sheets_among, sides_of
+from satcheck.verify.curved import Curved
+from satcheck.verify.depth import inner_radius_exceeds
+from satcheck.verify.exact import (
+    IntVector,
+    Point,
+    Rejected,
+    cross,
+    dot,
+    normal_of,
+    point,
+    sign_of,
+    sub,
 )
-from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub
-from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.sheets import no_crossing
+from satcheck.verify.pairs import AnyPair, Pair, axis, given, index
 from satcheck.verify.surfaces import common, meeting
-from satcheck.verify.world import Exact, World, count_by_triangle
+from satcheck.verify.world import Exact, count_by_triangle
 
 # How a point lies: (in A, in B).
 BOTH, A_ALONE, B_ALONE = (True, True), (True, False), (False, True)
 Way = tuple[bool, bool]
-
-
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """Two bodies on one lattice. convex: both are exactly convex in their files, so each is the
-    hull of its world vertices."""
-
-    a: Exact
-    b: Exact
-    convex: bool
-
-
-def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
-    k = max(world_a.lattice, world_b.lattice)
-    return Pair(Exact(world_a, k), Exact(world_b, k), a.convex and b.convex)
+Contacts = list[tuple[int, int]]
 
 
 def prove(
-    relation: Relation | None, proof: Proof, pair: Pair, beyond: Fraction, least: Fraction
+    relation: Relation | None, proof: Proof, pair: AnyPair, beyond: Fraction, least: Fraction
 ) -> bool:
     """Rejects a proof that does not prove the exact relation.
 
-    A gap must be greater than `beyond` and at least `least`, world units. Returns whether the hulls
-    have no common interior; then neither body can lie inside the other.
+    A gap must be greater than `beyond` and at least `least`. Returns whether the hulls have no
+    common interior; then neither body can lie inside the other.
     """
     match relation, proof:
-        case "separated", AxisProof() as separation:
-            _separated_by_axis(separation, pair, beyond, least)
+        case "separated", AxisProof():
+            n = axis(proof.axis)
+            if pair.gap(n, beyond) <= 0 or pair.gap(n, least) < 0:
+                raise Rejected("the axis does not separate the bodies by as much as claimed")
             return True
-        case "separated", SurfacesProof():
-            _nowhere({BOTH}, pair, contacts_if_apart(pair.a, pair.b, beyond, least))
-        case "touching", AxisProof() as separation:
-            common_point(given(separation.contact, "contact"), pair, of_hulls=pair.convex)
-            _weakly_separated(separation, pair)
+        case "touching", AxisProof():
+            prove_free(proof, pair)
+            p, q = pair.points(given(proof.contact, "contact"))
+            if p != q:
+                raise Rejected("the common point is not the same point on both bodies")
             return True
-        case "touching", SurfacesProof() as surfaces:
-            common_point(given(surfaces.contact, "contact"), pair, of_hulls=False)
-            _no_overlap(pair)
-        case "penetrating", OverlapProof() as overlap:
-            _overlap(overlap, pair)
-        case "penetrating", CrossingProof() as crossing:
-            _crossing(crossing, pair)
-        case "penetrating", PolytopeProof() as polytope:
-            _hulls_overlap(polytope, pair)
-        case "contains", SurfacesProof() as surfaces:
-            _holds(pair.a, surfaces, B_ALONE, pair)
-        case "inside", SurfacesProof() as surfaces:
-            _holds(pair.b, surfaces, A_ALONE, pair)
-        case "coincident", SameProof() as same:
-            _same(same, pair)
+        case "penetrating", PointProof():
+            _common_point_inside(proof, pair)
+            _neither_holds(proof, pair)
+        case "penetrating", PolytopeProof():
+            if not (isinstance(pair, Pair) and pair.convex):
+                raise Rejected("a polytope proves something about convex meshes only")
+            inner_radius_exceeds(proof, pair.a, pair.b, Fraction(0))
+            _neither_holds(proof, pair)
+        case "contains", NestedProof():
+            _nested(pair.a, pair.b)
+        case "inside", NestedProof():
+            _nested(pair.b, pair.a)
+        case _, SurfacesProof() if isinstance(pair, Pair):
+            _prove_by_surfaces(relation, proof, pair, beyond, least)
         case _:
             raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
     return False
 
 
-def prove_free(proof: Proof, pair: Pair) -> None:
+def prove_free(proof: Proof, pair: AnyPair) -> None:
     """No common interior: separated or touching."""
     if isinstance(proof, AxisProof):
-        _weakly_separated(proof, pair)
-    elif isinstance(proof, SurfacesProof):
-        _no_overlap(pair)
+        if pair.gap(axis(proof.axis)) < 0:
+            raise Rejected("the bodies overlap along the axis")
+    elif isinstance(proof, SurfacesProof) and isinstance(pair, Pair):
+        _no_overlap(pair, meeting(pair.a, pair.b))
     else:
         raise Rejected("a certificate of this kind proves no way out")
 
 
-def common_point(ends: Ends, pair: Pair, *, of_hulls: bool) -> None:
-    """One point of both boundaries or both hulls."""
-    p = boundary_point(ends.a, pair.a, of_hull=of_hulls)
-    if p != boundary_point(ends.b, pair.b, of_hull=of_hulls):
-        raise Rejected("the common point is not the same point on both bodies")
+def _common_point_inside(proof: PointProof, pair: AnyPair) -> None:
+    """A point in the interior of one body and in the other, closed body. The other has an interior,
+    so points nearby lie inside both."""
+    a, b = pair.points(proof.both)
+    inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (pair.a, pair.b))
+    if a != b or not any(inner):
+        raise Rejected("the point does not lie inside both")
+
+
+def _neither_holds(proof: PointProof | PolytopeProof, pair: AnyPair) -> None:
+    """Each of two convex bodies reaches at least as far as the other along some axis, and one
+    farther."""
+    reaches = axis(proof.a_reaches), axis(proof.b_reaches)
+    if isinstance(pair, Pair) and pair.across is not None and any(n[pair.across] for n in reaches):
+        raise Rejected("an axis leaves the plane")
+    leads = pair.lead(reaches[0]), -pair.lead(reaches[1])
+    if min(leads) < 0 or max(leads) == 0:
+        raise Rejected("the axes do not show that neither body lies inside the other")
+
+
+def _nested(outer: Curved | Exact, inner: Curved | Exact) -> None:
+    """Inner lies inside of outer, and does not reach its border. One of them is curved."""
+    if isinstance(outer, Curved):
+        if isinstance(inner, Curved):
+            raise Rejected("of two curved shapes it is not certified that one holds the other")
+        used = (inner.points[k] for k in inner.world.used.tolist())
+        if not all(outer.side(point(Fraction(c, 1 << inner.k) for c in p)) > 0 for p in used):
+            raise Rejected("a vertex does not lie inside the curved shape")
+        return
+    if isinstance(inner, Exact):
+        raise Rejected("of two meshes the surfaces show that one holds the other")
+    for t in range(len(outer.world.triangles)):
+        corners = outer.corners(t)
+        n = normal_of(corners)
+        most = inner.reach(point(n))
+        height = Fraction(dot(n, corners[0]), 1 << outer.k)
+        if any(n) and sign_of(height - most.q, [most.p]) <= 0:
+            raise Rejected("the curved shape is not behind each face")
+    if not outer.winding(point(Fraction(c) * (1 << outer.k) for c in inner.image.origin)):
+        raise Rejected("the curved shape lies outside of the mesh")
+
+
+def _prove_by_surfaces(
+    relation: Relation | None, proof: SurfacesProof, pair: Pair, beyond: Fraction, least: Fraction
+) -> None:
+    match relation:
+        case "separated":
+            _nowhere({BOTH}, pair, contacts_if_apart(pair.a, pair.b, beyond, least))
+        case "touching":
+            contacts = meeting(pair.a, pair.b)
+            _no_overlap(pair, contacts)
+            if not meet(pair.a, pair.b, contacts):
+                raise Rejected("the boundaries do not meet")
+        case "penetrating":
+            _overlap(proof, pair)
+        case "contains":
+            _holds(pair.a, B_ALONE, pair)
+        case "inside":
+            _holds(pair.b, A_ALONE, pair)
+        case "coincident":
+            _same(pair)
+        case _:
+            raise Rejected(f"surfaces prove no relation {relation!r}")
 
 
 def check_within(pair: Pair) -> None:
@@ -120,41 +165,35 @@ def check_within(pair: Pair) -> None:
     _nowhere({A_ALONE}, pair, meeting(pair.a, pair.b))
 
 
-def _separated_by_axis(proof: AxisProof, pair: Pair, beyond: Fraction, least: Fraction) -> None:
-    n = axis(proof.axis)
-    gap = gap_along(pair.a, pair.b, n)
-    if not exceeds(gap, n, beyond) or gap * gap < least * least * dot(n, n):
-        raise Rejected("the axis does not separate the bodies by as much as claimed")
-
-
-def _weakly_separated(proof: AxisProof, pair: Pair) -> None:
-    if gap_along(pair.a, pair.b, axis(proof.axis)) < 0:
-        raise Rejected("the bodies overlap along the axis")
-
-
-def _no_overlap(pair: Pair) -> None:
-    contacts = meeting(pair.a, pair.b)
+def _no_overlap(pair: Pair, contacts: Contacts) -> None:
     _nowhere({BOTH}, pair, contacts)
     of_a, of_b = (sheets_among(body, contacts, k) for k, body in enumerate((pair.a, pair.b)))
     no_crossing(pair.a, pair.b, [(s, t) for s, t in contacts if s in of_a and t in of_b])
 
 
-def _nowhere(ways: set[Way], pair: Pair, contacts: list[tuple[int, int]]) -> None:
-    """Rejects bodies with a point that lies in one of these ways. contacts: all pairs that meet.
+def _nowhere(ways: set[Way], pair: Pair, contacts: Contacts) -> None:
+    """Rejects bodies with a point that lies in one of these ways. contacts: all pairs that meet."""
+    if any(ways & beside for beside in _ways(ways, pair, contacts)):
+        raise Rejected("beside a point of the surfaces the bodies lie otherwise")
+
+
+def _ways(
+    ways: set[Way], pair: Pair, contacts: Contacts, only: tuple[int, int] | None = None
+) -> Iterator[set[Way]]:
+    """The ways beside each piece of either surface. contacts: all pairs that meet. only: one
+    triangle of either surface, instead of all; contacts are then those of these two.
 
     A region of one surface that the other does not meet lies inside or outside of the other body as
-    a whole. It is checked only if one of the ways includes that. A sheet has no inside.
+    a whole. It is looked at only if one of the ways includes that. A sheet has no inside.
     """
     a, b = pair.a, pair.b
-    views = [(a, b, contacts, ways)]
-    views += [(b, a, [(t, s) for s, t in contacts], {(in_b, in_a) for in_a, in_b in ways})]
-    for x, y, pairs, seen_from_x in views:
+    for turn, x, y, pairs in ((1, a, b, contacts), (-1, b, a, [(t, s) for s, t in contacts])):
         if not y.world.solid:
             continue
-        theirs = {in_y for _, in_y in seen_from_x}
-        for sides in sides_of(x, y, pairs, theirs.__contains__):
-            if seen_from_x & _ways_beside(sides, x.world.solid):
-                raise Rejected("beside a point of the surfaces the bodies lie otherwise")
+        theirs = {way[::turn][1] for way in ways}
+        triangles = [only[::turn][0]] if only else chosen(x, y, pairs, theirs.__contains__)
+        for sides in sides_of(x, y, pairs, triangles):
+            yield {(way[::turn][0], way[::turn][1]) for way in _ways_beside(sides, x.world.solid)}
 
 
 def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
@@ -165,121 +204,81 @@ def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
     return ways | {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
 
 
-def _holds(outer: Exact, proof: SurfacesProof, alone: Way, pair: Pair) -> None:
-    """Checks that one body contains the other. alone: a point of the outer body outside of the
-    inner one."""
+def _holds(outer: Exact, alone: Way, pair: Pair) -> None:
+    """Checks that one body contains the other. alone: a point of the inner body outside of the
+    outer one."""
     if not outer.world.solid:
         raise Rejected("what is not solid contains nothing")
-    _has_point(BOTH, proof.both, "both", pair)
-    _nowhere({alone}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
+    contacts = contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0))
+    _nowhere({alone}, pair, contacts)
+    _somewhere_in_both(pair, contacts)
 
 
-def _overlap(proof: OverlapProof, pair: Pair) -> None:
-    """Checks an overlap: a point inside both, and a point inside each one alone; or a point inside
-    one alone, and a common point of the boundaries. A part of a solid always lies outside of a
-    sheet."""
-    if not (pair.a.world.solid or pair.b.world.solid):
-        raise Rejected("two bodies without an inside have no common interior")
-    _has_point(BOTH, proof.both, "both", pair)
-    alone = 0
-    for name, point, way, other in (
-        ("a_alone", proof.a_alone, A_ALONE, pair.b),
-        ("b_alone", proof.b_alone, B_ALONE, pair.a),
-    ):
-        if other.world.solid and point is not UNSET:
-            _has_point(way, point, name, pair)
-        alone += not other.world.solid or point is not UNSET
-    if alone == 0:
-        raise Rejected("no point shows that one is not the other")
-    if alone == 1:
-        common_point(given(proof.meet, "meet"), pair, of_hulls=False)
+def _somewhere_in_both(pair: Pair, contacts: Contacts) -> None:
+    if not any(BOTH in beside for beside in _ways({BOTH}, pair, contacts)):
+        raise Rejected("the bodies have no common interior")
 
 
-def _has_point(way: Way, point: ProofPoint | UnsetType, name: str, pair: Pair) -> None:
-    """Of two solids: three numbers. Of a solid and a sheet: a point of the sheet."""
-    if isinstance(point, UnsetType):
-        raise Rejected(f"the certificate has no {name!r}")
-    sheet = next((body for body in (pair.a, pair.b) if not body.world.solid), None)
-    if isinstance(point, OnBody):
-        if sheet is None:
-            raise Rejected("a point inside two solids is three numbers")
-        inside = _solid_at(point, sheet, pair)
-    else:
-        if sheet is not None:
-            raise Rejected("a point of a solid and a sheet is a point of the sheet")
-        inside = _solids_at(point, pair)
-    if inside != way:
-        raise Rejected(f"the point given as {name!r} lies otherwise")
+def _overlap(proof: SurfacesProof, pair: Pair) -> None:
+    """Checks an overlap, first beside the triangles that the proof names."""
+    a, b = pair.a, pair.b
+    if not isinstance(proof.triangles, UnsetType):
+        s, t = proof.triangles
+        named = index(s, len(a.world.triangles)), index(t, len(b.world.triangles))
+        near = {(s, u) for _, u in meeting(a.part([s]), b)}
+        near |= {(u, t) for u, _ in meeting(a, b.part([t]))}
+        if _cross(named, pair) or _shows_overlap(pair, sorted(near), named):
+            return
+    contacts = meeting(a, b)
+    if not (_shows_overlap(pair, contacts) or any(_cross(both, pair) for both in contacts)):
+        raise Rejected("the surfaces show no overlap in which neither body holds the other")
 
 
-def _solids_at(place: ExactVector, pair: Pair) -> Way:
-    x, y, z = (c * (1 << pair.a.k) for c in vector(place))
-    windings = [body.winding((x, y, z)) for body in (pair.a, pair.b)]
-    if None in windings:
-        raise Rejected("a point lies on a surface")
-    return windings[0] != 0, windings[1] != 0
+def _shows_overlap(pair: Pair, contacts: Contacts, only: tuple[int, int] | None = None) -> bool:
+    """Whether points lie in both bodies, and in each one alone; or in one alone, and the boundaries
+    meet. A part of a solid always lies outside of a sheet."""
+    found = {way for way, other in ((A_ALONE, pair.b), (B_ALONE, pair.a)) if not other.world.solid}
+    if len(found) == 2:
+        return False  # two bodies without an inside have no common interior
+    boundaries_meet = None
+    for beside in _ways({BOTH, A_ALONE, B_ALONE}, pair, contacts, only):
+        found |= beside
+        if BOTH not in found or not found & {A_ALONE, B_ALONE}:
+            continue
+        if boundaries_meet is None:
+            boundaries_meet = meet(pair.a, pair.b, contacts, pair.across)
+        if boundaries_meet or found >= {A_ALONE, B_ALONE}:
+            return True
+    return False
 
 
-def _solid_at(place: OnBody, sheet: Exact, pair: Pair) -> Way:
-    solid = pair.b if sheet is pair.a else pair.a
-    p = on_body(place, sheet, of_hull=False)
-    winding = solid.winding(p)
-    if winding is None:  # within the material or outside, if both sides of the sheet are there
-        corners = sheet.corners(triangle_of(given(place.vertices, "vertices"), sheet))
-        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
-        front, back = (any(normal) and solid.beside(p, normal)) or (0, 1)
-        if (front != 0) != (back != 0):
-            raise Rejected("a point lies on a surface")
-        winding = front
-    return (True, winding != 0) if sheet is pair.a else (winding != 0, True)
-
-
-def _crossing(proof: CrossingProof, pair: Pair) -> None:
-    """Two triangles that pass through each other's interior, one of them of a sheet."""
-    s = index(proof.triangles[0], len(pair.a.world.triangles))
-    t = index(proof.triangles[1], len(pair.b.world.triangles))
-    corners = pair.a.corners(s), pair.b.corners(t)
-    normals = [cross(sub(c[1], c[0]), sub(c[2], c[0])) for c in corners]
+def _cross(named: tuple[int, int], pair: Pair) -> bool:
+    """Whether two triangles pass through each other's interior, one of them of a sheet."""
+    corners = pair.a.corners(named[0]), pair.b.corners(named[1])
+    normals = [normal_of(c) for c in corners]
     shared = common(*corners)
     if len(shared) != 2 or not any(cross(*normals)):
-        raise Rejected("the triangles do not cross")
-    middle = tuple((p + q) / 2 for p, q in zip(*shared, strict=True))
+        return False
+    middle = point((p + q) / 2 for p, q in zip(*shared, strict=True))
     for c, normal in zip(corners, normals, strict=True):
         for k in range(3):
             inward = cross(normal, sub(c[(k + 1) % 3], c[k]))
             if dot(inward, middle) <= dot(inward, c[k]):
-                raise Rejected("the triangles meet at an edge only")
+                return False  # they meet at an edge
     sides = [_sides(body, middle, n) for body, n in zip((pair.a, pair.b), normals, strict=True)]
-    if (True, True) in sides or (False, False) not in sides:
-        raise Rejected("no triangle of the crossing is of a sheet, or one lies within material")
+    return (False, False) in sides and (True, True) not in sides and None not in sides
 
 
-def _sides(body: Exact, p: Point, normal: IntVector) -> tuple[bool, bool]:
-    """Whether there is material in front of a triangle of the body and behind it, next to p."""
+def _sides(body: Exact, p: Point, normal: IntVector) -> tuple[bool, bool] | None:
+    """Whether there is material in front of a triangle of the body and behind it, next to p; None
+    where another triangle lies."""
+    if not body.world.solid:
+        return False, False
     windings = body.beside(p, normal)
-    if windings is None:
-        raise Rejected("where the triangles cross another one lies")
-    return (windings[0] != 0, windings[1] != 0) if body.world.solid else (False, False)
+    return None if windings is None else (windings[0] != 0, windings[1] != 0)
 
 
-def _hulls_overlap(proof: PolytopeProof, pair: Pair) -> None:
-    """An overlap of convex bodies: each reaches at least as far as the other along some axis, and
-    one farther."""
-    if not pair.convex:
-        raise Rejected("a polytope proves something about convex bodies only")
-    inner_radius_exceeds(proof, pair.a, pair.b, Fraction(0))
-    leads = []
-    for reach, body, other in (
-        (proof.a_reaches, pair.a, pair.b),
-        (proof.b_reaches, pair.b, pair.a),
-    ):
-        n = axis(reach)
-        leads.append(Fraction(body.extent(n)) - Fraction(other.extent(n)))
-    if min(leads) < 0 or max(leads) == 0:
-        raise Rejected("the axes do not show that neither body lies inside the other")
-
-
-def _same(proof: SameProof, pair: Pair) -> None:
+def _same(pair: Pair) -> None:
     """The same triangles; or solids with a common point, and no point in one of them alone."""
     a, b = pair.a.world, pair.b.world
     if a.solid != b.solid:
@@ -290,5 +289,6 @@ def _same(proof: SameProof, pair: Pair) -> None:
         return
     if not a.solid:
         raise Rejected("the surfaces do not have the same triangles")
-    _has_point(BOTH, proof.both, "both", pair)
-    _nowhere({A_ALONE, B_ALONE}, pair, meeting(pair.a, pair.b))
+    contacts = meeting(pair.a, pair.b)
+    _nowhere({A_ALONE, B_ALONE}, pair, contacts)
+    _somewhere_in_both(pair, contacts)

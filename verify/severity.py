@@ -1,4 +1,4 @@
-"""The severity of a finding, held against what its certificate proves.
+"""What follows from proven findings: their severities, and the summary of the report.
 
 That an overlap is within its limit, or a gap keeps its clearance, has to be proven. That it is not
 follows from the figures of the finding. Volumes are not certified.
@@ -6,69 +6,48 @@ follows from the figures of the finding. Volumes are not certified.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import inf
 
 from msgspec.structs import replace
 
 from satcheck.report.judge import by_rule, disputed, judged
-from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
+from satcheck.report.report import (
+    CROSS_CHECK,
+    EFFECTS,
+    OVERLAPS,
+    Finding,
+    PairCounts,
+    Report,
+    Summary,
+)
 from satcheck.report.request import Request
-from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Rejected, dot, root_above
+from satcheck.report.verdict import fails, summarise
+from satcheck.verify.exact import Rejected
+from satcheck.verify.figures import EXACT_WIDTH
+
+WIDER = 1 + EXACT_WIDTH  # the share of a limit that rounding is granted
 
 
-@dataclass(frozen=True, slots=True)
-class ProvenFields:
-    """Which fields of an accepted finding are proven. distance: how far it may be off; None: it is
-    not proven. ball: with the lower end of the thickness. thickness: its upper end."""
-
-    depth: bool = False
-    mtv: bool = False
-    distance: Fraction | None = None
-    normal: bool = False
-    contacts: bool = False
-    ball: bool = False
-    thickness: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class ProvenFigures:
-    """The needs of a judgement besides the relation.
-
-    depth_at_most, thickness_at_most: proven upper bounds. keeps: whether the gap has at least this
-    length; None: undecided. rounding: the relative width that a limit is granted.
-    """
-
-    depth_at_most: Fraction | None
-    thickness_at_most: Fraction | None
-    keeps: Callable[[Fraction], bool | None]
-    rounding: Fraction
-
-    def within(self, request: Request) -> bool:
-        """Return whether the overlap is proven to be within all limits."""
-        bounds = (
-            (request.max_depth, self.depth_at_most),
-            (request.max_thickness, self.thickness_at_most),
-            (request.max_volume, None),
-        )
-        return all(
-            bound is not None and bound <= Fraction(limit) * (1 + self.rounding)
-            for limit, bound in bounds
-            if limit is not None
-        )
-
-
-def check_severity(finding: Finding, request: Request, proven: ProvenFigures) -> None:
-    """Rejects a severity, a rule or an `undecided` that does not follow."""
+def check_severity(
+    finding: Finding,
+    request: Request,
+    most: tuple[Fraction | None, Fraction | None],
+    keeps: Callable[[Fraction], bool | None],
+) -> None:
+    """Rejects a severity, a rule or an `undecided` that does not follow. most: proven upper bounds
+    of depth and thickness. keeps: whether the gap has at least this length; None: undecided."""
     kept, overlap = None, finding.relation in OVERLAPS
     if request.clearance and not overlap and finding.relation != "near":
-        kept = proven.keeps(Fraction(request.clearance))
+        kept = keeps(Fraction(request.clearance))
     judgement = judged(finding, replace(request, severity=None), (0.0, inf), kept)
-    if overlap and judgement.severity == "note" and not proven.within(request):
-        raise Rejected("that it is within its limits is not certified")
+    if overlap and judgement.severity == "note":
+        limits = request.max_depth, request.max_thickness, request.max_volume
+        for limit, bound in zip(limits, (*most, None), strict=True):
+            if limit is not None and not (bound is not None and bound <= Fraction(limit) * WIDER):
+                raise Rejected("that it is within its limits is not certified")
     judgement = by_rule(judgement, request)
     if any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan):
         judgement = disputed(judgement, None)
@@ -80,12 +59,55 @@ def check_severity(finding: Finding, request: Request, proven: ProvenFigures) ->
         )
 
 
-def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
-    """An upper bound, world units, of the depth that is certified; None: none is."""
-    bounds = []
-    if proven.depth and finding.depth is not None:
-        bounds.append(Fraction(finding.depth))
-    if proven.mtv and finding.mtv is not None:
-        move = vector(finding.mtv)
-        bounds.append(root_above(dot(move, move)))
-    return min(bounds, default=None)
+def check_summary(
+    report: Report,
+    findings: Sequence[Finding],
+    counted: tuple[int, int],
+    pruned: int,
+    listed_apart: int,
+    left_open: int,
+) -> None:
+    """counted: the pairs, and the allowed ones. pruned: pairs without a finding whose boxes are
+    apart. listed_apart: pairs with one whose boxes may be apart. left_open: pairs without a finding
+    that nothing decides."""
+    total, allowed = counted
+    stated, bodies = report.summary.pairs, len(report.bodies)
+    indeterminate = left_open + sum(f.relation == "indeterminate" for f in findings)
+    pairs = PairCounts(
+        total=total,
+        pruned=stated.pruned,
+        decided=total - allowed - indeterminate - stated.pruned,
+        allowed=allowed,
+        indeterminate=indeterminate,
+        exempt=bodies * (bodies - 1) // 2 - total,
+    )
+    for key in ("total", "allowed", "indeterminate", "exempt"):
+        if (count := getattr(stated, key)) != (follows := getattr(pairs, key)):
+            raise Rejected(f"the summary counts {count!r} pairs as {key}, not {follows!r}")
+    if stated.pruned != pruned and not (pruned == 0 and stated.pruned <= listed_apart):
+        raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
+    fail_on, issues, answers = report.settings.fail_on, report.issues, report.answers
+    expected = summarise(
+        pairs, findings, fail_on, issues=issues, alone=report.alone, answers=answers
+    )
+    for key in Summary.__struct_fields__:
+        if getattr(report.summary, key) != (follows := getattr(expected, key)):
+            raise Rejected(f"the summary's {key} that follows from the findings is {follows!r}")
+    _check_effects(report, total)
+    truncated = report.truncated
+    if (0 if truncated is None else truncated.pairs) != pruned + left_open:
+        raise Rejected(f"the findings leave out {pruned + left_open} pairs")
+    for finding in findings:  # those that fail have a state if there is a baseline, and no others
+        has_state = report.baseline is not None and fails(finding, fail_on)
+        if (finding.baseline_state is not None) != has_state:
+            raise Rejected(f"{finding.a} and {finding.b}: the baseline_state is out of place")
+
+
+def _check_effects(report: Report, total: int) -> None:
+    names = Counter(effect.effect for effect in report.effects)
+    expected = set(EFFECTS) if report.motions else set(EFFECTS) - {"sweep"}
+    if names.keys() != expected or names.total() > len(names):
+        raise Rejected("the list of effects has each of them once")
+    for effect in report.effects:
+        if effect.pairs + sum(effect.not_run.values()) != total:
+            raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
-    IntVector,
     Point,
-    Rejected,
-    cross,
+    TooMany,
     dot,
+    half_spaces,
     nearest_to_origin,
+    normal_of,
+    point,
     sub,
 )
 from satcheck.verify.world import Corners, Exact, Indices
 
 BLOCK = 4096  # pairs compared at once
 MOST_PAIRS = 50_000_000  # with more pairs a check would take too long
-HalfSpace = tuple[IntVector, int]
 Mask = NDArray[np.bool_]
 
 
@@ -52,7 +52,7 @@ def near_pairs(
             k, m = np.nonzero(near)
             total += len(k)
             if total > most:
-                raise Rejected(f"more than {most:,} pairs of triangles lie close together")
+                raise TooMany(f"more than {most:,} pairs of triangles lie close together")
             if k.size:
                 yield i[k], j[m]
         elif i.size >= j.size:
@@ -83,17 +83,25 @@ def close_pairs(
     """The pairs of triangles within reach of each other (world units), with the square of their
     distance on the lattice; 0 if they meet."""
     within = reach * (1 << a.k)
+    for s, t in perhaps_close(a, b, reach, most):
+        ca, cb = a.corners(s), b.corners(t)
+        if common(ca, cb):
+            yield s, t, Fraction(0)
+        elif within > 0:
+            x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
+            if dot(x, x) <= within * within:
+                yield s, t, dot(x, x)
+
+
+def perhaps_close(
+    a: Exact, b: Exact, reach: Fraction = Fraction(0), most: int = MOST_PAIRS
+) -> Iterator[tuple[int, int]]:
+    """The pairs of triangles within reach of each other (world units), and a few others, as float64
+    tells them apart."""
     for i, j in near_pairs(a, b, up(reach), most):
         p, q = a.world.vertices[a.world.triangles[i]], b.world.vertices[b.world.triangles[j]]
         left = ~_apart(p, q, up(reach))
-        for s, t in zip(i[left].tolist(), j[left].tolist(), strict=True):
-            ca, cb = a.corners(s), b.corners(t)
-            if common(ca, cb):
-                yield s, t, Fraction(0)
-            elif within > 0:
-                x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
-                if dot(x, x) <= within * within:
-                    yield s, t, dot(x, x)
+        yield from zip(i[left].tolist(), j[left].tolist(), strict=True)
 
 
 def meeting(a: Exact, b: Exact) -> list[tuple[int, int]]:
@@ -155,43 +163,17 @@ def common(a: Corners, b: Corners) -> list[Point]:
     One is clipped by half-spaces whose common region is the other: I. E. Sutherland, G. W.
     Hodgman, "Reentrant Polygon Clipping" (1974). A triangle may be a segment or a point.
     """
-    if not any(_normal(a)):
+    if not any(normal_of(a)):
         a, b = b, a
     region: list[Any] = list(b)  # integers, and rationals only where something is cut off
     for normal, limit in half_spaces(a):
         region = clipped(region, normal, limit)
         if not region:
             break
-    return [(Fraction(p[0]), Fraction(p[1]), Fraction(p[2])) for p in region]
+    return [point(p) for p in region]
 
 
-def _normal(t: Corners) -> IntVector:
-    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
-
-
-def half_spaces(t: Corners) -> list[HalfSpace]:
-    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
-    segment or a point."""
-    n = _normal(t)
-    if any(n):
-        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
-        anchors = [t[0], t[0], *t]
-    else:
-        spans = [(p, q) for p in t for q in t if p != q]
-        p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
-        along = sub(q, p)
-        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
-        across = [cross(along, u) for u in units] if any(along) else units
-        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
-        anchors = [q] + [p] * (len(normals) - 1)
-    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
-
-
-def _negated(v: IntVector) -> IntVector:
-    return -v[0], -v[1], -v[2]
-
-
-def clipped(region: list[Any], normal: IntVector, limit: int) -> list[Any]:
+def clipped(region: Sequence[Any], normal: Sequence[Any], limit: Any) -> list[Any]:
     """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
     heights = [dot(normal, p) - limit for p in region]
     kept: list[Any] = []

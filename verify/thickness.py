@@ -15,63 +15,35 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
-from satcheck.verify.evidence import index
-from satcheck.verify.exact import Floats, Point, Rejected, integers, lattice
+from satcheck.verify.exact import Floats, Point, Rejected, point
+from satcheck.verify.pairs import index
 from satcheck.verify.partition import (
     BOUNDED,
     OUTSIDE_A,
     Cell,
-    Frame,
     Partition,
-    enters,
-    exactly,
-    within,
+    is_outside,
 )
 from satcheck.verify.patches import (
+    SUM_ERROR,
     Piece,
     Side,
+    comes_within,
     lengths,
-    next_points,
     patch_of,
-    slack,
-    squared_distance,
 )
-from satcheck.verify.surfaces import up
 from satcheck.verify.world import Exact, Indices
-
-# How far rounding takes a weighted sum, of the sum of its terms without their signs.
-SUM_ERROR = 2.0**-46
 
 
 def holds_ball(body: Exact, centre: Sequence[float], radius: Fraction) -> None:
     """Rejects a ball, world units, that does not lie in the solid, apart from its skin."""
     if not body.world.solid:
         raise Rejected("what is not solid has no thickness")
-    middle = np.array(centre)
-    k = max(body.k, lattice(middle))
-    x, y, z = integers(middle[None], k)[0]
-    shrunk = 1 << k - body.k
-    at = Fraction(x, shrunk), Fraction(y, shrunk), Fraction(z, shrunk)
+    at = point(Fraction(c) * (1 << body.k) for c in centre)
     if not body.winding(at):
         raise Rejected("the centre of the ball lies outside of a body")
-    squared = (radius * (1 << body.k)) ** 2
-    for t in _perhaps_within(body, middle, up(radius)):
-        if squared_distance(at, body.corners(t)) < squared:
-            raise Rejected("the ball reaches beyond the surface of a body")
-
-
-def _perhaps_within(body: Exact, p: Floats, radius: float) -> list[int]:
-    """The triangles that are not certainly as far as that from a point."""
-    world = body.world
-    gaps = np.maximum(np.maximum(world.low - p, p - world.high), 0.0)
-    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
-    spokes = world.vertices[world.triangles[near]] - p
-    with np.errstate(all="ignore"):
-        direction = next_points(spokes)
-        direction /= lengths(direction)[:, None]
-        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
-        beyond = heights - slack(spokes) >= radius
-    return near[~beyond].tolist()  # type: ignore[no-any-return]
+    if comes_within(body, at, radius, open_=True):
+        raise Rejected("the ball reaches beyond the surface of a body")
 
 
 def at_most(
@@ -93,22 +65,13 @@ def at_most(
             if cell is not None:
                 bounded.append((cell, terms))
         elif cell is not None:
-            side = int(kind != OUTSIDE_A)
-            _is_outside(cell, partition.frame, partition.bodies[side], side)
+            side, frame = int(kind != OUTSIDE_A), partition.frame
+            around, p = (cell.box(frame), cell.half_spaces(frame)), cell.middle(frame)
+            if not is_outside(partition.bodies[side], cell.near[side], *around, p):
+                raise Rejected("a cell that should be outside of a body is not")
     if next(sums, None) is not None:
         raise Rejected("there are more bounds than cells")
     _Sums(cells, partition, less).are_at_most(bounded, most)
-
-
-def _is_outside(cell: Cell, frame: Frame, body: Exact, side: int) -> None:
-    """Rejects a cell with a point inside the body."""
-    near = within(body, cell.near[side], *cell.box(frame))
-    if near.size:
-        spaces = cell.half_spaces(frame)
-        if any(enters(body.corners(t), spaces) for t in near.tolist()):
-            raise Rejected("a surface runs through a cell that should be outside")
-    if body.winding(cell.middle(frame)) != 0:
-        raise Rejected("a cell that should be outside of a body is not")
 
 
 class _Sums:
@@ -133,7 +96,7 @@ class _Sums:
         limit = most * self.frame.scale
         for number in self._open(bounded, most):
             cell, terms = bounded[number]
-            if any(self._exceeds(exactly(p), terms, limit) for p in cell.corners(self.frame)):
+            if any(self._exceeds(p, terms, limit) for p in cell.corners(self.frame)):
                 raise Rejected("a cell is not shown to be as thin as that")
 
     def _are_clear(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:

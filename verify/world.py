@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -18,9 +17,11 @@ from satcheck.verify.exact import (
     Rejected,
     cross,
     dot,
+    half_spaces,
     homogeneous,
     integers,
     lattice,
+    normal_of,
     sign,
     sub,
 )
@@ -56,11 +57,6 @@ class World:
     @cached_property
     def lattice(self) -> int:
         return lattice(self.vertices)
-
-    @cached_property
-    def components(self) -> list[int]:
-        """One vertex of each part that is connected through vertices."""
-        return np.unique(self.labels(self.triangles)[self.used]).tolist()  # type: ignore[no-any-return]
 
     def labels(self, triangles: Indices) -> Indices:
         """For each vertex the least vertex that is connected with it through these triangles."""
@@ -149,17 +145,6 @@ def is_flat(points: Floats) -> bool:
     return normal is None or all(dot(normal, v) == 0 for v in spokes)
 
 
-def is_balanced(vertices: Floats, triangles: Indices) -> bool:
-    """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
-    _, same = np.unique(vertices + 0.0, axis=0, return_inverse=True)
-    corner = same.reshape(-1)[triangles]
-    start, end = corner.ravel(), np.roll(corner, -1, axis=1).ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    edges, where = np.unique(np.column_stack([low, high]), axis=0, return_inverse=True)
-    runs = np.bincount(where.reshape(-1), weights=np.sign(end - start), minlength=len(edges))
-    return len(edges) > 0 and not runs.any()
-
-
 def is_convex(vertices: Floats, triangles: Indices) -> bool:
     """Whether a balanced surface winds around its hull and nothing else, outward.
 
@@ -167,42 +152,24 @@ def is_convex(vertices: Floats, triangles: Indices) -> bool:
     in front. Such a surface wraps the hull a whole number of times. A volume above 0 proves that
     this number is not 0.
     """
-    k = lattice(vertices)
-    exact = integers(vertices, k)
-    used = np.unique(triangles)
-    points = vertices[used]
+    body = Exact(World(vertices, triangles, solid=True), lattice(vertices))
     volume = 0
-    for t in triangles.tolist():
-        a, b, c = (exact[v] for v in t)
-        normal = cross(sub(b, a), sub(c, a))
+    for t in range(len(triangles)):
+        corners = body.corners(t)
+        normal = normal_of(corners)
         if not any(normal):
             continue
-        volume += dot(normal, a)
-        if _reaches_beyond(normal, a, points, used, exact) and _reaches_beyond(
-            sub((0, 0, 0), normal), a, points, used, exact
-        ):
+        height = dot(normal, corners[0])
+        volume += height
+        if body.extent(normal) > height and body.extent(sub((0, 0, 0), normal)) > -height:
             return False
     return volume > 0
 
 
-def _reaches_beyond(
-    normal: IntVector,
-    at: IntVector,
-    points: Floats,
-    used: Indices,
-    exact: Sequence[IntVector],
-) -> bool:
-    """Whether one of the points used lies beyond the plane through a point."""
-    limit = dot(normal, at)
-    near = possibly_highest(normal, points)
-    return any(dot(normal, exact[v]) > limit for v in used[near].tolist())
-
-
 def rounded(vector: Sequence[Any]) -> Floats:
     """About this direction, its largest component about 1."""
-    values = [Fraction(c) for c in vector]
-    largest = max(abs(c) for c in values)
-    return np.array([float(c / largest) for c in values])
+    largest = max(map(abs, vector))
+    return np.array([float(c / largest) for c in vector])
 
 
 def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:
@@ -269,15 +236,15 @@ class Exact:
         x = homogeneous(p)
         ahead = flush = 0
         for t in self._in_the_way(p, axis):
-            a, b, c = self.corners(t)
-            normal = cross(sub(b, a), sub(c, a))
-            height = dot(normal, x) - dot(normal, a) * x[3]
+            corners = self.corners(t)
+            normal = normal_of(corners)
+            height = dot(normal, x) - dot(normal, corners[0]) * x[3]
             in_plane = (
                 height == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
             )
-            if height == 0 and not in_plane and holds((a, b, c), normal, x):
+            if height == 0 and not in_plane and holds(corners, x):
                 return None
-            side = projected_side((a, b, c), x, axis)
+            side = projected_side(corners, x, axis)
             if in_plane:
                 flush += side
             elif height * side < 0:
@@ -313,26 +280,9 @@ def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
     return sides.pop() if len(sides) == 1 else 0
 
 
-def holds(corners: Corners, normal: IntVector, x: Homogeneous) -> bool:
-    """Whether a closed triangle holds a point of its plane; where it has no area, whether the
-    segment that it is does."""
-    w = x[3]
-    if any(normal):
-        turns = set()
-        for k in range(3):
-            u, v = corners[k], corners[(k + 1) % 3]
-            step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
-            turns.add(sign(dot(normal, cross(sub(v, u), step))))
-        return not {1, -1} <= turns
-    for k in range(3):
-        u, v = corners[k], corners[(k + 1) % 3]
-        step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
-        along = sub(v, u)
-        if any(cross(along, step)) or (any(step) and not any(along)):
-            continue
-        if 0 <= dot(along, step) <= dot(along, along) * w:
-            return True
-    return False
+def holds(corners: Corners, x: Homogeneous) -> bool:
+    """Whether a closed triangle, which may be a segment or a point, holds a point."""
+    return all(dot(normal, x) <= limit * x[3] for normal, limit in half_spaces(corners))
 
 
 def count_by_triangle(

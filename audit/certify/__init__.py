@@ -4,6 +4,6 @@ Nothing here is trusted: `satcheck.verify` judges each certificate before it goe
 """
 
 from satcheck.audit.certify.certificate import certified
-from satcheck.audit.certify.values import NoCertificate
+from satcheck.audit.certify.maker import NoCertificate
 
 __all__ = ["NoCertificate", "certified"]

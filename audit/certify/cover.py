@@ -1,6 +1,6 @@
 """A cover of the translations that are shorter than the depth, computed in float64.
 
-The checker proves in integers that it is a cover (`satcheck.verify.cover`). This module assigns to
+The checker proves in integers that it is a cover (`satcheck.verify.depth`). This module assigns to
 each cube the pair of triangles whose polytope contains it with the largest margin. It splits a cube
 that no polytope contains.
 """
@@ -15,18 +15,17 @@ from numpy.typing import NDArray
 
 from satcheck.report.certificate import Cover
 from satcheck.verify import Rejected
-from satcheck.verify.cover import (
+from satcheck.verify.depth import (
     LEVELS,
     MOST_CUBES,
     SPLIT,
     Cube,
     children,
-    depth_is_at_least,
     is_outside,
     not_plain,
     root,
 )
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import Pair
 from satcheck.verify.surfaces import near_pairs
 
 Floats = NDArray[np.float64]
@@ -59,16 +58,13 @@ def cover(pair: Pair, depth: Fraction) -> Cover | None:
         if not unfit_a and not unfit_b:
             break
         search.leave_out(np.isin(i, unfit_a) | np.isin(j, unfit_b))
+    else:
+        return None
     number = {leaf: place for place, leaf in enumerate(used)} | {SPLIT: SPLIT}
-    certificate = Cover(
+    return Cover(
         tuple((int(i[leaf]), int(j[leaf])) for leaf in used),
         tuple(number[leaf] for leaf in search.cubes),
     )
-    try:
-        depth_is_at_least(certificate, pair.a, pair.b, depth)
-    except Rejected:
-        return None
-    return certificate
 
 
 def _corners(pair: Pair, side: int, triangles: Any) -> Floats:

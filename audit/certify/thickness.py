@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 from msgspec import UNSET
 
 from satcheck import core
-from satcheck.audit.certify.values import NoCertificate
+from satcheck.audit.certify.maker import NoCertificate
 from satcheck.audit.figures.explained import (
     ball_in,
     deeper,

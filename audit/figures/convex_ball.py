@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from satcheck.verify.exact import IntVector, cross, dot, integers, lattice, root_below, sub
+from satcheck.verify.exact import IntVector, cross, dot, integers, lattice, root, sub
 
 if TYPE_CHECKING:
     from satcheck.core import Polytope
@@ -53,7 +53,7 @@ def _sides_of_faces(points: list[IntVector], triangles: list[list[int]]) -> Iter
     for i, j, m in triangles:
         n = cross(sub(points[j], points[i]), sub(points[m], points[i]))
         if any(n):
-            yield Side(n, dot(n, points[i]), root_below(Fraction(dot(n, n))))
+            yield Side(n, dot(n, points[i]), root(Fraction(dot(n, n)))[0])
 
 
 def _is_wider(boxes: list[Side], faces: list[Side], radius: Fraction) -> bool | None:

@@ -15,9 +15,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.exact_hulls import nearest_point
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector, Witness
-from satcheck.verify.exact import Point, dot, nearest_to_origin, sub
-from satcheck.verify.figures import square_root
-from satcheck.verify.relations import pair_of
+from satcheck.verify.exact import Point, dot, nearest_to_origin, root, sub
+from satcheck.verify.pairs import pair_of
 
 
 class ExactGap(Struct, frozen=True):
@@ -55,7 +54,7 @@ def gap_of_triangles(pair: Pair, near: core.MeshDistance) -> ExactGap | None:
     swapped = of_b < of_a  # as in gap_of_hulls
     corners = (of_b, of_a) if swapped else (of_a, of_b)
     ends = [(i, j) for i in range(3) for j in range(3)]
-    steps: Any = [sub(corners[0][i], corners[1][j]) for i, j in ends]  # type: ignore[arg-type]
+    steps: Any = [sub(corners[0][i], corners[1][j]) for i, j in ends]
     _, weights = nearest_to_origin(steps)
     nearest = (
         _blend(((w, corners[0][ends[k][0]]) for k, w in weights.items()), 1),
@@ -97,11 +96,11 @@ def _blend(points: Iterable[tuple[Fraction, Sequence[Any]]], unit: int) -> Point
 
 
 def _of_points(a: Point, b: Point) -> ExactGap | None:
-    step: Point = sub(b, a)  # type: ignore[arg-type, assignment]
+    step: Point = sub(b, a)
     squared = Fraction(dot(step, step))
     if squared == 0:
         return None
-    length = square_root(squared)
+    length = root(squared)[0]
     distance = float(length)
     side = Fraction(distance) ** 2 - squared
     lower = distance if side <= 0 else math.nextafter(distance, 0.0)

@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.verify.exact import IntVector, Point, cross, dot, nearest_to_origin, sub
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import Pair
 
 MOST_EXPANSIONS = 2000
 Vertex = tuple[int, int]  # a_i - b_j

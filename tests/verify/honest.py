@@ -151,7 +151,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "a way out in the touch band": meshes(unit_box(), unit_box(0.9), tolerance=0.2, depth=True),
     "surfaces that are off": meshes(unit_box(), wedge(), surface_tolerance=0.125),
     "inside": meshes(unit_box(1.0, 1.0, 1.0), unit_box(edge=4.0), depth=True),
-    "open": meshes(open_box(), unit_box(1.0, 1.0, 1.0), allow_open=True),
+    "open": meshes(open_box(), unit_box(1.25, 1.375, 1.3125), allow_open=True),
     "a sheet across": meshes(unit_box(), moved(sheet(), 0.5, 0.25, 0.5), depth=True),
     "in parts": meshes(pieces(unit_box(), unit_box(5.0)), unit_box(2.0), clearance=1.5),
     "in a plane": meshes(bracket(), unit_box(5.5, 1.5, 1.0), depth=True, planar="xy"),

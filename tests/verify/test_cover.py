@@ -15,8 +15,8 @@ from satcheck.audit.certify.cover import cover
 from satcheck.report.certificate import Cover
 from satcheck.report.report import plain
 from satcheck.verify import Rejected
-from satcheck.verify.cover import depth_is_at_least
-from satcheck.verify.relations import Pair
+from satcheck.verify.depth import depth_is_at_least
+from satcheck.verify.pairs import Pair
 from satcheck.verify.world import Exact, World, lattice
 from tests.audit.shapes import Mesh, bracket, moved, unit_box, write
 from tests.verify.honest import document

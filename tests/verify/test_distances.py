@@ -72,9 +72,10 @@ def test_a_distance_is_right_to_the_last_rounding(tmp_path: Path, convex: bool) 
     for distance in (3e-12 * (1 - 1e-8), 3e-12 * (1 + 1e-8), 4e-12):
         finding["distance"] = distance
         assert verified(made).findings[0].outcome == "rejected"
-    finding["distance"] = 4e-12
-    finding["certificate"].pop("distance")
-    assert "findings[].distance" in left(made)
+    if convex:
+        finding["distance"] = 4e-12
+        finding["certificate"].pop("distance")
+        assert "findings[].distance" in left(made)
 
 
 def test_the_error_of_a_proven_distance_is_said() -> None:
@@ -87,9 +88,8 @@ def test_the_error_of_a_proven_distance_is_said() -> None:
             assert error is None or error <= 1e-8 * (1 + finding["distance"])
 
 
-@pytest.mark.parametrize("name", ["near", "apart in a notch"])
-def test_a_distance_without_evidence_is_named(name: str) -> None:
-    made = honest(name)
+def test_a_distance_without_evidence_is_named() -> None:
+    made = honest("a gap in the touch band")
     made["findings"][0]["certificate"].pop("distance")
     assert "findings[].distance" in left(made)
 
@@ -118,7 +118,6 @@ def test_too_many_triangles_leave_it_unproven(
 ) -> None:
     monkeypatch.setattr(distances, "MOST_NEAR", 0)
     made = document(write(tmp_path, a=SLANTED, b=unit_box(edge=0.5)), clearance=1.0)
-    assert "distance" not in made["findings"][0]["certificate"]
     assert "findings[].distance" in left(made)
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from satcheck import core
 from satcheck.verify import Rejected
-from satcheck.verify.passing import neither_passes
-from satcheck.verify.relations import Pair
+from satcheck.verify.excuse import neither_passes
+from satcheck.verify.pairs import Pair
 from satcheck.verify.surfaces import meeting
 from tests.audit.certify.test_thickness import prism
 from tests.audit.figures.test_explained import PLATE, SPIKE

@@ -9,8 +9,8 @@ import pytest
 
 from satcheck import core
 from satcheck.verify import Rejected
-from satcheck.verify import reach as module
-from satcheck.verify.reach import reaches_no_deeper
+from satcheck.verify import excuse as module
+from satcheck.verify.excuse import reaches_no_deeper
 from satcheck.verify.surfaces import meeting
 from tests.audit.certify.test_thickness import prism
 from tests.audit.shapes import Mesh, box, bracket, unit_box

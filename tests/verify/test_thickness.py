@@ -20,8 +20,8 @@ from satcheck.report.certificate import Cells, Face, Plane
 from satcheck.report.report import plain
 from satcheck.report.values import Vector
 from satcheck.verify import Rejected
+from satcheck.verify.pairs import Pair
 from satcheck.verify.partition import BOUNDED, CUT, OUTSIDE_A, Partition
-from satcheck.verify.relations import Pair
 from satcheck.verify.thickness import _Sums, at_most, holds_ball
 from satcheck.verify.world import Exact
 from tests.audit.shapes import bracket, moved, unit_box

@@ -9,7 +9,8 @@ import pytest
 
 from satcheck import core
 from satcheck.verify.exact import Rejected
-from satcheck.verify.world import Exact, World, is_balanced, is_convex, placed
+from satcheck.verify.open_parts import is_balanced
+from satcheck.verify.world import Exact, World, is_convex, placed
 from tests.audit.shapes import Mesh, bracket, open_box, unit_box
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
@@ -17,12 +18,11 @@ from satcheck.report.statics import (
     SupportFinding,
 )
 from satcheck.report.verdict import severity_of_answer
-from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import vector
-from satcheck.verify.exact import NotCertified, Point, Rejected
-from satcheck.verify.statics.contacts import ROUNDING, Contacts
-from satcheck.verify.statics.gaps import check_apart
+from satcheck.verify.exact import NotCertified, Point, Rejected, sub
+from satcheck.verify.pairs import vector
+from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
 from satcheck.verify.statics.sums import (
     Push,
     check_balance,
@@ -31,7 +31,7 @@ from satcheck.verify.statics.sums import (
     resistance,
     velocity_at,
 )
-from satcheck.verify.statics.terms import Terms
+from satcheck.verify.statics.terms import Terms, checked, once
 from satcheck.verify.statics.weights import Weight, covers_once
 
 SAME_WEIGHT = 1e-9  # relative
@@ -52,25 +52,15 @@ class Claims:
         self.down = vector(statics.gravity)
         self.usable = {id_: body for id_, body in self.bodies.items() if body.claims}
         self.stated = {body.id: body for body in statics.bodies}
-        self._balanced = _Once()
-        self._moving = _Once()
-        self._afloat = _Once()
+        self._balanced = once(self._check_island)
+        self._falling = once(self._check_motion)
+        self._afloat = once(self._check_afloat)
         self._check_section()
 
     def judged(self) -> Iterator[CheckedSupport]:
         """Each answer, in the order of the report."""
         for finding in self.statics.findings:
-            outcome, reason = self._outcome(finding)
-            yield CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
-
-    def _outcome(self, finding: SupportFinding) -> tuple[Outcome, str | None]:
-        try:
-            self._check(finding)
-        except NotCertified as why:
-            return "not certified", str(why)
-        except Rejected as why:
-            return "rejected", str(why)
-        return ("open", finding.reason) if finding.answer == "open" else ("accepted", None)
+            yield checked(finding, partial(self._check, finding))
 
     def _check_section(self) -> None:
         """Rejects questions, fixed bodies, weights and frictions that do not follow."""
@@ -119,9 +109,9 @@ class Claims:
             raise Rejected("nothing is known about this body")
         if finding.answer == "yes":
             if body.fixed is None:
-                self._check_held(body, strict=finding.question == "stable")
+                self._balanced(self._island(body), finding.question == "stable")
         elif body.floating == "yes":
-            self._afloat.check(None, self._check_afloat)
+            self._afloat()
         else:
             self._check_moves(body)
 
@@ -145,12 +135,8 @@ class Claims:
             for point in contact.points
         )
 
-    def _check_held(self, body: SupportedBody, *, strict: bool) -> None:
-        """By forces on all bodies of its island."""
-        number = self._island(body)
-        self._balanced.check((number, strict), lambda: self._check_island(number, strict))
-
     def _check_island(self, number: int, strict: bool) -> None:
+        """That forces hold all bodies of an island."""
         members = set(self.statics.islands[number].bodies)
         pushes: dict[str, list[Push]] = {name: [] for name in members}
         for contact in self.statics.contacts:
@@ -188,8 +174,7 @@ class Claims:
             raise NotCertified(f"{body.id}: no motion shows that it falls")
         if not _is_moving(body):
             raise Rejected(f"{body.id} is at rest in the motion that shows its fall")
-        together = self._moving_with(body.id)
-        self._moving.check(together, lambda: self._check_motion(together))
+        self._falling(self._moving_with(body.id))
 
     def _moving_with(self, name: str) -> frozenset[str]:
         """The bodies that move and are connected with this one by contacts of each other."""
@@ -235,8 +220,7 @@ class Claims:
             at = vector(place.at.tolist())
             own = velocity_at(motions.get(name), self._centre(name, weights), at)
             against = velocity_at(motions.get(other), self._centre(other, weights), at)
-            x, y, z = (p - q for p, q in zip(own, against, strict=True))
-            worst = max(worst, resistance(place, friction, (x, y, z)))
+            worst = max(worst, resistance(place, friction, sub(own, against)))
         return worst
 
     def _centre(self, name: str, weights: Mapping[str, Weight]) -> Point | None:
@@ -262,25 +246,6 @@ class Claims:
         if strangers or any(self.stated[n].fixed is not None for n in islands[number].bodies):
             raise Rejected("an island has free bodies of the report only")
         return number
-
-
-class _Once:
-    """Checks that several answers share: each is made once."""
-
-    def __init__(self) -> None:
-        self._results: dict[object, Rejected | NotCertified | None] = {}
-
-    def check(self, key: object, check: Callable[[], None]) -> None:
-        """Raises what the check of this key raises."""
-        if key not in self._results:
-            try:
-                check()
-                self._results[key] = None
-            except (Rejected, NotCertified) as why:
-                self._results[key] = why
-        result = self._results[key]
-        if result is not None:
-            raise type(result)(str(result))
 
 
 def _is_moving(body: SupportedBody) -> bool:

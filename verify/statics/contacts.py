@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
-from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Floats, NotCertified, Rejected
-from satcheck.verify.statics.gaps import check_apart
+from satcheck.verify.bodies import Placed, box_gaps
+from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
+from satcheck.verify.findings import prove_way_out
+from satcheck.verify.pairs import any_pair_of, pair_of, vector
+from satcheck.verify.patches import comes_within
+from satcheck.verify.relations import prove
 from satcheck.verify.statics.places import (
     SLACK,
     Place,
@@ -21,8 +24,43 @@ from satcheck.verify.statics.places import (
     places_of,
     places_of_ball,
 )
+from satcheck.verify.statics.terms import once
 from satcheck.verify.statics.weights import ball
-from satcheck.verify.way_out import prove_way_out
+from satcheck.verify.world import Exact, World
+
+
+def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
+    may be negative: then the bodies may overlap by less than that."""
+    if max(box_gaps(a, b)) > Fraction(tolerance):
+        return
+    if a.world is not None and b.world is not None:
+        pair = pair_of(a, b, a.world, b.world)
+        prove("separated", SurfacesProof(), pair, Fraction(tolerance), Fraction(0))
+    elif a.world is not None:
+        _ball_apart(b, a.world, tolerance)
+    elif b.world is not None:
+        _ball_apart(a, b.world, tolerance)
+    else:
+        _balls_apart(a, b, tolerance)
+
+
+def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
+    centre, radius = ball(round_)
+    mesh = Exact(world, world.lattice)
+    middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
+    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0))
+    if comes_within(mesh, middle, reach, open_=False):
+        raise Rejected("bodies that should be apart are within the tolerance")
+    if world.solid and mesh.winding(middle) != 0:
+        raise Rejected("a body that should be apart lies in another")
+
+
+def _balls_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    (p, _), (q, _) = ball(a), ball(b)
+    if any_pair_of(a, b).gap(sub(point(q), point(p)), Fraction(tolerance)) <= 0:
+        raise Rejected("bodies that should be apart are within the tolerance")
+
 
 # How far two computations of one contact may be off: of the largest coordinate, and of a normal.
 SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6
@@ -38,7 +76,7 @@ class Contacts:
     def __init__(self, bodies: Mapping[str, Placed], tolerance: float) -> None:
         self._bodies, self._tolerance = bodies, tolerance
         self._places: dict[tuple[str, str], list[Place]] = {}
-        self._shallow: dict[frozenset[str], str | None] = {}
+        self._shallow = once(self._check_shallow)
 
     def near(self, name: str) -> list[str]:
         """Other bodies whose boxes are within the tolerance, or unknown."""
@@ -59,25 +97,21 @@ class Contacts:
 
     def between(self, a: str, b: str) -> list[Place]:
         """Contacts of A and B, normals from B to A. Raises NotCertified if they cannot be found."""
+        if (b, a) in self._places:
+            return [place.turned for place in self._places[b, a]]
         if (a, b) not in self._places:
-            if (b, a) in self._places:
-                turned = self._places[b, a]
-                self._places[a, b] = [Place(p.at, -p.normal, p.height, p.exact) for p in turned]
-            else:
-                try:
-                    self._places[a, b] = self._found(a, b)
-                except Rejected as why:
-                    raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
+            try:
+                self._places[a, b] = self._found(a, b)
+            except Rejected as why:
+                raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
         return self._places[a, b]
 
     def _found(self, a: str, b: str) -> list[Place]:
         one, other = self._bodies[a], self._bodies[b]
-        if one.bounds is None or other.bounds is None:
-            raise Rejected("a body that cannot be read may hold others")
-        tolerance, rounding = self._tolerance, self.rounding(a, b)
-        gap = np.maximum(one.bounds[0] - other.bounds[1], other.bounds[0] - one.bounds[1])
-        if float(gap.max()) > tolerance * (1 + SLACK):
+        tolerance = self._tolerance
+        if max(box_gaps(one, other)) > tolerance * (1 + SLACK):
             return []
+        rounding = self.rounding(a, b)
         of_a, of_b = self._surfaces.get(a), self._surfaces.get(b)
         if of_a is not None and of_b is not None:
             return places_of(of_a, of_b, tolerance, rounding)
@@ -87,7 +121,7 @@ class Contacts:
         if of_a is not None:
             centre, radius = ball(other)
             places = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
-            return [Place(p.at, -p.normal, p.height, p.exact) for p in places]
+            return [place.turned for place in places]
         (p, r), (q, s) = ball(one), ball(other)
         return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
 
@@ -120,13 +154,11 @@ class Contacts:
         """Raises NotCertified if A and B may overlap by more than the tolerance: they may, unless A
         is seen to be free once it is moved by the tolerance along the normal of a contact. So may
         bodies that are thinner than the tolerance."""
-        pair = frozenset((a, b))
-        if pair not in self._shallow:
-            shallow = self._is_shallow(a, b)
-            why = f"how deep {a} and {b} overlap is not certified"
-            self._shallow[pair] = None if shallow else why
-        if self._shallow[pair] is not None:
-            raise NotCertified(str(self._shallow[pair]))
+        self._shallow(*sorted((a, b)))
+
+    def _check_shallow(self, a: str, b: str) -> None:
+        if not self._is_shallow(a, b):
+            raise NotCertified(f"how deep {a} and {b} overlap is not certified")
 
     def _is_shallow(self, a: str, b: str) -> bool:
         one, other = self._bodies[a], self._bodies[b]

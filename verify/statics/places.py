@@ -9,12 +9,13 @@ is missed.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from satcheck.verify.exact import Floats
+from satcheck.verify.patches import next_points
 from satcheck.verify.surfaces import near_pairs
 from satcheck.verify.world import Exact, Indices, World
 
@@ -36,6 +37,11 @@ class Place:
     normal: Floats
     height: float
     exact: bool
+
+    @property
+    def turned(self) -> Place:
+        """As a contact of B and A."""
+        return replace(self, normal=-self.normal)
 
 
 class Surface:
@@ -90,17 +96,19 @@ def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list
     """All contacts of A and B."""
     near = tolerance * (1 + SLACK)
     places: list[Place] = []
-    vertices: set[tuple[int, int, bool]] = set()
+    of_a: set[tuple[int, int]] = set()
+    of_b: set[tuple[int, int]] = set()
     edges: set[tuple[tuple[int, int], tuple[int, int]]] = set()
     for s, t in near_pairs(a.exact, b.exact, near, MOST_NEAR):
         for i, j in zip(s.tolist(), t.tolist(), strict=True):
-            of_a, of_b = a.triangles[i].tolist(), b.triangles[j].tolist()
-            vertices |= {(v, j, True) for v in of_a} | {(v, i, False) for v in of_b}
+            p, q = a.triangles[i].tolist(), b.triangles[j].tolist()
+            of_a |= {(v, j) for v in p}
+            of_b |= {(v, i) for v in q}
             edges |= {
-                (p, q) for p in _sides(of_a) if a.is_sharp(p) for q in _sides(of_b) if b.is_sharp(q)
+                (e, f) for e in _sides(p) if a.is_sharp(e) for f in _sides(q) if b.is_sharp(f)
             }
-    for v, face, first in sorted(vertices):
-        places += _on_face(*((a, b) if first else (b, a)), v, face, near, rounding, first)
+    places += _on_faces(a, b, sorted(of_a), near, rounding, 1.0)
+    places += _on_faces(b, a, sorted(of_b), near, rounding, -1.0)
     for p, q in sorted(edges):
         places += _across(a, b, p, q, near, rounding)
     return places
@@ -111,23 +119,24 @@ def _sides(corners: list[int]) -> list[tuple[int, int]]:
     return [(min(u, v), max(u, v)) for u, v in ((i, j), (j, k), (k, i))]
 
 
-def _on_face(
-    a: Surface, b: Surface, v: int, face: int, near: float, rounding: float, first: bool
+def _on_faces(
+    a: Surface, b: Surface, pairs: list[tuple[int, int]], near: float, rounding: float, sign: float
 ) -> Iterator[Place]:
-    """A vertex of a over a face of b. first: a is A."""
-    n, p = b.normals[face], a.points[v]
-    foot = foot_on(p, b.points[b.triangles[face]])
-    step = p - foot
-    if step @ step > near * near:
-        return
-    neighbours, faces = a.around[v]
-    lowest = float(((a.points[neighbours] - p) @ n).min())
-    if lowest < -2 * near or (a.normals[faces] @ n).min() >= SLACK:
-        return
-    height = float(step @ n)
-    aside = float(np.linalg.norm(step - height * n))
-    exact = lowest >= -2 * rounding and aside <= rounding
-    yield Place(foot, n if first else -n, height, exact)
+    """Vertices of a over faces of b. sign: -1.0 where a is B."""
+    v, face = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    points, normals = a.points[v], b.normals[face]
+    feet = points + next_points(b.points[b.triangles[face]] - points[:, None])
+    steps = points - feet
+    for k in np.flatnonzero(np.einsum("nk,nk->n", steps, steps) <= near * near).tolist():
+        p, n, step = points[k], normals[k], steps[k]
+        neighbours, faces = a.around[int(v[k])]
+        lowest = float(((a.points[neighbours] - p) @ n).min())
+        if lowest < -2 * near or (a.normals[faces] @ n).min() >= SLACK:
+            continue
+        height = float(step @ n)
+        aside = float(np.linalg.norm(step - height * n))
+        exact = lowest >= -2 * rounding and aside <= rounding
+        yield Place(feet[k], sign * n, height, exact)
 
 
 def _across(
@@ -179,28 +188,10 @@ def _nearest(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats
     return p + s * u, q + t * v
 
 
-def foot_on(p: Floats, corners: Floats) -> Floats:
-    """The nearest point of a triangle that has an area."""
-    a, b, c = corners
-    n = _cross(b - a, c - a)
-    foot = p - n * ((p - a) @ n) / (n @ n)
-    edges = ((a, b), (b, c), (c, a))
-    if all(_cross(y - x, foot - x) @ n >= 0 for x, y in edges):
-        return np.asarray(foot)
-    nearest = [_on_segment(p, x, y) for x, y in edges]
-    return min(nearest, key=lambda x: float((p - x) @ (p - x)))
-
-
 def _cross(u: Floats, v: Floats) -> Floats:
     """Of two vectors; np.cross takes ten times as long for a single pair."""
     (a, b, c), (d, e, f) = u.tolist(), v.tolist()
     return np.array((b * f - c * e, c * d - a * f, a * e - b * d))
-
-
-def _on_segment(p: Floats, x: Floats, y: Floats) -> Floats:
-    along = y - x
-    share = float((p - x) @ along) / float(along @ along)
-    return np.asarray(x + along * min(max(share, 0.0), 1.0))
 
 
 def places_of_ball(
@@ -212,7 +203,7 @@ def places_of_ball(
     reach = radius + near
     low, high = corners.min(axis=1), corners.max(axis=1)
     close = np.flatnonzero(((low <= centre + reach) & (high >= centre - reach)).all(axis=1))
-    feet = [foot_on(centre, corners[t]) for t in close]
+    feet = centre + next_points(corners[close] - centre)
     places = []
     for t, foot in zip(close.tolist(), feet, strict=True):
         step = centre - foot

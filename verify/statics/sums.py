@@ -9,8 +9,8 @@ from fractions import Fraction
 from typing import Any
 
 from satcheck.report.statics import FirstMotion
-from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Point, Rejected, cross, dot, sub
+from satcheck.verify.exact import Point, Rejected, cross, dot, point, sub
+from satcheck.verify.pairs import vector
 from satcheck.verify.statics.places import Place
 from satcheck.verify.statics.weights import Weight
 
@@ -50,7 +50,7 @@ def check_balance(
     force: list[Any] = [weight.mass * c for c in down]
     torque: list[Any] = [Fraction(0)] * 3
     for push in pushes:
-        turning = cross(sub(push.at, weight.centre), push.force)  # type: ignore[arg-type]
+        turning = cross(sub(push.at, weight.centre), push.force)
         for k in range(3):
             force[k] += push.force[k]
             torque[k] += turning[k]
@@ -63,15 +63,8 @@ def velocity_at(motion: FirstMotion | None, centre: Point | None, at: Point) -> 
     """Of a point of a body that moves so; None: it is at rest."""
     if motion is None or centre is None:
         return Fraction(0), Fraction(0), Fraction(0)
-    linear, turning = (
-        vector(motion.velocity),
-        cross(
-            vector(motion.angular),  # type: ignore[arg-type]
-            sub(at, centre),  # type: ignore[arg-type]
-        ),
-    )
-    x, y, z = (p + q for p, q in zip(linear, turning, strict=True))
-    return x, y, z
+    turning = cross(vector(motion.angular), sub(at, centre))
+    return point(p + q for p, q in zip(vector(motion.velocity), turning, strict=True))
 
 
 def resistance(place: Place, friction: float, relative: Point) -> float:

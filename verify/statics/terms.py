@@ -1,14 +1,17 @@
-"""What the body rules of a report say about each body."""
+"""What the body rules of a report say about each body, and the answers to them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from satcheck.report.report import BodyAnswer
 from satcheck.report.statics import BodyRuleReport, Statics
+from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.scene.rules import Selector
 from satcheck.scene.statics import KEYS, QUESTIONS, BodyRule, BodyTerms, terms_of
 from satcheck.verify.bodies import Placed
+from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.statics.weights import Weight, weight_of
 
 
@@ -24,6 +27,39 @@ def body_terms(
         for rule in rules
     ]
     return dict(zip(bodies, terms_of(list(bodies.values()), of_scene), strict=True))
+
+
+def once(check: Callable[..., None]) -> Callable[..., None]:
+    """A check that several answers share: for each of its arguments it is made once."""
+    results: dict[tuple[Any, ...], Rejected | NotCertified | None] = {}
+
+    def again(*of: Any) -> None:
+        if of not in results:
+            try:
+                results[of] = check(*of)  # type: ignore[func-returns-value]
+            except (Rejected, NotCertified) as why:
+                results[of] = why
+        refusal = results[of]
+        if refusal is not None:
+            raise type(refusal)(str(refusal))
+
+    return again
+
+
+def checked(finding: BodyAnswer, check: Callable[[], None]) -> CheckedSupport:
+    """Return what a check says of an answer."""
+    outcome: Outcome = "accepted"
+    reason = None
+    try:
+        check()
+    except NotCertified as why:
+        outcome, reason = "not certified", str(why)
+    except Rejected as why:
+        outcome, reason = "rejected", str(why)
+    else:
+        if finding.answer == "open":
+            outcome, reason = "open", finding.reason
+    return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
 
 
 class Terms:

@@ -25,7 +25,7 @@ from satcheck.core.shapes import (
 )
 from satcheck.verify.bodies import Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, integers
+from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, integers, point
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.world import Exact, World
 
@@ -82,8 +82,8 @@ def _boxes_meet(a: World, b: World) -> bool:
 def _bounds_once(shell: Exact, others: list[Exact]) -> bool:
     """Whether the others, which the shell does not meet, leave the winding numbers on both sides of
     it 0 and 1."""
-    x, y, z = map(Fraction, shell.points[shell.world.triangles[0, 0]])
-    outside = sum(other.winding((x, y, z)) or 0 for other in others)
+    corner = point(shell.points[shell.world.triangles[0, 0]])
+    outside = sum(other.winding(corner) or 0 for other in others)
     six = sum(dot(a, cross(b, c)) for a, b, c in map(shell.corners, range(len(shell.world.low))))
     return {outside, outside + (1 if six > 0 else -1)} == {0, 1}
 
@@ -101,18 +101,15 @@ def _of_mesh(world: World) -> tuple[Fraction, Point]:
     if six <= 0:
         raise Rejected("a body without a volume has no mass")
     scale = 1 << k
-    x, y, z = (Fraction(moment, 4 * six * scale) for moment in moments)
-    return Fraction(six, 6 * scale**3), (x, y, z)
+    return Fraction(six, 6 * scale**3), point(Fraction(m, 4 * six * scale) for m in moments)
 
 
 def _of_shape(shape: Curved) -> tuple[Fraction, Point]:
     """The volume up to the rounding of pi: forces are compared with it up to more than that."""
     volume, above = _unplaced(shape.image.primitive)
-    x, y, z = (
-        Fraction(o) + above * Fraction(axis)
-        for o, axis in zip(shape.image.origin, shape.image.columns[2], strict=True)
-    )
-    return abs(shape.determinant) * volume, (x, y, z)
+    ends = zip(shape.image.origin, shape.image.columns[2], strict=True)
+    centre = point(Fraction(o) + above * Fraction(axis) for o, axis in ends)
+    return abs(shape.determinant) * volume, centre
 
 
 def _unplaced(shape: Primitive) -> tuple[Fraction, Fraction]:

@@ -11,7 +11,7 @@ import pytest
 from satcheck import core
 from satcheck.audit.certify.thickness import cells
 from satcheck.verify import Rejected
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import Pair
 from satcheck.verify.thickness import at_most, holds_ball
 from tests.audit.shapes import Mesh, bracket, moved, unit_box
 from tests.verify.reports import pieces

@@ -11,10 +11,9 @@ from msgspec import convert
 from satcheck import core
 from satcheck.audit.figures.exact_hulls import expanded, nearest_point
 from satcheck.report.certificate import Polytope
+from satcheck.verify.depth import inner_radius_exceeds
 from satcheck.verify.exact import dot, lattice
-from satcheck.verify.findings import depth_at_most
-from satcheck.verify.polytope import inner_radius_exceeds
-from satcheck.verify.relations import Pair
+from satcheck.verify.pairs import Pair
 from satcheck.verify.world import Exact, World
 
 
@@ -39,7 +38,7 @@ def test_depth_and_distance_are_those_of_the_core() -> None:
             # Its nearest face is one of the difference itself: both bounds meet there.
             inner_radius_exceeds(polytope, pair.a, pair.b, Fraction(-distance * (1 - 1e-12)))
             n = tuple(Fraction(c) for c in found.axis)
-            assert depth_at_most(n, pair, Fraction(-distance * (1 + 1e-12)))  # type: ignore[arg-type]
+            assert pair.gap(n, Fraction(distance * (1 + 1e-12))) >= 0  # type: ignore[arg-type]
         else:
             x = nearest_point(pair).point
             gap = math.sqrt(dot(x, x)) / 2.0**k

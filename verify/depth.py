@@ -1,11 +1,13 @@
-"""A lower bound of the depth of two solids: a cover of all shorter translations, each proven to
-leave an overlap.
+"""Lower bounds of a depth.
 
-A triangle S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex
-polytope. The solids then have a common interior if the planes of S and U are not parallel, and if
-every inner point of either triangle has its solid on exactly one side. Cubes inside such polytopes
-cover the ball of shorter translations: an octree around the origin with a pair of triangles for
-each leaf. Cubes outside the ball need no proof.
+Of convex bodies: an inner polytope of the Minkowski difference, which also proves their overlap.
+
+Of other solids: a cover of all shorter translations, each proven to leave an overlap. A triangle
+S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex polytope. The
+solids then have a common interior if the planes of S and U are not parallel, and if every inner
+point of either triangle has its solid on exactly one side. Cubes inside such polytopes cover the
+ball of shorter translations: an octree around the origin with a pair of triangles for each leaf.
+Cubes outside the ball need no proof.
 """
 
 from __future__ import annotations
@@ -13,12 +15,52 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil
 
-from satcheck.report.certificate import Cover
-from satcheck.verify.cells import UNIT_CELL, look, own_partners
-from satcheck.verify.evidence import index
-from satcheck.verify.exact import IntVector, Rejected, cross, dot, sub
-from satcheck.verify.surfaces import common
+from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
+from satcheck.verify.cells import look
+from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, point, sub
+from satcheck.verify.pairs import index
+from satcheck.verify.surfaces import common, perhaps_close
 from satcheck.verify.world import Corners, Exact
+
+MOST_FACES = 100_000
+
+
+def inner_radius_exceeds(
+    polytope: Polytope | PolytopeProof, a: Exact, b: Exact, radius: Fraction
+) -> None:
+    """Rejects a polytope that does not contain the ball of this radius (world) around the origin.
+
+    Its vertices are a_i - b_j. Where each directed edge meets its reverse once, and the origin
+    lies behind every face, the surface runs around the origin. So every ray from there meets it,
+    nowhere nearer than the nearest face plane.
+    """
+    vertices, faces = polytope.vertices, polytope.faces
+    if not 4 <= len(faces) <= MOST_FACES or len(vertices) > MOST_FACES:
+        raise Rejected("a polytope has at least 4 faces, and not too many")
+    points = [_difference(pair, a, b) for pair in vertices]
+    edges: set[tuple[int, int]] = set()
+    least = radius * (1 << a.k)
+    for face in faces:
+        corner = [index(v, len(points)) for v in face]
+        p, q, r = (points[v] for v in corner)
+        normal = cross(sub(q, p), sub(r, p))
+        height = dot(normal, p)
+        if height <= 0:
+            raise Rejected("the origin is not strictly inside the polytope")
+        if height * height < least * least * dot(normal, normal):
+            raise Rejected("a face of the polytope is nearer than the lower bound of the depth")
+        for k in range(3):
+            edge = corner[k - 1], corner[k]
+            if edge in edges:
+                raise Rejected("the polytope runs an edge twice")
+            edges.add(edge)
+    if any((q, p) not in edges for p, q in edges):
+        raise Rejected("the polytope is not closed")
+
+
+def _difference(pair: Indices, a: Exact, b: Exact) -> IntVector:
+    return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])
+
 
 LEVELS = 12  # the most halvings of a cube
 MOST_CUBES = 50_000
@@ -115,21 +157,30 @@ def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
 def not_plain(body: Exact, triangles: list[int]) -> list[int]:
     """Triangles that a cover must not use: without area, crossed by another triangle of the
     surface, or with the solid on both sides or on none."""
-    partners = own_partners(body, triangles)
-    return [t for t in triangles if not _is_plain(body, t, partners.get(t, []))]
+    unfit = {t for t in triangles if not any(normal_of(body.corners(t)))}
+    for s, u in perhaps_close(body.part(triangles), body):
+        t = triangles[s]
+        if t not in unfit and t != u and _enters(body.corners(u), body.corners(t)):
+            unfit.add(t)
+    for t in set(triangles) - unfit:
+        [(front, back)] = look(normal_of(body.corners(t)), body.corners(t), [body])
+        if front == back:
+            unfit.add(t)
+    return sorted(unfit)
 
 
-def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
-    corners = body.corners(t)
-    normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
-    if not any(normal):
-        return False
-    inward = [cross(normal, sub(corners[(k + 1) % 3], corners[k])) for k in range(3)]
-    for u in partners:
-        shared = common(corners, body.corners(u))
-        # Where a convex set enters the triangle, so does its middle.
-        middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
-        if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
+def _enters(other: Corners, corners: Corners) -> bool:
+    """Whether another triangle has a point of the inside of this one."""
+    normal = normal_of(corners)
+    heights = [dot(normal, sub(p, corners[0])) for p in other]
+    if min(heights) >= 0 or max(heights) <= 0:  # it touches the plane at most
+        touching = {p for p, height in zip(other, heights, strict=True) if height == 0}
+        if len(touching) < len(corners) and touching.issubset(corners):
             return False
-    _, [(front, back)] = look(corners, normal, UNIT_CELL, [body])
-    return front != back
+    shared = common(corners, other)
+    if not shared:
+        return False
+    # Where a convex set enters the triangle, so does its middle.
+    middle = point(sum(p[k] for p in shared) / len(shared) for k in range(3))
+    edges = ((corners[k], sub(corners[(k + 1) % 3], corners[k])) for k in range(3))
+    return all(dot(cross(normal, edge), sub(middle, p)) > 0 for p, edge in edges)
