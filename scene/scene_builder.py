@@ -31,7 +31,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.rules import Rule
-from satcheck.scene.units import ratio, stated_unit
+from satcheck.scene.units import RESCALED, ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Part, SceneRobot, Srdf
@@ -120,6 +120,9 @@ class SceneBuilder:
         else:
             path = entry.mesh.path
             node = self._part(path, entry.mesh.location, entry.part)
+            if entry.units and isinstance(node.file, MeshFile) and node.file.units == RESCALED:
+                message = "`units` cannot override the unit of this file: leave it out"
+                node = replace(node, file=Refused("unsupported-feature", message, file=path))
             scale = self._scale(node.file, entry.units)
             if entry.part is None:
                 transform = scaled_mesh(transform, scale)
