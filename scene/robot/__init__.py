@@ -15,7 +15,7 @@ from satcheck.scene.robot.assembly import (
     with_srdfs,
 )
 from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
-from satcheck.scene.robot.model import Joint, Link, Robot, State
+from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.pose_batches import RandomPoses
@@ -27,7 +27,6 @@ __all__ = [
     "FilePlaces",
     "Joint",
     "JointPath",
-    "Link",
     "Part",
     "Pose",
     "Posture",
@@ -36,7 +35,6 @@ __all__ = [
     "RobotBody",
     "SceneRobot",
     "Srdf",
-    "State",
     "bare_links",
     "parts_of",
     "permissions",
