@@ -18,7 +18,7 @@ from satcheck.scene.robot.slips import Place, Slips, attributes, because, elemen
 _PLANNING = "it plans, and exempts and moves no body"
 _ENDS = "name type parent_frame child_link parent_link group parent_group component_name"
 _PLANNED = Place(
-    elements("", because(_PLANNING, "chain link joint group")),
+    elements("", because(_PLANNING, "chain link joint group passive_joint")),
     attributes("", because(_PLANNING, _ENDS)),
 )
 _PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))

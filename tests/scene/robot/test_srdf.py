@@ -98,7 +98,7 @@ def test_what_may_enable_a_pair_or_hold_a_body_blocks_a_pass(
 
 def test_what_plans_is_no_issue(tmp_path: Path) -> None:
     plans = [
-        '<group name="g"><chain base_link="a" tip_link="b"/></group>',
+        '<group name="g"><chain base_link="a" tip_link="b"/><passive_joint name="j"/></group>',
         '<end_effector name="e" parent_link="a" group="g"/>',
         '<virtual_joint name="v" type="fixed" parent_frame="w" child_link="a"/>',
         '<passive_joint name="j"/>',
