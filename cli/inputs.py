@@ -37,7 +37,7 @@ from satcheck.scene.read_options import (
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
     ("not-a-body", "left-out", "no-shape", "ignored-geometry", "no-collision-geometry")
-) | {"no-surface", "unknown-element"}
+) | {"no-surface", "unknown-element", "unread"}
 
 
 class Inputs(Struct, frozen=True):

@@ -30,7 +30,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import suffix_of
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.units import ratio, stated_unit
+from satcheck.scene.units import RESCALED, ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
@@ -158,6 +158,10 @@ class SceneBuilder:
             self._parted.add(named.location)
             issues = self._files.issues_of_parts(named.location)
             self._issues += [each for each in issues if each.code in BLOCKING]
+        if item.units and isinstance(found.shape, MeshFile) and found.shape.units == RESCALED:
+            message = "`units` cannot override the unit of this file: leave it out"
+            lost = Refused("unsupported-feature", message, file=named.path)
+            return replace(item, path=named.part, shape=lost)
         place, own = item.transform, self._inputs[-1].unit
         if isinstance(found.shape, MeshFile) and own is not None:
             scale = ratio(stated_unit(item.units or found.shape.units) or own, own)

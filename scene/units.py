@@ -10,7 +10,9 @@ from msgspec import Struct
 
 # Micrometres in one unit. They are whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
+RESCALED = "meters (rescaled)"  # its reader has turned a unit without a name into metres
 _SYNONYMS = {
+    RESCALED: "m",
     "micrometre": "um",
     "micrometer": "um",
     "micron": "um",

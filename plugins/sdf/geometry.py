@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NoReturn
 
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.core.transform import Transform
@@ -21,29 +20,24 @@ def shape_in(part: Element) -> Element | None:
     """The element of its shape; None: it has none."""
     geometry = part.need("geometry")
     shapes = geometry.children
-    if len(shapes) > 1:
+    if len(shapes) > 1 or (geometry.text and not shapes):
         geometry.refuse(f"should hold one shape, not {len(shapes)}")
     return shapes[0] if shapes and shapes[0].tag != _EMPTY else None
 
 
 def geometry_of(shape: Element) -> Geometry:
     """Raises RefusedElement if it cannot be checked."""
+    if shape.tag not in _SHAPES:
+        shape.refuse(f"no geometry that is read ({', '.join(_SHAPES)})", "unsupported-feature")
     try:
-        return _SHAPES[shape.tag](shape) if shape.tag in _SHAPES else _unknown(shape)
+        return _SHAPES[shape.tag](shape)
     except ValueError as error:  # a size that is not positive
         shape.refuse(str(error))
 
 
 def facing(shape: Element) -> Transform:
     """The rotation of a plane."""
-    try:
-        return kinematics.facing(vector(shape, "normal", (0.0, 0.0, 1.0)))
-    except ValueError as error:
-        shape.refuse(str(error))
-
-
-def _unknown(shape: Element) -> NoReturn:
-    shape.refuse(f"no geometry that is read ({', '.join(_SHAPES)})", "unsupported-feature")
+    return kinematics.facing(vector(shape, "normal", (0.0, 0.0, 1.0)), shape)
 
 
 def _mesh(shape: Element) -> MeshReference:

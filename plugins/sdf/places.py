@@ -12,8 +12,8 @@ _FEWER = "it can only exempt pairs, and all are checked"
 _TEXT = "words about the file"
 
 _ANYWHERE = because(_DEVICES, "plugin") | because(_TEXT, "meta description author frame")
-_VALUE = Place()
-_POSE = Place(attributes=attributes("relative_to frame degrees rotation_format"))
+_VALUE = Place(text=True)
+_POSE = Place(attributes=attributes("relative_to frame degrees rotation_format"), text=True)
 
 ROOT = Place(
     elements("world model actor include", _ANYWHERE, because(_DRAWN, "light")),
@@ -150,7 +150,7 @@ _AXIS = Place(
     elements("xyz limit mimic use_parent_model_frame", because(_FORCES, "dynamics")),
     idle={"initial_position": 0.0},
     inside={
-        "xyz": Place(attributes=attributes("expressed_in")),
+        "xyz": Place(attributes=attributes("expressed_in"), text=True),
         "limit": _LIMIT,
         "mimic": _MIMIC,
     },

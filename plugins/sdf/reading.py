@@ -35,8 +35,7 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     with the file, the line and the element. No mesh is opened.
     """
     includes, geometry = Includes(file.places), file.geometry
-    slips = Slips()
-    others = "visual" if geometry == "collision" else "collision"
+    slips = Slips(geometry)
     contents = Contents(includes, slips, geometry)
     contents.read(root)
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
@@ -48,7 +47,7 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
         path: Link(
             name=path,
             collisions=collisions[path],
-            unused=bool(link.element.all(others)),
+            unused=bool(link.element.all(slips.others)),
             static=link.contacts.static,
             rest=poses[path],
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
@@ -11,6 +12,8 @@ from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
+# Not as int() reads it, which takes 1_0 and 0b10.
+_BITS = re.compile(r"[+-]?(?:0x[0-9a-f]{1,16}|0+|[1-9][0-9]{0,18})", re.ASCII | re.IGNORECASE)
 _EULER, _QUATERNION = "euler_rpy", "quat_xyzw"
 
 
@@ -56,10 +59,9 @@ def bits(element: Element, tag: str) -> int | None:
     child = element.only(tag)
     if child is None:
         return None
-    try:
-        return int(child.text, 0)
-    except ValueError:
+    if not _BITS.fullmatch(child.text):
         child.refuse(f'"{child.text}" should be a whole number')
+    return int(child.text, 0)
 
 
 def pose_of(element: Element | None) -> Transform:

@@ -19,7 +19,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
 from satcheck.scene.loading.collada_vocabulary import look_at
 from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
+from satcheck.scene.loading.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.polygons import triangles_of
 from satcheck.scene.loading.raw_mesh import (
     RawMesh,
@@ -31,6 +31,7 @@ from satcheck.scene.loading.raw_mesh import (
 from satcheck.scene.loading.readers import File
 from satcheck.scene.loading.unknown_names import UnknownNames
 from satcheck.scene.loading.xml_tree import Element, read_elements
+from satcheck.scene.units import RESCALED, unit_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -40,18 +41,9 @@ _MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _BENDS = frozenset({"lookat", "skew"})
 _MESH = "instance_geometry"
 _SHAPED = "instance_controller"  # by a skin or by morph targets
-_BESIDE = frozenset(  # elements of a node or a visual scene that place nothing
-    (
-        "asset",
-        "extra",
-        "evaluate_scene",
-        "instance_camera",
-        "instance_light",
-        _MESH,
-        *_MOVES,
-        *_BENDS,
-    )
-)
+# Elements of a node or a visual scene that place nothing.
+_NOTHING = frozenset({"asset", "extra", "evaluate_scene", "instance_camera", "instance_light"})
+_BESIDE = _NOTHING.union((_MESH,), _MOVES, _BENDS)
 _LINES = frozenset({"lines", "linestrips"})
 _ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
 _TRIANGLES = frozenset({"triangles", "polylist", *_ONE_P_EACH})
@@ -85,7 +77,7 @@ class _Document:
         self._warnings: dict[str, str] = {}
 
     def read(self) -> RawScene:
-        units = self._units()
+        units, scaling = self._units()
         scene = self._visual_scene()
         nodes = instances(
             [(scene, None)] if self._geometries_of(scene) else self._children(scene),
@@ -97,7 +89,10 @@ class _Document:
         if not nodes:
             raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
         read = raw_scene(
-            [Instance(self._geometries_of(node.key), node.matrix, node.path) for node in nodes],
+            [
+                Instance(self._geometries_of(node.key), multiply(scaling, node.matrix), node.path)
+                for node in nodes
+            ],
             lambda geometries: _name(geometries[0]),
             lambda geometries: self._joined(geometries, units),
         )
@@ -129,15 +124,19 @@ class _Document:
             warnings.append(("up-axis", message))
         return tuple(warnings)
 
-    def _units(self) -> str:
+    def _units(self) -> tuple[str, Transform | None]:
+        """Return the unit, and the scaling into it: a unit without a name becomes metres."""
         asset = self._root.find("asset")
         unit = asset.find("unit") if asset else None
         if unit is None or "meter" not in unit.attributes:
-            return "meters"
+            return "meters", None
         (metres,) = unit.floats([unit.attributes["meter"]])
         if metres <= 0.0:
             unit.refuse("the unit has no length")
-        return "meters" if metres == 1.0 else f"{metres} * meters"
+        units = "meters" if metres == 1.0 else f"{metres} * meters"
+        if unit_of(units) is not None:
+            return units, None
+        return RESCALED, (*(metres * entry for entry in IDENTITY[:12]), *IDENTITY[12:])
 
     def _visual_scene(self) -> Element:
         scene = self._root.find("scene")
@@ -302,11 +301,9 @@ def _triangles(group: Element, points: Floats) -> Indices:
     inputs = [(i.attributes.get("semantic"), i.integer("offset")) for i in group.all("input")]
     offset = dict(inputs).get("VERTEX")
     if offset is None:
-        return (
-            np.empty((0, 3), np.int64)
-            if not group.integer("count")
-            else group.refuse("no input of vertices")
-        )
+        if group.integer("count"):
+            group.refuse("no input of vertices")
+        return np.empty((0, 3), np.int64)
     stride = 1 + max(offset for _, offset in inputs)
     rows = [p.integers() for p in group.all("p")]
     numbers = [number for row in rows for number in row]

@@ -26,7 +26,7 @@ _PREFIX = re.compile(r"[<\s]([^\W\d][\w.-]*):[^\W\d]")  # of an element or an at
 # The name of the outermost element with all before it, and its attributes.
 _OUTERMOST = re.compile(r"((?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<]++)*+<[^\s/>]+)([^>]*)", re.DOTALL)
 _XACRO = re.compile(r"\$[({]")
-EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
+EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE)"
 
 
 def guarded_parser(

@@ -13,7 +13,7 @@ from satcheck.scene.robot.assembly import (
     with_srdfs,
 )
 from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
-from satcheck.scene.robot.model import Joint, Link, Robot, State
+from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.permissions import permissions
 from satcheck.scene.robot.pose_batches import RandomPoses
@@ -25,7 +25,6 @@ __all__ = [
     "FilePlaces",
     "Joint",
     "JointPath",
-    "Link",
     "Pose",
     "Posture",
     "RandomPoses",
@@ -33,7 +32,6 @@ __all__ = [
     "RobotBody",
     "SceneRobot",
     "Srdf",
-    "State",
     "document_of_robot",
     "permissions",
     "pose_of_states",

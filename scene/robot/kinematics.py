@@ -21,6 +21,7 @@ from satcheck.core.transform import (
     quaternion_matrix,
 )
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import Joint, Robot, Values
 
 _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -124,12 +125,12 @@ def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) 
     return placed(quaternion_matrix(*quaternion), xyz)
 
 
-def facing(normal: Vector) -> Transform:
+def facing(normal: Vector, plane: Element) -> Transform:
     """The rotation that takes z to a normal of any length; exact for normals along the axes. Raises
-    ValueError for length 0."""
+    RefusedElement for length 0."""
     length = math.hypot(*normal)
     if length == 0.0:
-        raise ValueError("a normal of length 0")
+        plane.refuse("a normal of length 0")
     x, y, z = (c / length for c in normal)
     across = math.hypot(x, y)
     # About z to the side of the normal, after a turn from z to it.

@@ -85,13 +85,12 @@ def _unknown_links(robot: SceneRobot, srdf: Srdf) -> Iterator[Issue]:
         message = f"{srdf.file}: link {link!r} is not in the URDF: its entries are ignored"
         yield issue("unknown-body", message, file=srdf.file)
     for pair in sorted(map(sorted, srdf.enabled)):
-        for link in pair:
-            if link not in links:
-                message = (
-                    f"enable_collisions names link {link!r}, which the robot lacks"
-                    f"{meant(link, links)}: the pair of {' and '.join(pair)} is not enabled"
-                )
-                yield issue("unread", message, file=srdf.file)
+        for link in sorted({*pair} - links.keys()):
+            message = (
+                f"enable_collisions names link {link!r}, which the robot lacks"
+                f"{meant(link, links)}: the pair of {' and '.join(pair)} is not enabled"
+            )
+            yield issue("unread", message, file=srdf.file)
 
 
 def _checked_neighbours(robot: SceneRobot) -> list[Issue]:

@@ -196,7 +196,7 @@ def _check_named(
     if len(owners) > 1:
         raise SatcheckError("bad-pose", f"joint {name!r}: robots {' and '.join(owners)} have it")
     if name not in movable:
-        raise SatcheckError("bad-pose", f"joint {name!r} is fixed: it has no value")
+        raise SatcheckError("bad-pose", f"joint {name!r} does not move: it has no value")
     wanted = movable[name].freedoms
     if len(values) != wanted:
         number = "1 number" if wanted == 1 else f"{wanted} numbers"

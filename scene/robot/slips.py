@@ -9,6 +9,7 @@ from msgspec import Struct
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.xml_tree import Element, RefusedElement
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.vocabulary import Names
 
 
@@ -18,7 +19,7 @@ class Place(Struct, frozen=True):
     elements: None: the reader refuses the body of a child that it does not know. idle: names that
     place nothing if each of their numbers, or words, is this one. inside: the places of children
     that are looked into as well. moves: no body is lost with a misspelt child, so it only blocks a
-    pass.
+    pass. text: the reader reads the text of the element; numbers in any other are a lost value.
     """
 
     elements: Names | None = Names(frozenset())
@@ -26,14 +27,14 @@ class Place(Struct, frozen=True):
     idle: Mapping[str, float | str] = {}
     inside: Mapping[str, Place] = {}
     moves: bool = False
+    text: bool = False
 
 
-_ELEMENTS_ANYWHERE = {"xacro:*": "a definition; what is called is refused before"}
+_ELEMENTS_ANYWHERE = dict.fromkeys(("xacro:property", "xacro:arg", "xacro:macro"), "a definition")
 _ATTRIBUTES_ANYWHERE = dict.fromkeys(
     ("xmlns", "xmlns:*", "xml:*", "xsi:*"), "says how names are written"
 )
-_BODIES = ("collision", "include")
-_DRAWN = "visual"  # in a link whose colliders are checked
+_IN_NUMBERS = "0123456789+-.,eE \t\r\n"
 
 
 def elements(read: str, *harmless: Mapping[str, str]) -> Names:
@@ -56,9 +57,12 @@ def because(reason: str, names: str) -> dict[str, str]:
 
 
 class Slips:
-    """Collects mistakes in file order, with one warning for each cause."""
+    """Collects mistakes in file order, with one warning for each cause. geometry: what is checked;
+    others: the other kind, which is harmless."""
 
-    def __init__(self) -> None:
+    def __init__(self, geometry: GeometryKind = "collision") -> None:
+        self._bodies = geometry, "include"
+        self.others = "visual" if geometry == "collision" else "collision"
         self._lines: dict[tuple[str, str, str], list[int]] = {}
 
     def note(self, code: str, element: Element, cause: str) -> None:
@@ -67,6 +71,9 @@ class Slips:
     def look(self, element: Element, place: Place) -> None:
         """Note each name in the element that nobody reads. Raises RefusedElement for a misspelt
         name."""
+        if not place.text and _is_value(element.text):
+            cause = f"<{element.tag}>: the text {element.text!r} is not read; it may move a body"
+            self.note("unread", element, cause)
         for name, value in element.attributes.items():
             if not _is_idle(name, [value], place):
                 where = f"attribute of <{element.tag}>"
@@ -78,18 +85,19 @@ class Slips:
                 self._ask(place.elements, child.tag, f"<{element.tag}>", child, moves=place.moves)
             if child.tag in place.inside:
                 self.look(child, place.inside[child.tag])
-            elif child.tag == _DRAWN or (
+            elif child.tag == self.others or (
                 place.elements is not None and child.tag in place.elements.harmless
             ):
-                self._look_for_bodies(child)
+                self._look_for_bodies(child, element, "geometry")
 
-    def _look_for_bodies(self, harmless: Element) -> None:
-        """Note the bodies in an element that usually holds no body. Names alone are references."""
-        for child in harmless.children:
-            if child.tag in _BODIES and child.children:
-                self.note("unread", child, f"<{harmless.tag}>: the {child.tag} in it is not read")
-            else:
-                self._look_for_bodies(child)
+    def _look_for_bodies(self, element: Element, around: Element, part: str = "") -> None:
+        """Note each body that is, or is in, an element that usually holds none. A name alone is a
+        reference. part: what a body has there; "": anything."""
+        if element.tag in self._bodies and (element.all(part) if part else element.children):
+            self.note("unread", element, f"<{around.tag}>: the {element.tag} in it is not read")
+            return
+        for child in element.children:
+            self._look_for_bodies(child, element)
 
     def _ask(
         self, names: Names, name: str, where: str, element: Element, *, moves: bool = False
@@ -109,6 +117,10 @@ class Slips:
             issue(code, f"line {lines[0]}: {cause}{_more(lines)}", file=file)
             for (code, cause, file), lines in self._lines.items()
         )
+
+
+def _is_value(text: str) -> bool:
+    return not text.strip(_IN_NUMBERS) and any(map(str.isdecimal, text))
 
 
 def _is_idle(name: str, values: Iterable[str], place: Place) -> bool:

@@ -15,7 +15,12 @@ from satcheck.scene.robot.model import State, Values
 from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Place, Slips, attributes, because, elements
 
-_PLANNING = "it says what is planned, and exempts and moves no body"
+_PLANNING = "it plans, and exempts and moves no body"
+_ENDS = "name type parent_frame child_link parent_link group parent_group component_name"
+_PLANNED = Place(
+    elements("", because(_PLANNING, "chain link joint group passive_joint")),
+    attributes("", because(_PLANNING, _ENDS)),
+)
 _PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))
 ROBOT = Place(
     elements(
@@ -28,6 +33,9 @@ ROBOT = Place(
     ),
     attributes("name", because("words about the file", "version")),
     inside={
+        "group": _PLANNED,
+        "end_effector": _PLANNED,
+        "virtual_joint": _PLANNED,
         "disable_collisions": _PAIR,
         "enable_collisions": _PAIR,
         "disable_default_collisions": Place(
@@ -81,6 +89,8 @@ def read_srdf(path: str, location: Path) -> Srdf:
     for element in root.all("enable_collisions"):
         if _pair(element) in disabled:
             element.refuse("the pair is disabled as well: state one of the two")
+        if len(_pair(element)) == 1:
+            element.refuse("one link twice: name two links")
     return Srdf(
         file=path,
         robot=root.attribute("name"),

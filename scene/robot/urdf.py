@@ -8,7 +8,7 @@ that body. `urdf_places` says which names are harmless; others block a pass.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import get_args
 
@@ -64,12 +64,10 @@ class _Reader:
     def __init__(self, path: str, geometry: GeometryKind) -> None:
         self._path = path
         self._geometry = geometry
-        self._others = "visual" if geometry == "collision" else "collision"
-        self._slips = Slips()
+        self._slips = Slips(geometry)
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
         self._slips.look(root, ROBOT)
-        self._look_for_folders(root)
         links: dict[str, Link] = {}
         for element in root.all("link"):
             link = self._link(element)
@@ -78,6 +76,7 @@ class _Reader:
             links[link.name] = link
         if not links:
             root.refuse("a robot without links")
+        self._look_for_folders(root, links)
         names = [element.attribute("name") for element in root.all("joint")]
         joints: dict[str, tuple[Joint, Element]] = {}
         for element in root.all("joint"):
@@ -93,9 +92,10 @@ class _Reader:
         robot = Robot(name, self._path, {base: IDENTITY}, links, ordered, geometry=self._geometry)
         return robot, self._slips.issues()
 
-    def _look_for_folders(self, root: Element) -> None:
+    def _look_for_folders(self, root: Element, links: Mapping[str, Link]) -> None:
         """Note that MuJoCo takes meshes without a package from another folder."""
-        plain = any("://" not in uri for uri in _mesh_uris(root, self._geometry))
+        shapes = [part.geometry for link in links.values() for part in link.collisions]
+        plain = any(isinstance(s, MeshReference) and "://" not in s.uri for s in shapes)
         for compiler in (inner for each in root.all("mujoco") for inner in each.all("compiler")):
             folder = PurePosixPath(compiler.attributes.get("meshdir", ""))
             stripped = compiler.attributes.get("strippath", "false") != "false"
@@ -110,7 +110,7 @@ class _Reader:
         return Link(
             name=name,
             collisions=tuple(collision for collision in collisions if collision is not None),
-            unused=bool(element.all(self._others)),
+            unused=bool(element.all(self._slips.others)),
         )
 
     def _collision(self, element: Element) -> Collision | None:
@@ -131,7 +131,7 @@ class _Reader:
             if isinstance(geometry, HalfSpace):
                 if self._geometry == "visual":
                     shape.refuse(DRAWN_PLANE, "unsupported-feature")
-                origin = compose(origin, _facing(shape))
+                origin = compose(origin, facing(_vector(shape, "normal"), shape))
             return Collision(name, origin, geometry, element.line)
         except RefusedElement as error:
             return Collision(name, IDENTITY, Refusal(error.code, error.reason), error.at)
@@ -201,22 +201,13 @@ class _Reader:
 
 def _only_shape(collision: Element) -> Element | None:
     """The geometry of a collision; None if it has no shape, not even a misspelt one."""
-    geometry = collision.only("geometry")
-    if geometry is None:
-        known = SHAPE.elements
-        if known is None or all(known.knows(child.tag) for child in collision.children):
-            return None
+    geometry, known = collision.only("geometry"), SHAPE.elements
+    if geometry is None and known and not all(known.knows(e.tag) for e in collision.children):
         collision.refuse("<geometry> is missing")
-    if len(geometry.children) > 1:
-        geometry.refuse(f"should hold one shape, not {len(geometry.children)}")
-    return geometry.children[0] if geometry.children else None
-
-
-def _mesh_uris(root: Element, geometry: GeometryKind) -> Iterator[str]:
-    for link in root.all("link"):
-        for part in link.all(geometry):
-            for shape in part.all("geometry"):
-                yield from (mesh.attributes.get("filename", "") for mesh in shape.all("mesh"))
+    shapes = geometry.children if geometry else []
+    if len(shapes) > 1 or (not shapes and (geometry or collision).text):
+        (geometry or collision).refuse(f"should hold one shape, not {len(shapes)}")
+    return shapes[0] if shapes else None
 
 
 def _is_point(shape: Element) -> bool:
@@ -244,13 +235,6 @@ def _geometry(shape: Element) -> Geometry:
         return kind(*(value if len(value) > 1 else value[0] for value in values))
     except ValueError as error:  # a size that is not positive
         shape.refuse(str(error))
-
-
-def _facing(plane: Element) -> Transform:
-    try:
-        return facing(_vector(plane, "normal"))
-    except ValueError as error:
-        plane.refuse(str(error))
 
 
 def _origin(owner: Element) -> Transform:

@@ -106,6 +106,17 @@ def test_a_robot_of_one_link_passes_in_no_pose(tmp_path: Path) -> None:
         assert found.document["summary"]["pairs"]["allowed"] == 1
 
 
+def test_what_one_body_alone_has_lost_is_named(tmp_path: Path) -> None:
+    shape = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    parts = f'<link name="a">{shape}</link><group><link name="b">{shape}</link></group>'
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(f'<robot name="r">{parts}</robot>')
+    ran = satcheck(str(robot))
+    assert ran.code == 2
+    assert "<robot>: group is not read" in ran.err
+    assert "one body alone cannot collide" in ran.err
+
+
 def test_where_nothing_overlaps_there_is_no_example() -> None:
     given = ("--sample", "21", "--pose", '{"shoulder": 0, "elbow": 0, "grip": 0}')
     ran = satcheck(*ARM, *given)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.scene import load_scene
+from satcheck.scene.units import unit_of
 from tests.scene import files
 from tests.scene.loading import loaded, refusal, warnings
 
@@ -145,6 +146,27 @@ def test_what_places_no_triangles_need_not_be_read(tmp_path):
     extra = '<extra><technique profile="x"><geometry id="g"/></technique></extra>'
     nodes = camera + '<node id="n"><instance_geometry url="#g"/></node>' + extra
     assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 1.0
+
+
+@pytest.mark.parametrize(
+    ("metre", "units", "size"), [("10", "m", 10.0), ("0.125", "m", 0.125), ("0.01", "cm", 1.0)]
+)
+def test_a_unit_without_a_name_becomes_metres(tmp_path, metre, units, size):
+    nodes = '<node id="n"><translate>1 0 0</translate><instance_geometry url="#g"/></node>'
+    content = files.collada(nodes=nodes).replace(b'meter="1"', f'meter="{metre}"'.encode())
+    (tmp_path / "a.dae").write_bytes(content)
+    scene = load_scene([tmp_path / "a.dae"])
+    (body,) = scene.bodies
+    assert unit_of(scene.units) == units
+    assert body.world_mesh().bounds == ((size, 0.0, 0.0), (2 * size, size, size))
+
+
+def test_a_scene_does_not_override_a_unit_without_a_name(tmp_path):
+    (tmp_path / "a.dae").write_bytes(files.collada().replace(b'meter="1"', b'meter="10"'))
+    body = '[[bodies]]\nid = "a"\nmesh = "a.dae"\n'
+    for more, lost in (("", 0), ('units = "cm"\n', 1)):
+        (tmp_path / "s.toml").write_text('schema = "satcheck.scene/1"\n' + body + more)
+        assert len(load_scene([tmp_path / "s.toml"]).unreadable) == lost
 
 
 def test_physics_blocks_a_pass(tmp_path):

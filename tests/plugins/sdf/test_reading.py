@@ -100,6 +100,7 @@ def test_a_plane_without_a_normal_faces_up(tmp_path: Path) -> None:
     [
         ("<box><size>1 1</size></box>", "bad-robot"),
         ("<box/>", "bad-robot"),
+        ("a box of 2 2 2", "bad-robot"),
         ("<box><size>1 1 0</size></box>", "bad-robot"),
         ("<box><size>1 1 1</size><size>2 2 2</size></box>", "bad-robot"),
         ("<sphere><radius>-1</radius></sphere>", "bad-robot"),
@@ -163,6 +164,14 @@ def test_visual_geometry_instead(tmp_path: Path) -> None:
     assert [issue.code for issue in scene.issues] == ["visual-geometry", "no-collision-geometry"]
 
 
+def test_a_visual_in_a_collision_blocks_a_pass_of_what_is_drawn(tmp_path: Path) -> None:
+    drawn = BOX.replace("collision", "visual")
+    odd = BOX.replace("<geometry>", f"{drawn}<geometry>")
+    path = write(tmp_path, sdf(model("m", link("a", inside=drawn + odd))))
+    (found,) = (i for i in load_scene([path], geometry="visual").issues if i.code == "unread")
+    assert "<collision>: the visual in it is not read" in found.message
+
+
 def test_links_of_one_model_and_static_models(tmp_path: Path) -> None:
     scene = load(
         tmp_path,
@@ -211,6 +220,12 @@ def test_bit_masks(tmp_path: Path) -> None:
     assert found["a::l", "b::l"] == (
         "SDF: collide_bitmask 0x0001 and collide_bitmask 0x0002 share no bit"
     )
+
+
+@pytest.mark.parametrize("bits", ["0b01", "1_0", "0o10", "0x", "9" * 5000])
+def test_a_mask_that_is_no_number_of_the_format_is_not_guessed(tmp_path: Path, bits: str) -> None:
+    (lost,) = load(tmp_path, sdf(model("m", link("a", inside=masked(bits))))).unreadable
+    assert "should be a whole number" in lost.issue.message
 
 
 def test_two_files_keep_their_rules_apart(tmp_path: Path) -> None:
@@ -309,6 +324,11 @@ UNREAD = [
         "<axis>: initial_position is not read",
     ),
     (link("b") + joint("j", "a", "b", inside="<drake:mimic/>"), "<joint>: drake:mimic is not read"),
+    ("<frame name='f'>1 0 0 0 0 0</frame>", "<frame>: the text '1 0 0 0 0 0' is not read"),
+    (
+        link("b") + joint("j", "a", "b", "revolute", "<axis>1 0 0</axis>"),
+        "<axis>: the text '1 0 0'",
+    ),
 ]
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.robot import Pose, Posture, Robot, State, read_poses, settle
+from satcheck.scene.robot import Pose, Posture, Robot, read_poses, settle
+from satcheck.scene.robot.model import State
 from satcheck.scene.robot.poses import state_named
 from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
@@ -132,7 +133,7 @@ def test_a_pose_may_name_a_mimic_and_is_told_when_it_contradicts() -> None:
     ("pose", "said"),
     [
         ({"elbo": (0.0,)}, "unknown joint 'elbo' (did you mean 'elbow'?)"),
-        ({"camera_mount": (0.0,)}, "'camera_mount' is fixed"),
+        ({"camera_mount": (0.0,)}, "'camera_mount' does not move"),
         ({"elbow": (0.0, 1.0)}, "(revolute) takes 1 number, not 2"),
     ],
 )

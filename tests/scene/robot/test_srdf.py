@@ -52,6 +52,7 @@ def test_pairs_without_a_reason_and_links_that_are_silent_by_default(tmp_path: P
             '<enable_collisions link1="a" link2="b"/><disable_collisions link1="b" link2="a"/>',
             "<enable_collisions>: the pair is disabled as well",
         ),
+        ('<enable_collisions link1="a" link2="a"/>', "<enable_collisions>: one link twice"),
         ('<disable_collisions link1="a"/>', 'attribute "link2" is missing'),
         ("<disable_default_collisions/>", 'attribute "link" is missing'),
         ('<group_state group="g"/>', 'attribute "name" is missing'),
@@ -81,6 +82,10 @@ def test_what_is_wrong_is_refused_with_its_line(tmp_path: Path, element: str, sa
         ('<link_sphere_approximation link="b"/>', "link_sphere_approximation is not read"),
         ('<disable_collisions link1="a" link2="b" when="x"/>', "<disable_collisions>: when is"),
         ('<group_state name="s"><mimic/></group_state>', "<group_state>: mimic is not read"),
+        ('<group name="g"><enable_collisions/></group>', "<group>: enable_collisions is not read"),
+        ('<group name="g"><group_state name="s"/></group>', "<group>: group_state is not read"),
+        ("<end_effector><enable_collisions/></end_effector>", "enable_collisions is not read"),
+        ("<virtual_joint><origin/></virtual_joint>", "<virtual_joint>: origin is not read"),
     ],
 )
 def test_what_may_enable_a_pair_or_hold_a_body_blocks_a_pass(
@@ -93,7 +98,7 @@ def test_what_may_enable_a_pair_or_hold_a_body_blocks_a_pass(
 
 def test_what_plans_is_no_issue(tmp_path: Path) -> None:
     plans = [
-        '<group name="g"><chain base_link="a" tip_link="b"/></group>',
+        '<group name="g"><chain base_link="a" tip_link="b"/><passive_joint name="j"/></group>',
         '<end_effector name="e" parent_link="a" group="g"/>',
         '<virtual_joint name="v" type="fixed" parent_frame="w" child_link="a"/>',
         '<passive_joint name="j"/>',

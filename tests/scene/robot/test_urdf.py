@@ -155,6 +155,14 @@ def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
     assert [issue.code for issue in issues] == ["unread"]
 
 
+@pytest.mark.parametrize("inside", ["a.stl", "<geometry>box 2 2 2</geometry>"])
+def test_a_shape_in_words_is_not_passed_over(tmp_path: Path, inside: str) -> None:
+    text = robot_of(link("a", f"<collision>{inside}</collision>"))
+    found = read(tmp_path, text).links["a"].collisions[0].geometry
+    assert isinstance(found, Refusal)
+    assert found.message.endswith("should hold one shape, not 0")
+
+
 @pytest.mark.parametrize(
     ("origin", "said"),
     [
@@ -317,6 +325,10 @@ UNREAD = [
     (f'<link name="b"><visual>{BOX}</visual></link>', "<visual>: the collision in it is not read"),
     ('<gazebo reference="a"><link name="x"/></gazebo>', "<gazebo>: link is not read"),
     ('<mujoco><worldbody><geom size="1"/></worldbody></mujoco>', "<mujoco>: worldbody is not read"),
+    ("<gazebo><xacro:body/></gazebo>", "<gazebo>: xacro:body is not read"),
+    (joint("j", "a", "b", inside="<origin>1 0 0</origin>"), "<origin>: the text '1 0 0' is not"),
+    (joint("j", "a", "b", inside="<axis>-1 0 0</axis>"), "<axis>: the text '-1 0 0' is not read"),
+    (joint("j", "a", "b", inside=LIMIT.replace("/>", ">4, 9</limit>")), "the text '4, 9' is not"),
 ]
 
 
@@ -348,6 +360,8 @@ HARMLESS = [
     '<gazebo reference="a"><collision><surface/><max_contacts/></collision></gazebo>',
     '<mujoco><compiler fusestatic="true" meshdir="meshes"/></mujoco>',
     '<drake:collision_filter_group name="g"/>',
+    '<xacro:macro name="m"/>',
+    "stray text, 1 of many",
 ]
 
 
@@ -355,6 +369,34 @@ HARMLESS = [
 def test_what_places_nothing_is_no_issue(tmp_path: Path, element: str) -> None:
     _, issues = read_with_issues(tmp_path, with_two_links(element))
     assert issues == ()
+
+
+DRAWN = BOX.replace("collision", "visual")
+
+
+@pytest.mark.parametrize(
+    ("element", "said"),
+    [
+        (f'<gazebo reference="a">{DRAWN}</gazebo>', "<gazebo>: the visual in it is not read"),
+        (link("b", f"<collision>{DRAWN}</collision>"), "<collision>: the visual in it is not read"),
+        (link("b", "<visual><xacro:hull/></visual>"), "<visual>: xacro:hull is not read"),
+    ],
+)
+def test_what_is_drawn_elsewhere_blocks_a_pass_of_what_is_drawn(
+    tmp_path: Path, element: str, said: str
+) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(with_two_links(element))
+    found = [issue for issue in read_robot(path, geometry="visual")[1] if issue.code == "unread"]
+    assert len(found) == 1
+    assert said in found[0].message
+
+
+def test_a_material_for_a_visual_is_no_issue(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    look = '<gazebo reference="a"><visual><material/></visual></gazebo>'
+    path.write_text(robot_of(link("a", DRAWN), look))
+    assert [issue.code for issue in read_robot(path, geometry="visual")[1]] == ["visual-geometry"]
 
 
 @pytest.mark.parametrize(("uri", "codes"), [("m.stl", ["unread"]), ("package://p/m.stl", [])])
@@ -406,5 +448,6 @@ def test_xacro_inside_of_a_collision_costs_its_body(tmp_path: Path, size: str) -
 def test_xacro_that_makes_no_geometry_does_not_matter(tmp_path: Path) -> None:
     macros = '<xacro:property name="x" value="1"/><xacro:macro name="m"><xacro:n/></xacro:macro>'
     seen = "<visual><xacro:grey/></visual>"
-    robot = read(tmp_path, robot_of(macros, link("a", BOX + seen), "<gazebo><xacro:g/></gazebo>"))
+    robot, issues = read_with_issues(tmp_path, robot_of(macros, link("a", BOX + seen)))
     assert len(robot.links["a"].collisions) == 1
+    assert issues == ()
