@@ -245,7 +245,7 @@ def test_a_node_of_lines_beside_meshes_is_a_note(tmp_path, split):
     assert not scene.unreadable
     (note,) = scene.issues
     assert (note.code, note.severity) == ("left-out", "note")
-    assert note.message.startswith("b of lines or points")
+    assert note.message.startswith("b without triangles")
 
 
 def test_a_shared_mesh_names_itself_in_its_one_warning(tmp_path):
