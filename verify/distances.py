@@ -15,6 +15,7 @@ from fractions import Fraction
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Certificate
+from satcheck.report.judge import named
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.scene.health import MOST_AROUND
@@ -150,13 +151,13 @@ def check_claims(
     thickness."""
     relation, exact = finding.relation, finding.exact_relation
     band, clearance = tolerance * (1 + EXACT_WIDTH), Fraction(request.clearance or 0.0)
-    if exact == "separated" and relation in ("touching", "near"):
-        near = relation == "near"
+    near, within = relation == "near", relation == "touching" != exact
+    if exact == "separated" and (near or within):
         if not is_within(certificate, pair, clearance if near else band, open_=near):
             raise Rejected("the gap is wider than that")
-    elif relation != exact and not (
-        exact in OVERLAPS and relation == "touching" and is_in_band(band)
-    ):
+    elif within:
+        within = exact in OVERLAPS and is_in_band(band)
+    if exact is None or named(exact, within, not near) != relation:
         raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
     def keeps(length: Fraction) -> bool | None:
