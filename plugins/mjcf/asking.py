@@ -4,15 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.plugins.mjcf.messages import Model
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.plugins.mjcf.readers import ENDING
-from satcheck.plugins.mjcf.reading import robot_of_model
 from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue
 from satcheck.scene.loading.readers import File, RobotFile
 from satcheck.scene.loading.reading_children import read_in_child
 from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import Robot
+
+
+class Answer(Struct, frozen=True, tag=True):
+    """What the child process answers."""
+
+    robot: Robot
+    issues: tuple[Issue, ...]
+
 
 _MODEL = "satcheck.plugins.mjcf.child:model"
 
@@ -30,9 +39,10 @@ def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]
         location.name,
         b"",
         0,
+        replace(allowed.options, geometry=robot.geometry),
         permitted=allowed.permitted,
         path=path,
         packages={name: str(place) for name, place in robot.packages.items()},
     )
-    model = read_in_child(file, _MODEL, Model, robot.children, allowed)
-    return robot_of_model(path, model, robot.geometry, hulls=bool(allowed.options.mesh_hulls))
+    answer = read_in_child(file, _MODEL, Answer, robot.children, allowed)
+    return answer.robot, answer.issues

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.plugins.mjcf.messages import Model
+from satcheck.plugins.mjcf.asking import Answer
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.errors import Refused
 from satcheck.scene.input_kind import is_robot
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from satcheck.plugins.mjcf.compiling import Compiled
 
 
-def model(file: File) -> Model:
+def model(file: File) -> Answer:
     """Return what MuJoCo makes of a file. Raises SatcheckError."""
     read = _compiled(file)
-    from satcheck.plugins.mjcf.contents import model_of
+    from satcheck.plugins.mjcf.reading import robot_of
 
-    return model_of(read)
+    return robot_of(read, file.path, file.options)
 
 
 def own_meshes(file: File) -> RawScene:
@@ -32,7 +32,7 @@ def own_meshes(file: File) -> RawScene:
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"
         raise Refused("unsupported-format", message)
     read = _compiled(replace(file, path=str(file.location)))
-    from satcheck.plugins.mjcf.contents import own_meshes_of
+    from satcheck.plugins.mjcf.compiling import own_meshes_of
 
     return own_meshes_of(read)
 
