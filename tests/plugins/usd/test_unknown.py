@@ -427,7 +427,7 @@ def test_an_override_below_an_instance_is_named(tmp_path: Path, below: str) -> N
     text = f'def Xform "A" (\ninherits = </Kit>\ninstanceable = true\n) {{\n{below}\n}}\n'
     scene = load(tmp_path, stage(kit, text))
     assert not unread(scene)
-    assert "/A/" in said(scene)["left-out"]
+    assert "/A: an override of" in said(scene)["left-out"]
     assert "below an instance" in said(scene)["left-out"]
 
 
