@@ -49,6 +49,7 @@ class Exemptions:
         self._apart = [(a, b) for a, b in pairs if not a.meets(b)]
         self._told_apart = {mask for pair in self._apart for mask in pair}
         self._pairs = list(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True))
+        self._paired = {geom for pair in self._pairs for geom in pair}
 
     def groups(self, body: int | None, mask: Mask, geom: int | None = None) -> tuple[str, ...]:
         """Of a geom. body, geom: numbers. body: None for a flex, which moves on its own."""
@@ -61,7 +62,7 @@ class Exemptions:
                 groups.append(self._weld(weld))
         if mask in self._told_apart:
             groups.append(str(mask))
-        if geom is not None and any(geom in pair for pair in self._pairs):
+        if geom is not None and geom in self._paired:
             groups.append(self._geom(geom))
         return tuple(groups)
 

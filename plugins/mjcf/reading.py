@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
-from satcheck.plugins.mjcf.asking import Answer
+from satcheck.plugins.mjcf.child import Answer
 from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, pose_of
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
