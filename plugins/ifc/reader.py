@@ -53,7 +53,7 @@ def read_ifc(file: File) -> RawScene:
     return RawScene(
         parts,
         tuple(nodes),
-        remarks_on(model, elements, shapes, file.options),
+        tuple(remarks_on(model, elements, shapes, file.options)),
         UNITS,
         relations.rules,
     )
@@ -88,12 +88,8 @@ def remarks_on(
     elements: Elements,
     shapes: Mapping[int, Shape | Refusal],
     options: ReadOptions,
-) -> tuple[tuple[str, str], ...]:
+) -> Iterator[tuple[str, str]]:
     """(code, message) of each. shapes: of the bodies."""
-    return (*_remarks(model, elements), *_facets(shapes, options))
-
-
-def _remarks(model: Any, elements: Elements) -> Iterator[tuple[str, str]]:
     left_out = [*_counts(elements.left_out), *_wholes(elements)]
     if left_out:
         yield "left-out", f"no bodies: {', '.join(left_out)}"
@@ -102,11 +98,6 @@ def _remarks(model: Any, elements: Elements) -> Iterator[tuple[str, str]]:
         yield "no-shape", f"{len(names)} elements without a shape are not checked: {listed(names)}"
     if instances_of(model, "IfcMapConversion"):
         yield "left-out", "IfcMapConversion is not applied: coordinates are those of the project"
-
-
-def _facets(
-    shapes: Mapping[int, Shape | Refusal], options: ReadOptions
-) -> Iterator[tuple[str, str]]:
     count = sum(isinstance(shape, Shape) and shape.tolerance > 0 for shape in shapes.values())
     if count:
         yield (

@@ -1,38 +1,74 @@
-"""What the child process does with MJCF files, if MuJoCo is installed."""
+"""Asks the child process in which MuJoCo reads MJCF files, and what it does there."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.plugins.mjcf.messages import Model
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.errors import Refused
 from satcheck.scene.input_kind import is_robot
+from satcheck.scene.issue import Issue
 from satcheck.scene.loading.extras import imported
 from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.loading.readers import File
+from satcheck.scene.loading.readers import File, RobotFile
+from satcheck.scene.loading.reading_children import read_in_child
+from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.robot.model import Robot
 
 if TYPE_CHECKING:
     from satcheck.plugins.mjcf.compiling import Compiled
 
+_MODEL = "satcheck.plugins.mjcf.child:model"
 
-def model(file: File) -> Model:
-    """Return what MuJoCo makes of a file. Raises SatcheckError."""
+
+class Answer(Struct, frozen=True, tag=True):
+    """What the child process makes of a file."""
+
+    robot: Robot
+    issues: tuple[Issue, ...]
+
+
+def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+    """Return the robot of a file, in its pose qpos0, and issues. Raises Refused."""
+    path, allowed = root.file, robot.allowed
+    location = Path(path)
+    if location.suffix.lower() != ENDING:
+        message = f"MuJoCo reads files that end in {ENDING}: rename it"
+        raise Refused("unsupported-format", message, file=path)
+    file = File(
+        "mjcf",
+        str(location.parent),
+        location.name,
+        b"",
+        0,
+        replace(allowed.options, geometry=robot.geometry),
+        permitted=allowed.permitted,
+        path=path,
+        packages={name: str(place) for name, place in robot.packages.items()},
+    )
+    answer = read_in_child(file, _MODEL, Answer, robot.children, allowed)
+    return answer.robot, answer.issues
+
+
+def model(file: File) -> Answer:
+    """Return what MuJoCo makes of a file, in the child process. Raises SatcheckError."""
     read = _compiled(file)
-    from satcheck.plugins.mjcf.contents import model_of
+    from satcheck.plugins.mjcf.reading import robot_of
 
-    return model_of(read)
+    return robot_of(read, file.path, file.options)
 
 
 def own_meshes(file: File) -> RawScene:
-    """Return the meshes that only MuJoCo reads. Raises SatcheckError."""
+    """Return the meshes that only MuJoCo reads, in the child process. Raises SatcheckError."""
     if not is_robot(file.location):
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"
         raise Refused("unsupported-format", message)
     read = _compiled(replace(file, path=str(file.location)))
-    from satcheck.plugins.mjcf.contents import own_meshes_of
+    from satcheck.plugins.mjcf.compiling import own_meshes_of
 
     return own_meshes_of(read)
 

@@ -6,6 +6,7 @@ formats that satcheck reads: a box stands for each.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -14,11 +15,14 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from satcheck.core.transform import Transform
 from satcheck.plugins.mjcf.files import ModelFiles
-from satcheck.plugins.mjcf.messages import FileMesh, Key, Place
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.readers import File
+from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.robot.kinematics import from_quaternion, inverse
+from satcheck.scene.robot.model import MeshReference
 from satcheck.scene.robot.packages import FilePlaces
 
 # Else MuJoCo writes its warnings into a file of the working directory.
@@ -35,13 +39,22 @@ _NOT_READ = {
 }
 
 
+class Key(NamedTuple):
+    """A named keyframe. mpos, mquat: of the mocap bodies; (): as in the file."""
+
+    name: str
+    qpos: tuple[float, ...]
+    mpos: tuple[float, ...] = ()
+    mquat: tuple[float, ...] = ()
+
+
 class Compiled(NamedTuple):
     """file_meshes, refused: the meshes that satcheck reads, and those that nobody does, by name.
     of_geom: why a geom is not read, by its number. solved: what equality constraints connect."""
 
     model: Any
     name: str
-    file_meshes: dict[str, FileMesh]
+    file_meshes: dict[str, MeshReference]
     refused: dict[str, Refusal]
     of_geom: dict[int, Refusal]
     lines: dict[int, int]
@@ -139,10 +152,10 @@ def _replace_geoms(spec: Any) -> dict[int, Refusal]:
 
 def _replace_meshes(
     spec: Any, path: str, places: FilePlaces, models: list[str]
-) -> tuple[dict[str, FileMesh], dict[str, Refusal]]:
+) -> tuple[dict[str, MeshReference], dict[str, Refusal]]:
     """Puts a box in the place of each mesh that MuJoCo need not read, or cannot."""
     fitted = _fitted(spec)
-    files: dict[str, FileMesh] = {}
+    files: dict[str, MeshReference] = {}
     refused: dict[str, Refusal] = {}
     for mesh in spec.meshes:
         if not mesh.file:
@@ -151,8 +164,8 @@ def _replace_meshes(
         if isinstance(place, Path) and not _has_faces(place):
             continue
         if Path(uri).suffix.lower() in _READ_BY_SATCHECK:  # who also reports what is wrong with it
-            turn = Place(_numbers(mesh.refpos), _numbers(mesh.refquat))
-            files[mesh.name] = FileMesh(uri, _numbers(mesh.scale), turn)
+            start = inverse(pose_of(mesh.refpos, mesh.refquat))
+            files[mesh.name] = MeshReference(uri, numbers(mesh.scale), start)
             if mesh.name in fitted and isinstance(place, Path):
                 continue
         if isinstance(place, Refusal):
@@ -206,5 +219,41 @@ def _line(info: str) -> int:
     return int(words[1]) if len(words) > 1 and words[0] == "line" and words[1].isdigit() else 0
 
 
-def _numbers(values: Any) -> Any:
-    return tuple(map(float, values))
+def numbers(values: Any) -> Any:
+    """As floats. Raises Refused if one is not finite."""
+    vector = tuple(map(float, values))
+    if not all(map(math.isfinite, vector)):
+        raise Refused("non-finite", "a number of the file is not finite")
+    return vector
+
+
+def pose_of(at: Any, turn: Any) -> Transform:
+    """turn: a unit quaternion (w, x, y, z), as in MuJoCo."""
+    w, x, y, z = numbers(turn)
+    return from_quaternion(numbers(at), (x, y, z, w))
+
+
+def own_meshes_of(read: Compiled) -> RawScene:
+    """Return the meshes that only MuJoCo reads, in the coordinates of the compiled model. Raises
+    Refused."""
+    m = read.model
+    parts: list[RawPart] = []
+    nodes: list[RawNode] = []
+    for k in range(m.nmesh):
+        name = m.mesh(k).name
+        if name in read.refused or name in read.file_meshes:
+            continue
+        vertices = m.mesh_vert[m.mesh_vertadr[k] :][: m.mesh_vertnum[k]].astype("<f8")
+        faces = m.mesh_face[m.mesh_faceadr[k] :][: m.mesh_facenum[k]].astype("<u4")
+        mesh = RawMesh(vertices.tobytes(), faces.tobytes(), "float32", units="m")
+        nodes.append(RawNode(part_name(m, k), len(parts)))
+        parts.append(RawPart(part_name(m, k), mesh))
+    if not parts:
+        raise Refused("unknown-part", "it has no mesh of its own")
+    return RawScene(tuple(parts), tuple(nodes))
+
+
+def part_name(model: Any, mesh: int) -> str:
+    """Without the mark of components. Names of meshes are unique, and so are these."""
+    name = model.mesh(mesh).name
+    return f"mesh{mesh}" if COMPONENT_MARK in name else name

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations_with_replacement, product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from satcheck.plugins.mjcf.messages import Body, Model
+import mujoco
+
 from satcheck.scene.robot.model import Exempt, Exemption
 
 _WORLD = 0
@@ -33,40 +34,51 @@ class Mask(NamedTuple):
 
 
 class Exemptions:
-    """masks: of all geoms that become bodies; empty: they do not count."""
+    """bodies, geoms: names. masks: of all geoms that become bodies; empty: they do not count."""
 
-    def __init__(self, model: Model, masks: Sequence[Mask]) -> None:
-        self._model = model
-        bodies = model.bodies
+    def __init__(
+        self, m: Any, bodies: Sequence[str], geoms: Sequence[str], masks: Sequence[Mask]
+    ) -> None:
+        self._model = m
+        self._bodies = bodies
+        self._geoms = geoms
         self._welded: dict[int, list[str]] = {}
-        for body in bodies:
-            self._welded.setdefault(body.weld, []).append(body.name)
+        for weld, body in zip(m.body_weldid.tolist(), bodies, strict=True):
+            self._welded.setdefault(weld, []).append(body)
         pairs = combinations_with_replacement(sorted({*masks}), 2)
         self._apart = [(a, b) for a, b in pairs if not a.meets(b)]
-        self._told_apart = {str(mask) for pair in self._apart for mask in pair}
-        self._paired = {geom for pair in model.pairs for geom in pair}
+        self._told_apart = {mask for pair in self._apart for mask in pair}
+        self._pairs = list(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True))
+        self._paired = {geom for pair in self._pairs for geom in pair}
 
-    def groups(self, body: Body | None, mask: Mask, geom: int | None = None) -> tuple[str, ...]:
-        """Of a geom. body: None for a flex, which moves on its own. geom: its number."""
+    def groups(self, body: int | None, mask: Mask, geom: int | None = None) -> tuple[str, ...]:
+        """Of a geom. body, geom: numbers. body: None for a flex, which moves on its own."""
         groups = []
-        if body is not None and body.static:
-            groups.append(_STATIC)
-        elif body is not None and len(self._welded[body.weld]) > 1:
-            groups.append(self._weld(body.weld))
-        if str(mask) in self._told_apart:
+        if body is not None:
+            weld = int(self._model.body_weldid[body])
+            if self._is_static(body):
+                groups.append(_STATIC)
+            elif len(self._welded[weld]) > 1:
+                groups.append(self._weld(weld))
+        if mask in self._told_apart:
             groups.append(str(mask))
-        if geom in self._paired:
+        if geom is not None and geom in self._paired:
             groups.append(self._geom(geom))
         return tuple(groups)
 
     def exempt(self) -> Exempt:
         groups = [*self._by_weld(), *self._by_masks()]
-        return Exempt((*self._by_parent(), *self._excluded()), tuple(groups), tuple(self._pairs()))
+        checked = (Exemption(self._geom(a), self._geom(b), "MJCF: pair") for a, b in self._pairs)
+        return Exempt((*self._by_parent(), *self._excluded()), tuple(groups), tuple(checked))
+
+    def _is_static(self, body: int) -> bool:
+        """Whether no joint moves it; a mocap body is static."""
+        return bool(self._model.body_treeid[body] < 0)
 
     def _by_weld(self) -> Iterator[Exemption]:
         yield Exemption(_STATIC, _STATIC, "MJCF: both static")
         for weld, names in self._welded.items():
-            if len(names) > 1 and not self._model.bodies[weld].static:
+            if len(names) > 1 and not self._is_static(weld):
                 group = self._weld(weld)
                 yield Exemption(group, group, "MJCF: welded together, no joint between")
 
@@ -76,25 +88,22 @@ class Exemptions:
 
     def _by_parent(self) -> Iterator[Exemption]:
         """Welded bodies count as one; no body is exempt from those that are welded to the world."""
-        if not self._model.parents_pass:
+        m = self._model
+        if m.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT:
             return
-        bodies = self._model.bodies
         for weld, names in self._welded.items():
-            above = bodies[bodies[weld].parent].weld
+            above = int(m.body_weldid[m.body_parentid[weld]])
             if weld != _WORLD and above != _WORLD:
                 for a, b in product(self._welded[above], names):
                     yield Exemption(a, b, "MJCF: parent and child")
 
     def _excluded(self) -> Iterator[Exemption]:
-        for a, b in self._model.excludes:
-            yield Exemption(self._model.bodies[a].name, self._model.bodies[b].name, "MJCF: exclude")
-
-    def _pairs(self) -> Iterator[Exemption]:
-        for a, b in self._model.pairs:
-            yield Exemption(self._geom(a), self._geom(b), "MJCF: pair")
+        for signature in self._model.exclude_signature.tolist():
+            a, b = signature >> 16, signature & 0xFFFF
+            yield Exemption(self._bodies[a], self._bodies[b], "MJCF: exclude")
 
     def _weld(self, weld: int) -> str:
-        return f"welded to {self._model.bodies[weld].name}"
+        return f"welded to {self._bodies[weld]}"
 
-    def _geom(self, number: int | None) -> str:
-        return f"geom {self._model.geoms[number or 0].name}"
+    def _geom(self, number: int) -> str:
+        return f"geom {self._geoms[number]}"

@@ -4,92 +4,87 @@ to its parent. Bodies without geometry stand between the joints of one body."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
 
 from satcheck.core.transform import Transform, compose, placed
-from satcheck.plugins.mjcf import messages
+from satcheck.plugins.mjcf.compiling import Key, numbers
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.robot.kinematics import from_quaternion
-from satcheck.scene.robot.model import Joint, JointKind, Limits, Link
+from satcheck.scene.robot.model import FREEDOMS, Joint, JointKind, Limits, Link
 
 _UNTURNED = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_KINDS: tuple[JointKind, ...] = ("free", "ball", "prismatic", "revolute")  # as MuJoCo numbers them
 
 
-def pose_of(place: messages.Place) -> Transform:
-    w, x, y, z = place.turn
-    return from_quaternion(place.at, (x, y, z, w))
-
-
-def rest_poses(bodies: Sequence[messages.Body]) -> list[Transform]:
-    """World pose of each body at qpos0."""
+def rest_poses(m: Any, places: Sequence[Transform]) -> list[Transform]:
+    """World pose of each body at qpos0. places: in their parents."""
     poses = [IDENTITY]
-    for body in bodies[1:]:
-        poses.append(compose(poses[body.parent], pose_of(body.place)))
+    for parent, place in zip(m.body_parentid[1:], places[1:], strict=True):
+        poses.append(compose(poses[parent], place))
     return poses
 
 
-def joints_of(model: messages.Model) -> tuple[list[Joint], list[Link]]:
-    """The joints, each after that of its parent, and the links between joints of one body."""
-    of_body: dict[int, list[messages.Joint]] = {}
-    for joint in model.joints:
-        of_body.setdefault(joint.body, []).append(joint)
+def joints_of(
+    m: Any, bodies: Sequence[str], names: Sequence[str], places: Sequence[Transform]
+) -> tuple[list[Joint], list[Link]]:
+    """The joints, each after that of its parent, and the links between joints of one body.
+    names: of the joints."""
     joints: list[Joint] = []
     between: list[Link] = []
     taken = UniqueNames()
-    for name in {body.name for body in model.bodies} | {joint.name for joint in model.joints}:
+    for name in {*bodies, *names}:
         taken.unique(name)
-    for number, body in enumerate(model.bodies[1:], 1):
-        parent = model.bodies[body.parent].name
-        own = of_body.get(number, [])
+    for number, body in enumerate(bodies[1:], 1):
+        parent, start = bodies[m.body_parentid[number]], places[number]
+        own = np.flatnonzero(m.jnt_bodyid == number).tolist()
         if not own:
-            joints.append(_fixed(body.name, parent, pose_of(body.place), taken))
-        for k, joint in enumerate(own, 1):
-            child = body.name
-            if k < len(own):
-                child = taken.unique(f"{body.name} after {joint.name}")
+            name = taken.unique(f"{body} in {parent}")
+            axis = (1.0, 0.0, 0.0)
+            joints.append(Joint(name, "fixed", parent, body, start, axis, None, None))
+        for k in own:
+            child = body
+            if k != own[-1]:
+                child = taken.unique(f"{body} after {names[k]}")
                 between.append(Link(child, (), unused=False))
-            start = pose_of(body.place) if k == 1 else IDENTITY
-            joints.append(_joint(joint, parent, child, start))
-            parent = child
+            joints.append(_joint(m, k, names[k], parent, child, start))
+            parent, start = child, IDENTITY
     return joints, between
 
 
-def _fixed(body: str, parent: str, origin: Transform, taken: UniqueNames) -> Joint:
-    name = taken.unique(f"{body} in {parent}")
-    return Joint(name, "fixed", parent, body, origin, (1.0, 0.0, 0.0), None, None)
-
-
-def _joint(joint: messages.Joint, parent: str, child: str, start: Transform) -> Joint:
+def _joint(m: Any, k: int, name: str, parent: str, child: str, start: Transform) -> Joint:
     """start: the pose of the body before the joint moves it, in the frame of the parent."""
-    kinds: dict[str, JointKind] = {
-        "hinge": "revolute" if joint.limits else "continuous",
-        "slide": "prismatic",
-        "ball": "ball",
-        "free": "free",
-    }
-    x, y, z = joint.at
+    kind = _KINDS[m.jnt_type[k]]
+    limits = None
+    if m.jnt_limited[k] and kind in ("revolute", "prismatic"):
+        limits = Limits(*numbers(m.jnt_range[k]))
     # The values of a free joint are the pose in the world.
-    origin = IDENTITY if joint.kind == "free" else compose(start, placed(_UNTURNED, (x, y, z)))
-    back = IDENTITY if joint.kind == "free" else placed(_UNTURNED, (-x, -y, -z))
+    x, y, z = numbers(m.jnt_pos[k])
+    origin = IDENTITY if kind == "free" else compose(start, placed(_UNTURNED, (x, y, z)))
+    back = IDENTITY if kind == "free" else placed(_UNTURNED, (-x, -y, -z))
     return Joint(
-        name=joint.name,
-        kind=kinds[joint.kind],
+        name=name,
+        kind="continuous" if kind == "revolute" and limits is None else kind,
         parent=parent,
         child=child,
         origin=origin,
-        axis=joint.axis,
-        limits=Limits(*joint.limits) if joint.limits else None,
+        axis=numbers(m.jnt_axis[k]),
+        limits=limits,
         mimic=None,
         child_origin=back,
         stands_at_zero=True,
-        reference=joint.rest,
+        reference=numbers(_values(m.qpos0, m, k)),
     )
 
 
-def values_of(
-    key: messages.Key, joints: Sequence[messages.Joint]
-) -> Iterator[tuple[str, tuple[float, ...]]]:
+def _values(qpos: Any, m: Any, k: int) -> Any:
+    """Those of a joint."""
+    first = m.jnt_qposadr[k]
+    return qpos[first : first + FREEDOMS.get(_KINDS[m.jnt_type[k]], 1)]
+
+
+def values_of(key: Key, m: Any, names: Sequence[str]) -> Iterator[tuple[str, tuple[float, ...]]]:
     """The values of the joints in a keyframe; one without values stands for qpos0."""
-    for joint in joints:
-        values = key.qpos[joint.first : joint.first + len(joint.rest)]
-        yield joint.name, values or joint.rest
+    for k, name in enumerate(names):
+        yield name, numbers(_values(key.qpos or m.qpos0, m, k))

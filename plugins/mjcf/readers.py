@@ -8,7 +8,7 @@ ENDING = ".xml"
 
 READERS = (
     RobotReader(
-        "mjcf", "MJCF", (ENDING,), ("mujoco",), "satcheck.plugins.mjcf.asking:read_mjcf", marks=()
+        "mjcf", "MJCF", (ENDING,), ("mujoco",), "satcheck.plugins.mjcf.child:read_mjcf", marks=()
     ),
     Reader(
         "mjcf",

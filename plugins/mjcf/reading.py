@@ -1,143 +1,228 @@
-"""Makes the robot of a compiled MJCF file.
+"""Makes a robot of a compiled MJCF file. Runs in a child process.
 
-MuJoCo refuses a file that is wrong. Geometry that satcheck does not check is an unreadable body.
+MuJoCo itself parses the file and refuses what is wrong. Geometry that satcheck does not check is an
+unreadable body.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import mujoco
+import numpy as np
+from msgspec.structs import replace
+
+from satcheck.core.conventions import Vector
+from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
+from satcheck.plugins.mjcf.child import Answer
+from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, pose_of
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
-from satcheck.plugins.mjcf.joints import joints_of, pose_of, rest_poses, values_of
-from satcheck.plugins.mjcf.messages import FileMesh, Flex, Geom, Model, OwnMesh
+from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.raw_mesh import Refusal
-from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import (
-    Collision,
-    Geometry,
-    Link,
-    MeshReference,
-    Robot,
-    State,
-)
+from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.robot.model import Collision, Geometry, Link, MeshReference, Robot, State
 
+_GEOM = mujoco.mjtGeom
 _FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
-def robot_of_model(
-    path: str, model: Model, geometry: GeometryKind = "collision", *, hulls: bool = False
-) -> tuple[Robot, tuple[Issue, ...]]:
-    """The robot, and issues.
+def robot_of(read: Compiled, path: str, options: ReadOptions) -> Answer:
+    """The robot, and issues. Raises Refused if a number is not finite.
 
-    path: of the file. geometry: "collision": geoms whose contype or conaffinity is not 0, or that a
-    <pair> names; "visual": the others. hulls: their meshes are convex hulls.
+    path: of the file. options: geometry: "collision": geoms whose contype or conaffinity is not 0,
+    or that a <pair> names; "visual": the others.
     """
-    return _Reader(path, model, geometry, hulls=hulls).read()
+    reader = _Reader(read, path, options)
+    return Answer(reader.robot(), tuple(reader.issues()))
 
 
 class _Reader:
-    def __init__(self, path: str, model: Model, geometry: GeometryKind, *, hulls: bool) -> None:
+    def __init__(self, read: Compiled, path: str, options: ReadOptions) -> None:
+        m = self._model = read.model
+        self._read = read
         self._path = path
-        self._model = model
-        self._geometry = geometry
-        self._hulls = hulls and geometry == "collision"
-        self._paired = {geom for pair in model.pairs for geom in pair}
+        self._geometry = options.geometry or "collision"
+        is_solid = self._geometry == "collision"
+        self._hulls = bool(options.mesh_hulls) and is_solid
+        self._bodies = self._names("body", m.nbody)
+        self._geoms = self._names("geom", m.ngeom)
+        self._joints = self._names("joint", m.njnt)
+        self._masks = list(map(Mask, m.geom_contype.tolist(), m.geom_conaffinity.tolist()))
+        paired = {*m.pair_geom1.tolist(), *m.pair_geom2.tolist()}
         self._checked = [
-            (number, geom)
-            for number, geom in enumerate(model.geoms)
-            if self._is_solid(number, geom) == (geometry == "collision")
+            k for k, mask in enumerate(self._masks) if (mask.collides or k in paired) == is_solid
         ]
-        self._flexes = [
-            flex for flex in model.flexes if geometry == "visual" or _mask(flex).collides
-        ]
-        solid: list[Geom | Flex] = [*(geom for _, geom in self._checked), *self._flexes]
-        masks = [_mask(one) for one in solid] if geometry == "collision" else []
-        self._exemptions = Exemptions(model, masks)
+        flexes = map(Mask, m.flex_contype.tolist(), m.flex_conaffinity.tolist())
+        named = zip(self._names("flex", m.nflex), flexes, strict=True)
+        self._flexes = [(name, mask) for name, mask in named if mask.collides or not is_solid]
+        solid = [*(self._masks[k] for k in self._checked), *(mask for _, mask in self._flexes)]
+        masks = solid if is_solid else []
+        self._exemptions = Exemptions(m, self._bodies, self._geoms, masks)
 
-    def read(self) -> tuple[Robot, tuple[Issue, ...]]:
-        model = self._model
-        joints, between = joints_of(model)
-        links = [*self._links(), *between, *self._flex_links()]
+    def _names(self, kind: str, count: int) -> list[str]:
+        """As in MuJoCo, with the number for a name that is missing."""
+        names, of_kind = UniqueNames(), getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
+        given = [mujoco.mj_id2name(self._model, of_kind, k) for k in range(count)]
+        return [names.unique(name or f"{kind}{k}") for k, name in enumerate(given)]
+
+    def robot(self) -> Robot:
+        m = self._model
+        places = [pose_of(m.body_pos[k], m.body_quat[k]) for k in range(m.nbody)]
+        joints, between = joints_of(m, self._bodies, self._joints, places)
+        flexes = list(self._flex_links())
+        links = [*self._links(rest_poses(m, places)), *between, *flexes]
         states = tuple(
-            State("", key.name, dict(values_of(key, model.joints)), self._path, {})
-            for key in model.keys
+            State("", key.name, dict(values_of(key, m, self._joints)), self._path, {})
+            for key in self._read.keys
+            if self._no_state(key) is None
         )
-        roots = {link.name: IDENTITY for link in (links[0], *self._flex_links())}
-        robot = Robot(
-            name=model.name or Path(self._path).stem,
+        return Robot(
+            name=self._read.name or Path(self._path).stem,
             file=self._path,
-            roots=roots,
+            roots={link.name: IDENTITY for link in (links[0], *flexes)},
             links={link.name: link for link in links},
             joints=tuple(joints),
             exempt=self._exemptions.exempt(),
             geometry=self._geometry,
             states=states,
         )
-        return robot, tuple(self._issues())
 
-    def _is_solid(self, number: int, geom: Geom) -> bool:
-        return _mask(geom).collides or number in self._paired
-
-    def _links(self) -> Iterator[Link]:
-        rest = rest_poses(self._model.bodies)
+    def _links(self, rest: list[Any]) -> Iterator[Link]:
+        m = self._model
         of_body: dict[int, list[Collision]] = {}
-        for number, geom in self._checked:
-            of_body.setdefault(geom.body, []).append(self._collision(number, geom))
-        checked = {number for number, _ in self._checked}
-        others = {g.body for k, g in enumerate(self._model.geoms) if k not in checked}
-        for number, body in enumerate(self._model.bodies):
+        for k in self._checked:
+            of_body.setdefault(int(m.geom_bodyid[k]), []).append(self._collision(k))
+        checked = set(self._checked)
+        others = {body for k, body in enumerate(m.geom_bodyid.tolist()) if k not in checked}
+        for number, name in enumerate(self._bodies):
             yield Link(
-                name=body.name,
+                name=name,
                 collisions=tuple(of_body.get(number, ())),
                 unused=number in others,
-                static=body.static,
+                static=bool(m.body_treeid[number] < 0),
                 rest=rest[number],
             )
 
-    def _flex_links(self) -> list[Link]:
-        links = []
-        for flex in self._flexes:
-            groups = self._exemptions.groups(None, _mask(flex))
+    def _flex_links(self) -> Iterator[Link]:
+        for name, mask in self._flexes:
+            groups = self._exemptions.groups(None, mask)
             lost = Collision(None, IDENTITY, _FLEX, 0, groups=groups)
-            links.append(Link(f"flex {flex.name}", (lost,), unused=False))
-        return links
+            yield Link(f"flex {name}", (lost,), unused=False)
 
-    def _collision(self, number: int, geom: Geom) -> Collision:
-        body = self._model.bodies[geom.body]
+    def _collision(self, k: int) -> Collision:
+        m = self._model
+        at, turn = m.geom_pos[k], m.geom_quat[k]
+        shape = self._shape(k)
+        if isinstance(shape, MeshReference) and shape.part is None:
+            at, turn = _uncentred(at, turn, m, m.geom_dataid[k])
         return Collision(
-            name=geom.name,
-            origin=pose_of(geom.place),
-            geometry=self._shape(geom),
-            line=geom.line,
-            groups=self._exemptions.groups(body, _mask(geom), number),
+            name=self._geoms[k],
+            origin=pose_of(at, turn),
+            geometry=shape,
+            line=self._read.lines.get(k, 0),
+            groups=self._exemptions.groups(int(m.geom_bodyid[k]), self._masks[k], k),
         )
 
-    def _shape(self, geom: Geom) -> Geometry:
-        match geom.shape:
-            case OwnMesh(part):
-                own = Path(self._path).name
-                return MeshReference(own, (1.0, 1.0, 1.0), part=part, hull=self._hulls)
-            case FileMesh(file, scale, place):
-                start = inverse(pose_of(place))
-                return MeshReference(file, scale, start=start, hull=self._hulls)
-        return geom.shape
+    def _shape(self, k: int) -> Geometry:
+        m, read = self._model, self._read
+        if k in read.of_geom:
+            return read.of_geom[k]
+        kind = m.geom_type[k]
+        if kind == _GEOM.mjGEOM_PLANE:
+            return HalfSpace()
+        if kind != _GEOM.mjGEOM_MESH:
+            try:
+                return _primitive(kind, numbers(m.geom_size[k]))
+            except ValueError as error:
+                return Refusal("bad-robot", str(error))
+        mesh = m.geom_dataid[k]
+        name = m.mesh(mesh).name
+        if name in read.file_meshes:
+            file = read.file_meshes[name]
+            if 0.0 in file.scale:
+                return Refusal("singular-transform", "scale 0 flattens the mesh")
+            return replace(file, hull=self._hulls)
+        if name in read.refused:
+            return read.refused[name]
+        own = Path(self._path).name
+        return MeshReference(own, (1.0, 1.0, 1.0), part=part_name(m, mesh), hull=self._hulls)
 
-    def _issues(self) -> Iterator[Issue]:
-        meshes = any(isinstance(geom.shape, FileMesh | OwnMesh) for _, geom in self._checked)
-        if meshes and self._geometry == "collision":
-            yield issue("mesh-or-hull", self._which_is_checked(), file=self._path)
-        for code, message in self._model.notes:
+    def issues(self) -> Iterator[Issue]:
+        for code, message in self._notes():
             yield issue(code, message, file=self._path)
+
+    def _notes(self) -> Iterator[tuple[str, str]]:
+        shapes = map(self._shape, self._checked)
+        if self._geometry == "collision" and any(isinstance(s, MeshReference) for s in shapes):
+            yield "mesh-or-hull", self._which_is_checked()
+        unsolved = "not solved: joints stand where the pose says"
+        if count := self._read.constraints:
+            what = "constraint is" if count == 1 else "constraints are"
+            yield "constraint-not-solved", f"{count} equality {what} {unsolved}"
+        if self._has_spring():
+            yield "constraint-not-solved", f"springs that rest elsewhere are {unsolved}"
+        reasons = {key.name: self._no_state(key) for key in self._read.keys}
+        for reason in dict.fromkeys(filter(None, reasons.values())):
+            names = ", ".join(name for name, each in reasons.items() if each == reason)
+            yield "keyframe-not-read", f"keyframes are no states, because {reason}: {names}"
 
     def _which_is_checked(self) -> str:
         if self._hulls:
             return "the convex hulls of meshes are checked, as in MuJoCo, not their triangles"
         return "the triangles of meshes are checked; MuJoCo uses their convex hulls (--mesh-hulls)"
 
+    def _has_spring(self) -> bool:
+        """Whether a spring of a joint or tendon pulls bodies out of qpos0."""
+        m = self._model
+        starts = m.jnt_qposadr[(m.jnt_stiffness > 0) & (m.jnt_type >= 2)]  # of slides and hinges
+        bent = m.qpos_spring[starts] != m.qpos0[starts]
+        low, high = m.tendon_lengthspring.T
+        slack = (m.tendon_length0 < low) | (m.tendon_length0 > high)
+        return bool(bent.any() or slack[m.tendon_stiffness > 0].any())
 
-def _mask(one: Geom | Flex) -> Mask:
-    return Mask(one.contype, one.conaffinity)
+    def _no_state(self, key: Key) -> str | None:
+        """Why a keyframe is no state; None: it is one."""
+        m = self._model
+        if self._read.aligned:
+            return "alignfree moves the frames of their values"
+        if len(key.qpos) not in (0, m.nq) or not all(map(math.isfinite, key.qpos)):
+            return "a joint has no value"
+        bodies = [int(np.flatnonzero(m.body_mocapid == k)[0]) for k in range(m.nmocap)]
+        stored = ((key.mpos, m.body_pos[bodies]), (key.mquat, m.body_quat[bodies]))
+        moves = any(given and list(given) != own.ravel().tolist() for given, own in stored)
+        return "they place mocap bodies" if moves else None
+
+
+def _primitive(kind: int, size: Vector) -> Primitive:
+    """MuJoCo states half sizes."""
+    a, b, c = size
+    match kind:
+        case _GEOM.mjGEOM_SPHERE:
+            return Sphere(a)
+        case _GEOM.mjGEOM_CAPSULE:
+            return Capsule(a, 2 * b) if b > 0 else Sphere(a)
+        case _GEOM.mjGEOM_CYLINDER:
+            return Cylinder(a, 2 * b)
+        case _GEOM.mjGEOM_ELLIPSOID:
+            return Ellipsoid((a, b, c))
+        case _GEOM.mjGEOM_BOX:
+            return Box((2 * a, 2 * b, 2 * c))
+    raise ValueError(f"a geom of type {kind} is not read")
+
+
+def _uncentred(at: Any, turn: Any, m: Any, mesh: int) -> tuple[Any, Any]:
+    """The place of the coordinates of a mesh, which MuJoCo has moved by the centre and turned."""
+    centre, turned = m.mesh_pos[mesh], m.mesh_quat[mesh]
+    if not centre.any() and turned.tolist() == [1, 0, 0, 0]:
+        return at, turn
+    back = np.zeros(3), np.zeros(4)
+    mujoco.mju_negPose(*back, centre, turned)
+    placed = np.zeros(3), np.zeros(4)
+    mujoco.mju_mulPose(*placed, at, turn, *back)
+    return placed

@@ -40,19 +40,6 @@ class Around(NamedTuple):
     files: tuple[str, ...] = ()
 
 
-class Given(NamedTuple):
-    """What an <include> says about the model that it names."""
-
-    name: str | None = None
-    pose: Element | None = None
-    static: Element | None = None
-    placement: str | None = None
-    merge: bool = False
-
-
-_OWN = Given()  # the model stands in the file itself
-
-
 class LinkEntry(NamedTuple):
     """refusal: why there is no such link; the body stands for what is not read."""
 
@@ -110,20 +97,28 @@ class Contents:
             if child.tag in self._readers:
                 self._readers[child.tag](child, around)
 
-    def _model(self, element: Element, around: Around, given: Given = _OWN) -> None:
+    def _model(self, element: Element, around: Around, include: Element | None = None) -> None:
+        """include: names the model, and says more about it."""
         if around.depth >= MOST_NESTED:
             element.refuse(f"more than {MOST_NESTED} models in each other", "too-large")
         self._slips.look(element, places.MODEL)
-        name = given.name or element.attribute("name")
-        path = around.scope.path(_MERGED.format(name) if given.merge else name)
-        scope = Scope(around.scope.prefix if given.merge else path, path)
-        placement = given.placement or element.attributes.get("placement_frame")
+
+        def stated(tag: str) -> Element | None:
+            return include.only(tag) if include else None
+
+        named, frame = stated("name"), stated("placement_frame")
+        name = (named and named.text) or element.attribute("name")
+        merge = include is not None and flag(include, "merge")
+        path = around.scope.path(_MERGED.format(name) if merge else name)
+        scope = Scope(around.scope.prefix if merge else path, path)
+        placement = frame.text if frame else element.attributes.get("placement_frame")
         place = None if not placement else Name(scope, placement, element)
-        self._declare(path, element, given.pose or element.only("pose"), around.scope, place=place)
+        pose = stated("pose") or element.only("pose")
+        self._declare(path, element, pose, around.scope, place=place)
         first = element.attributes.get("canonical_link")
         self.models[path] = Name(scope, first, element) if first else None
-        static = given.static or element.only("static")
-        if given.merge and not around.scope.prefix:
+        static = stated("static") or element.only("static")
+        if merge and not around.scope.prefix:
             for link in element.all("link"):
                 link.refuse("a link of a model that is merged into the world")
         within = around._replace(
@@ -167,18 +162,9 @@ class Contents:
             return
         if root.file in around.files:
             element.refuse(f"{uri!r} includes itself", "reference-cycle")
-        merge = flag(element, "merge")
-        placement = element.only("placement_frame")
-        given = Given(
-            name,
-            element.only("pose"),
-            element.only("static"),
-            placement.text if placement else None,
-            merge,
-        )
         within = around._replace(version=_version(root), files=(*around.files, root.file))
         for model in root.all("model")[:1]:
-            self._model(model, within, given)
+            self._model(model, within, element)
         others = [*root.all("model")[1:], *root.all("world")]
         for other in others[:1]:
             what = f"its <{other.tag}> of line {other.line} is not read: only a first model is"

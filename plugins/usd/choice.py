@@ -1,13 +1,25 @@
-"""Which prims are bodies: drawn geometry, or the colliders of a simulation."""
+"""Which prims are bodies: drawn geometry, or the colliders of a simulation; and which of them
+satcheck does not read: with extent, they are bodies that cannot be checked."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from pxr import Usd, UsdGeom, UsdPhysics
+from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
-from satcheck.plugins.usd.walk import PlacedPrim
+from satcheck.plugins.usd.names import TYPES
+from satcheck.plugins.usd.walk import PlacedPrim, type_of
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
 from satcheck.scene.read_options import ReadOptions
+
+_WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
+_WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
+_OF_GEOMETRY = ("extent", "points")
+_OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
+_OF_SHAPES = (*_OF_MESHES, "size", "radius", "height")
+_OF_SKELETONS = (UsdSkel.Root, UsdSkel.Skeleton)
+# Properties that only a prim has that takes up space, whatever its type.
+_OF_SPACE = ("extent", "points", "xformOpOrder", "visibility", "purpose", "material:binding")
 
 
 class Choice:
@@ -65,3 +77,84 @@ def _purpose(placed: PlacedPrim) -> str:
         if purpose != UsdGeom.Tokens.default_:
             break
     return purpose
+
+
+def without_extent(prim: Any, choice: Choice) -> str | None:
+    """Words about drawn geometry that takes up no space: lines, points, a mesh of nothing. None:
+    it does."""
+    if choice.colliders:
+        return None
+    kind = type_of(prim)
+    if kind in _WITH_WIDTHS and not _has_widths(prim, choice):
+        return f"of type {kind} and without widths, it has no surface"
+    if kind == "Mesh" and not any(prim.GetAttribute(name).Get(choice.time) for name in _OF_MESHES):
+        return "a mesh without points and faces"
+    return None
+
+
+def not_read(prim: Any, choice: Choice) -> Refusal | None:
+    """Why geometry that takes up space is not read; None: it is."""
+    kind = type_of(prim)
+    if kind in _WITHOUT_TRIANGLES:
+        message = f"geometry of the type {kind} is not read: convert it to a Mesh"
+        return Refusal("unsupported-feature", message)
+    if kind == "Mesh" and not prim.GetAttribute("faceVertexCounts").Get(choice.time):
+        return Refusal(NO_SURFACE, "the mesh has no faces")
+    return None
+
+
+def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
+    """Why a prim that is no known geometry may hide a body; None: it does not.
+
+    A prim of a type that a plugin defines may if it has a place, an extent or a material. A
+    collider without geometry of its own may if the prims below have geometry.
+    """
+    kind = prim.GetTypeName()
+    stated = [name for name in _OF_SHAPES if prim.HasAttribute(name)]
+    if not kind and not choice.colliders and any(_is_shape(prim, name) for name in stated):
+        message = f"a prim of no type has {', '.join(stated)}: it may be meant to be a shape"
+        return Refusal("unsupported-feature", message)
+    if _is_made_elsewhere(prim) and not choice.colliders:
+        return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
+    has_points = any(map(prim.HasProperty, _OF_GEOMETRY))
+    is_unknown = kind and not type_of(prim) and (has_points or not TYPES.knows(kind))
+    if is_unknown and (choice.collides(prim) or _is_drawn(prim, choice)):
+        message = f"prims of the type {kind} are not known: convert it to a Mesh"
+        return Refusal("unsupported-feature", message)
+    if choice.collides(prim) and _has_drawn_below(prim):
+        message = f"a collider of type {kind or 'unknown'} that joins what is below is not read"
+        return Refusal("unsupported-feature", message)
+    return None
+
+
+def _is_shape(prim: Any, name: str) -> bool:
+    """Whether the property makes a prim of no type look like a mesh, or like a shape in a place."""
+    if name in _OF_MESHES:
+        return True
+    return bool(prim.HasAttribute("xformOpOrder") and not prim.GetAttribute(name).IsCustom())
+
+
+def _is_made_elsewhere(prim: Any) -> bool:
+    """Whether the prim has an extent, and a renderer makes its geometry."""
+    if not prim.IsA(UsdGeom.Boundable) or prim.HasAPI(UsdLux.LightAPI):
+        return False
+    return not any(map(prim.IsA, (UsdGeom.Gprim, UsdGeom.PointInstancer, *_OF_SKELETONS)))
+
+
+def _is_drawn(prim: Any, choice: Choice) -> bool:
+    return not choice.colliders and any(prim.HasProperty(name) for name in _OF_SPACE)
+
+
+def _has_drawn_below(prim: Any) -> bool:
+    """Geometry that is no collider of its own."""
+    below = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
+    return any(
+        each.IsA(UsdGeom.Gprim) and not each.HasAPI(UsdPhysics.CollisionAPI) for each in below
+    )
+
+
+def _has_widths(prim: Any, choice: Choice) -> bool:
+    inherited = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("widths")
+    values = [prim.GetAttribute("widths").Get(choice.time)]
+    values.append(inherited.Get(choice.time) if inherited else None)
+    return any(width > 0 for widths in values if widths is not None for width in widths)

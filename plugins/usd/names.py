@@ -57,6 +57,7 @@ CLIPS = Names(
     templateAssetPath templateStride templateStartTime templateEndTime templateActiveOffset"""
     )
 )
+OP = "xformOp:"
 # Kinds of ops, of UsdGeomXformOp.
 OPS = Names(
     named(

@@ -6,7 +6,9 @@ in memory stands in for each file outside. The stage then uses that, and is refu
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from glob import escape
 from pathlib import Path
 from typing import Any
 
@@ -37,14 +39,14 @@ class Closed:
                 seen.add(place)
                 if not self.permits(place):
                     self._stand_in(place)
-                elif (inner := _opened(place)) is not None:
+                elif (inner := opened(place)) is not None:
                     waiting.append(inner)
-            for place in _clips_of(layer):
+            for place in clips_of(layer):
                 if not self.permits(place):
                     raise self.refusal(place)
 
     def permits(self, place: str) -> bool:
-        return self._permitted.has(Path(_file_of(place)), self._own)
+        return self._permitted.has(Path(file_of(place)), self._own)
 
     def refusal(self, place: str) -> Refused:
         where = self._permitted.beyond("the file's directory")
@@ -52,12 +54,12 @@ class Closed:
         return Refused("outside-path", message)
 
     def _stand_in(self, place: str) -> None:
-        if Path(_file_of(place)).exists():
+        if Path(file_of(place)).exists():
             text = Sdf.FileFormat.FindById("usda")
             self._stand_ins[place] = Sdf.Layer.New(text, place)
 
 
-def _file_of(place: str) -> str:
+def file_of(place: str) -> str:
     """The file, without arguments and the path within a package."""
     return str(Ar.SplitPackageRelativePathOuter(Sdf.Layer.SplitIdentifier(place)[0])[0])
 
@@ -67,18 +69,16 @@ def _named_by(layer: Any, variables: dict[str, Any]) -> Iterator[str]:
         if Sdf.VariableExpression.IsExpression(name):
             name = Sdf.VariableExpression(name).Evaluate(variables).value
         if name:
-            yield _place(layer, name)
+            yield place_of(layer, name)
 
 
-def _place(layer: Any, name: str) -> str:
+def place_of(layer: Any, name: str) -> str:
     """Of a file that a layer names. One that is missing counts from the folder of the layer."""
     place = Sdf.ComputeAssetPathRelativeToLayer(layer, name)
-    return (
-        place if Path(place).is_absolute() else str(Path(_file_of(layer.realPath)).parent / place)
-    )
+    return place if Path(place).is_absolute() else str(Path(file_of(layer.realPath)).parent / place)
 
 
-def _opened(place: str) -> Any:
+def opened(place: str) -> Any:
     """The layer; None: it cannot be opened, as the composition then says."""
     try:
         return Sdf.Layer.FindOrOpen(place)
@@ -86,20 +86,30 @@ def _opened(place: str) -> Any:
         return None
 
 
-def _clips_of(layer: Any) -> Iterator[str]:
-    """The files of the value clips of a layer, and the places of their templates."""
+def clips_of(layer: Any) -> Iterator[str]:
+    """The files of the clips that a layer names, and the folders in which templates look for
+    theirs, which end with `/`."""
     found: list[str] = []
 
     def look(path: Any) -> None:
-        spec = layer.GetPrimAtPath(path) if path.IsPrimPath() else None
-        for clips in (spec.GetInfo("clips") if spec else {}).values():
+        spec = layer.GetObjectAtPath(path)
+        spec = spec.primSpec if isinstance(spec, Sdf.VariantSpec) else spec
+        sets = spec.GetInfo("clips") if isinstance(spec, Sdf.PrimSpec) else {}
+        for clips in sets.values():
+            if not isinstance(clips, dict):
+                continue
             for value in clips.values():
                 if isinstance(value, Sdf.AssetPath):
                     found.append(value.path)
                 elif isinstance(value, Sdf.AssetPathArray):
                     found.extend(each.path for each in value)
-            found.append(clips.get("templateAssetPath", ""))
+            found.append(str(clips.get("templateAssetPath", "")))
 
     layer.Traverse("/", look)
-    for name in filter(None, found):
-        yield _place(layer, name)
+    for place in (place_of(layer, name) for name in found if name):
+        if "#" not in Path(place).name:
+            yield place
+            continue
+        pattern = re.sub("#+", "*", escape(Path(place).name))
+        yield f"{Path(place).parent}/"
+        yield from map(str, sorted(Path(place).parent.glob(pattern)))

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, combinations_with_replacement
 from typing import Any
 
-from msgspec import Struct
 from msgspec.structs import replace
 from pxr import Usd, UsdPhysics
 
@@ -15,100 +14,85 @@ from satcheck.plugins.usd.walk import WORLD, PlacedPrim, of_prototype
 from satcheck.scene.loading.raw_mesh import RawNode, RawRule
 
 
-class Physics(Struct, frozen=True):
-    """nodes: with the groups that the rules name, and their rigid bodies. joints: the prims of
-    joints."""
-
-    nodes: tuple[RawNode, ...]
-    rules: tuple[RawRule, ...] = ()
-    joints: tuple[Any, ...] = ()
-
-
 def with_physics(
     stage: Any, nodes: Sequence[RawNode], prims: Sequence[PlacedPrim], time: Any, said: Remarks
-) -> Physics:
-    """What physics says of the nodes.
+) -> tuple[tuple[RawNode, ...], tuple[RawRule, ...], tuple[Any, ...]]:
+    """(the nodes with the groups that the rules name, and their rigid bodies, the rules, the prims
+    of joints).
 
     prims: where each node comes from. time: a Usd.TimeCode. Simulators do not collide
     colliders of one rigid body, FilteredPairs, members of CollisionGroups that filter each other,
     and bodies that a joint connects without collisionEnabled. Visual geometry below these prims is
     treated alike.
     """
-    sources = _Sources(stage, prims, time)
-    if not sources:
-        return Physics(tuple(nodes))
-    members = _Members(sources, prims)
-    made = _Rules(sources, members, len(nodes), said)
+    made = _Rules(stage, prims, time, said)
     rules = tuple(made.rules())
-    links = {number: body for body, numbers in members.of_body.items() for number in numbers}
+    links = {number: body for body, numbers in made.of_body.items() for number in numbers}
     own = tuple(
         replace(node, groups=tuple(made.groups[number]), link=links.get(number))
         for number, node in enumerate(nodes)
     )
-    return Physics(own, rules, tuple(joint.GetPrim() for joint in sources.joints))
+    return own, rules, tuple(made.joints)
 
 
-class _Sources:
-    """The prims of a stage that make rules."""
+class _Rules:
+    """The rules, and the groups of each node that they name. A prim, and a rigid body, has a name
+    in each instance.
 
-    def __init__(self, stage: Any, prims: Sequence[PlacedPrim], time: Any) -> None:
-        self.filters: list[Any] = []
-        self.joints: list[Any] = []
-        self.has_bodies = False
-        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(prims)):
-            if prim.HasAPI(UsdPhysics.RigidBodyAPI):
-                self.has_bodies = True
-            if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
-                self.filters.append(prim)
-            if prim.IsA(UsdPhysics.Joint):
-                self.joints.append(UsdPhysics.Joint(prim))
-        self.table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(stage)
-        self.stage = stage
-        self.time = time
+    of_body: the nodes in each rigid body. joints: the prims of joints.
+    """
 
-    def __bool__(self) -> bool:
-        return bool(self.has_bodies or self.filters or self.joints or self.table.GetGroups())
-
-
-def _undefined(prims: Sequence[PlacedPrim]) -> Iterator[Any]:
-    """Ranges of the prims of prototypes below an `over`, which a walk of the stage leaves out."""
-    roots = {root.GetPath(): root for each in prims if (root := each.frame.root) is not None}
-    yield from (of_prototype(root) for root in roots.values() if not root.IsDefined())
-
-
-class _Members:
-    """Which nodes are below a prim, or in a rigid body. Both have a name in each instance."""
-
-    def __init__(self, sources: _Sources, prims: Sequence[PlacedPrim]) -> None:
-        self._stage = sources.stage
+    def __init__(self, stage: Any, prims: Sequence[PlacedPrim], time: Any, said: Remarks) -> None:
+        self._stage = stage
         self._prims = prims
-        self._below: dict[str, list[int]] = {}
+        self._time = time
+        self._said = said
+        self._below: dict[str, list[int]] = {}  # name of a prim -> the nodes below
         self._names: dict[str, dict[str, str]] = {}  # path of a prim -> frame -> name there
         self._around: dict[str, str] = {}  # frame -> the one around it
+        self._made: set[str] = set()
+        self._filters: list[Any] = []
+        self.joints: list[Any] = []
         self.of_body: dict[str, list[int]] = {}
-        for number, each in enumerate(prims):
-            if each.prim is None:  # of an unresolved reference
-                self._below.setdefault(each.name, []).append(number)
-                self._names.setdefault(each.name, {})[WORLD.name] = each.name
-                continue
-            body = None
-            for name, prim, frame in each.frame.ancestors(each.prim):
-                self._below.setdefault(name, []).append(number)
-                self._names.setdefault(str(prim.GetPath()), {})[frame.name] = name
-                if frame.instancer is not None:
-                    self._around[frame.name] = frame.instancer[1].name
-                body = body or (name if _is_body(prim, sources.time) else None)
-            if body is not None:
-                self.of_body.setdefault(body, []).append(number)
+        self.groups: list[list[str]] = [[] for _ in prims]
+        has_bodies = False
+        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(prims)):
+            has_bodies = has_bodies or prim.HasAPI(UsdPhysics.RigidBodyAPI)
+            if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
+                self._filters.append(prim)
+            if prim.IsA(UsdPhysics.Joint):
+                self.joints.append(prim)
+        if has_bodies or self._filters or self.joints:
+            for number, each in enumerate(prims):
+                self._place(number, each)
 
-    def below(self, name: str) -> list[int]:
-        return self._below.get(name, [])
+    def _place(self, number: int, placed: PlacedPrim) -> None:
+        if placed.prim is None:  # of an unresolved reference
+            self._below.setdefault(placed.name, []).append(number)
+            self._names.setdefault(placed.name, {})[WORLD.name] = placed.name
+            return
+        body = None
+        for name, prim, frame in placed.frame.ancestors(placed.prim):
+            self._below.setdefault(name, []).append(number)
+            self._names.setdefault(str(prim.GetPath()), {})[frame.name] = name
+            if frame.instancer is not None:
+                self._around[frame.name] = frame.instancer[1].name
+            body = body or (name if _is_body(prim, self._time) else None)
+        if body is not None:
+            self.of_body.setdefault(body, []).append(number)
 
-    def has(self, path: str) -> bool:
-        """Whether any node is below the prim."""
-        return path in self._names
+    def rules(self) -> Iterator[RawRule]:
+        for body, numbers in self.of_body.items():
+            if len(numbers) > 1:
+                own = self._group(f"rigid body {body}", numbers)
+                yield _rule(own, own, f"one rigid body {body}")
+        for prim in self._filters:
+            yield from self._of_filter(prim)
+        for prim in self.joints:
+            yield from self._of_joint(UsdPhysics.Joint(prim))
+        yield from self._of_collision_groups()
 
-    def pairs(self, one: str, other: str) -> Iterator[tuple[str, str]]:
+    def _pairs(self, one: str, other: str) -> Iterator[tuple[str, str]]:
         """The names of two prims in each instance: the other one is in the same instance, or in
         one around it, or outside of all. Prims that share no instance are no pair."""
         others = self._names.get(other, {})
@@ -128,8 +112,50 @@ class _Members:
             place = self._around.get(place)
         return place
 
-    def of_collision_group(self, path: Any) -> list[int]:
-        api = UsdPhysics.CollisionGroup.Get(self._stage, path).GetCollidersCollectionAPI()
+    def _group(self, name: str, numbers: Sequence[int]) -> str:
+        if name not in self._made:
+            self._made.add(name)
+            for number in numbers:
+                self.groups[number].append(name)
+        return name
+
+    def _of_filter(self, prim: Any) -> Iterator[RawRule]:
+        path = prim.GetPath()
+        for other in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetForwardedTargets():
+            pairs = list(self._pairs(str(path), str(other)))
+            if not pairs and {str(path), str(other)} <= self._names.keys():
+                words = f"filteredPairs with {other}, in another prototype, is not applied"
+                self._said.add("ignored-opinion", words, str(path))
+            for pair in pairs:
+                a, b = (self._group(f"below {name}", self._below.get(name, [])) for name in pair)
+                yield _rule(a, b, f"filteredPairs of {path}")
+
+    def _of_joint(self, joint: Any) -> Iterator[RawRule]:
+        stage, time = self._stage, self._time
+        if joint.GetCollisionEnabledAttr().Get(time) or not joint.GetJointEnabledAttr().Get(time):
+            return
+        ends = [body_at(stage, end, time) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+        if ends[0] is None or ends[1] is None:
+            return
+        for pair in self._pairs(ends[0], ends[1]):
+            held = [self.of_body.get(end, []) for end in pair]
+            if all(held):
+                a, b = map(self._group, [f"rigid body {end}" for end in pair], held)
+                yield _rule(a, b, f"joint {joint.GetPath()}")
+
+    def _of_collision_groups(self) -> Iterator[RawRule]:
+        """As the table of the stage says, with merged and inverted groups."""
+        table = UsdPhysics.CollisionGroup.ComputeCollisionGroupTable(self._stage)
+        held = {path: self._members_of(path) for path in table.GetGroups()}
+        for one, other in combinations_with_replacement(held, 2):
+            if held[one] and held[other] and not table.IsCollisionEnabled(one, other):
+                a, b = (self._group(f"collision group {path}", held[path]) for path in (one, other))
+                both = f"groups {one} and {other}" if one != other else f"group {one}"
+                yield _rule(a, b, f"collision {both}")
+
+    def _members_of(self, group: Any) -> list[int]:
+        """The nodes in a collision group."""
+        api = UsdPhysics.CollisionGroup.Get(self._stage, group).GetCollidersCollectionAPI()
         query = api.ComputeMembershipQuery()
         return [
             number
@@ -144,67 +170,10 @@ def _is_body(prim: Any, time: Any) -> bool:
     return bool(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get(time))
 
 
-class _Rules:
-    """The rules, and the groups of each node that they name."""
-
-    def __init__(self, sources: _Sources, members: _Members, count: int, said: Remarks) -> None:
-        self._sources = sources
-        self._said = said
-        self._members = members
-        self._made: set[str] = set()
-        self.groups: list[list[str]] = [[] for _ in range(count)]
-
-    def rules(self) -> Iterator[RawRule]:
-        for body, numbers in self._members.of_body.items():
-            if len(numbers) > 1:
-                own = self._group(f"rigid body {body}", numbers)
-                yield _rule(own, own, f"one rigid body {body}")
-        for prim in self._sources.filters:
-            yield from self._of_filter(prim)
-        for joint in self._sources.joints:
-            yield from self._of_joint(joint)
-        yield from self._of_collision_groups()
-
-    def _group(self, name: str, numbers: Sequence[int]) -> str:
-        if name not in self._made:
-            self._made.add(name)
-            for number in numbers:
-                self.groups[number].append(name)
-        return name
-
-    def _of_filter(self, prim: Any) -> Iterator[RawRule]:
-        path = prim.GetPath()
-        for other in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetForwardedTargets():
-            pairs = list(self._members.pairs(str(path), str(other)))
-            if not pairs and self._members.has(str(path)) and self._members.has(str(other)):
-                words = f"filteredPairs with {other}, in another prototype, is not applied"
-                self._said.add("ignored-opinion", words, str(path))
-            for pair in pairs:
-                a, b = (self._group(f"below {name}", self._members.below(name)) for name in pair)
-                yield _rule(a, b, f"filteredPairs of {path}")
-
-    def _of_joint(self, joint: Any) -> Iterator[RawRule]:
-        stage, time = self._sources.stage, self._sources.time
-        if joint.GetCollisionEnabledAttr().Get(time) or not joint.GetJointEnabledAttr().Get(time):
-            return
-        ends = [body_at(stage, end, time) for end in (joint.GetBody0Rel(), joint.GetBody1Rel())]
-        if ends[0] is None or ends[1] is None:
-            return
-        for pair in self._members.pairs(ends[0], ends[1]):
-            held = [self._members.of_body.get(end, []) for end in pair]
-            if all(held):
-                a, b = map(self._group, [f"rigid body {end}" for end in pair], held)
-                yield _rule(a, b, f"joint {joint.GetPath()}")
-
-    def _of_collision_groups(self) -> Iterator[RawRule]:
-        """As the table of the stage says, with merged and inverted groups."""
-        table = self._sources.table
-        held = {path: self._members.of_collision_group(path) for path in table.GetGroups()}
-        for one, other in combinations_with_replacement(held, 2):
-            if held[one] and held[other] and not table.IsCollisionEnabled(one, other):
-                a, b = (self._group(f"collision group {path}", held[path]) for path in (one, other))
-                both = f"groups {one} and {other}" if one != other else f"group {one}"
-                yield _rule(a, b, f"collision {both}")
+def _undefined(prims: Sequence[PlacedPrim]) -> Iterator[Any]:
+    """Ranges of the prims of prototypes below an `over`, which a walk of the stage leaves out."""
+    roots = {root.GetPath(): root for each in prims if (root := each.frame.root) is not None}
+    yield from (of_prototype(root) for root in roots.values() if not root.IsDefined())
 
 
 def _rule(a: str, b: str, reason: str) -> RawRule:

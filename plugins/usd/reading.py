@@ -9,24 +9,16 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
 from satcheck.core import Mesh
 from satcheck.core.shapes import HalfSpace, Primitive
 from satcheck.core.transform import Transform
-from satcheck.plugins.usd.choice import Choice
+from satcheck.plugins.usd.choice import Choice, hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.joints import Joints
 from satcheck.plugins.usd.layers import look_at_layers
 from satcheck.plugins.usd.mesh import read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
-from satcheck.plugins.usd.shapes import (
-    NoSuchShape,
-    axis_turn,
-    facets_around,
-    flat_faces,
-    placed_shape,
-    shape_of,
-)
+from satcheck.plugins.usd.shapes import NoSuchShape, facets_around, placed_shape, shape_of
 from satcheck.plugins.usd.skinning import Skinning
 from satcheck.plugins.usd.stage import Remarks, Stage, said, unknown_variants
 from satcheck.plugins.usd.unknown import look_at_stage
-from satcheck.plugins.usd.unread import hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
@@ -78,24 +70,18 @@ class _Reading:
             code = "no-body" if is_explained else "empty-mesh"
             raise Refused(code, f"the stage has no body. {reasons}".strip())
         said = Remarks()
-        physics = with_physics(
-            self._stage.stage, self._nodes, self._placed, self._choice.time, said
-        )
-        joints = Joints(self._stage, self._choice.time, said).of(physics.joints)
-        return RawScene(
-            tuple(self._parts),
-            physics.nodes,
-            (*warnings, *said.warnings()),
-            self._stage.unit,
-            physics.rules,
-            joints,
-        )
+        stage, time = self._stage, self._choice.time
+        nodes, rules, prims = with_physics(stage.stage, self._nodes, self._placed, time, said)
+        joints = Joints(stage, time, said).of(prims)
+        said_of = (*warnings, *said.warnings())
+        return RawScene(tuple(self._parts), nodes, said_of, stage.unit, rules, joints)
 
     def _refuse_lost_in_instances(self) -> None:
         """A reference is lost in every instance, and composition names one of them or none."""
         stage = self._stage.stage
         if not self._lost or not (
-            stage.GetPrototypes() or any(map(_is_instancer, stage.Traverse()))
+            stage.GetPrototypes()
+            or any(prim.IsA(UsdGeom.PointInstancer) for prim in stage.Traverse())
         ):
             return
         name, reason = next(iter(self._lost.items()))
@@ -163,12 +149,9 @@ class _Reading:
         """(mesh or shape of a prim in its own coordinates, a turn before its placement)."""
         time, unit = self._choice.time, self._stage.unit
         try:
-            if (shape := shape_of(prim, time)) is not None:
+            shape = shape_of(prim, time, unit, endless=self._choice.colliders)
+            if shape is not None:
                 return shape
-            if self._choice.colliders and type_of(prim) == "Plane":
-                return HalfSpace(), axis_turn(prim, time)
-            if (faces := flat_faces(prim, time, unit)) is not None:
-                return faces, _NOT_TURNED
             if prim.IsA(UsdGeom.Mesh):
                 return self._mesh(prim), _NOT_TURNED
             if prim.IsA(UsdGeom.TetMesh):
@@ -229,7 +212,3 @@ class _Reading:
     def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None) -> None:
         self._nodes.append(RawNode(placed.name, part, matrix))
         self._placed.append(placed)
-
-
-def _is_instancer(prim: Any) -> bool:
-    return bool(prim.IsA(UsdGeom.PointInstancer))

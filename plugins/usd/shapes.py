@@ -11,7 +11,7 @@ from pxr import Gf
 
 from satcheck.core.rounding import ORTHOGONALITY
 from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
-from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
+from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.walk import type_of
 from satcheck.scene.errors import Refused
@@ -36,10 +36,13 @@ _TURNS = {
 }
 
 
-def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
-    """(curved shape, the turn to its axis as a matrix for row vectors); None: it is no such shape.
+def shape_of(
+    prim: Any, time: Any, unit: str, *, endless: bool
+) -> tuple[Primitive | RawMesh, Any] | None:
+    """(the shape, the turn to its axis as a matrix for row vectors); None: it is no such shape.
 
-    Raises Refused for sizes that make no shape, and for two different radii.
+    endless: a plane is a half space. Raises Refused for sizes that make no shape, for two different
+    radii, and for an axis other than X, Y and Z.
     """
 
     def size(name: str) -> float:
@@ -49,8 +52,14 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
         match type_of(prim):
             case "Sphere":
                 return Sphere(size("radius")), _TURNS["Z"]
+            case "Cube":
+                return _flat(mesh_of(Box((size("size"),) * 3)).to_bytes(), unit)
+            case "Plane" if not endless:
+                return _flat(_quad(prim, time), unit)
+            case "Plane":
+                shape: Primitive = HalfSpace()
             case "Cylinder":
-                shape: Primitive = Cylinder(size("radius"), size("height"))
+                shape = Cylinder(size("radius"), size("height"))
             case "Cone":
                 shape = Cone(size("radius"), size("height"))
             case "Capsule":
@@ -61,13 +70,12 @@ def shape_of(prim: Any, time: Any) -> tuple[Primitive, Any] | None:
                 return None
     except ValueError as error:
         raise Refused("bad-record", f"{type_of(prim)}: {error}") from None
-    return shape, axis_turn(prim, time)
+    return shape, _TURNS[_axis(prim, time)]
 
 
-def axis_turn(prim: Any, time: Any) -> Any:
-    """The turn that takes z to the axis of the prim, as a matrix for row vectors. Raises
-    Refused for an axis other than X, Y and Z."""
-    return _TURNS[_axis(prim, time)]
+def _flat(faces: tuple[bytes, bytes], unit: str) -> tuple[RawMesh, Any]:
+    """Triangles are exact. Their precision is that of float32, in which most files scale them."""
+    return RawMesh(*faces, "float32", units=unit), _TURNS["Z"]
 
 
 def _axis(prim: Any, time: Any) -> str:
@@ -86,25 +94,6 @@ def _of_two_radii(prim: Any, size: Any) -> Primitive:
         return Cone(bottom, size("height"))
     message = f"a {form.__name__.lower()} of two radii: convert it to a Mesh"
     raise Refused("unsupported-feature", message)
-
-
-def flat_faces(prim: Any, time: Any, unit: str) -> RawMesh | None:
-    """A Cube, or a Plane as it is drawn; None: it is neither. Raises Refused.
-
-    Their triangles are exact. Their precision is that of float32, in which most files scale them.
-    """
-    match type_of(prim):
-        case "Cube":
-            try:
-                box = Box((_number(prim, "size", time),) * 3)
-            except ValueError as error:
-                raise Refused("bad-record", f"Cube: {error}") from None
-            vertices, triangles = mesh_of(box).to_bytes()
-        case "Plane":
-            vertices, triangles = _quad(prim, time)
-        case _:
-            return None
-    return RawMesh(vertices, triangles, "float32", units=unit)
 
 
 def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:

@@ -83,7 +83,7 @@ class Skinning:
         turns = joints.ComputeSkinningTransforms(self._time)
         mapper = query.GetJointMapper()
         if turns and mapper:
-            turns = mapper.RemapTransforms(turns)
+            turns = mapper.RemapTransforms(turns, Vt.Matrix4dArray())
         if not turns or not query.ComputeSkinnedPoints(turns, points, self._time):
             raise Refused("bad-record", "its skeleton does not fit its points")
         here = self._places.GetLocalToWorldTransform(prim)

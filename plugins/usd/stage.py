@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
-from pxr import Ar, Sdf, Usd, UsdGeom
+from pxr import Sdf, Usd, UsdGeom
 
 from satcheck.core.transform import Transform
+from satcheck.plugins.usd.clips import missing_clips
 from satcheck.plugins.usd.names import LOOKS
-from satcheck.plugins.usd.outside import Closed
+from satcheck.plugins.usd.outside import Closed, clips_of, file_of
 from satcheck.scene.errors import Refused
 from satcheck.scene.files_read import note
 from satcheck.scene.loading.raw_mesh import Refusal
@@ -28,7 +29,6 @@ _DIGITS = 7  # that float32 keeps
 _ONLY_MATERIALS = re.compile(r"@[^@]*\.mtlx(\?[^@]*)?@")
 # Composition errors that concern single opinions. All others may hide a part of the scene.
 _OF_OPINIONS = ("Target", "Inconsistent", "Property", "Opinion", "VariableExpression")
-_OF_LAYERS = ("Sublayer",)
 _CODES = {"ErrorInvalidAssetPath": "missing-resource", "ErrorArcCycle": "reference-cycle"}
 
 
@@ -88,7 +88,7 @@ def open_stage(location: Path, permitted: Permitted) -> Stage:
         if not closed.permits(layer.identifier):
             raise closed.refusal(layer.identifier)
     lost, warnings = _composition_errors(stage)
-    lost |= _lost_clips(stage)
+    lost |= missing_clips(stage)
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
@@ -112,10 +112,11 @@ def said(error: Exception) -> str:
 def _note_files(layers: list[Any]) -> None:
     """The layers, and those that they name, even if they are not there."""
     for layer in layers:
-        note(Ar.SplitPackageRelativePathOuter(layer.realPath)[0])
+        note(file_of(layer.realPath))
         for name in filter(None, layer.GetCompositionAssetDependencies()):
-            place = Sdf.ComputeAssetPathRelativeToLayer(layer, name)
-            note(Ar.SplitPackageRelativePathOuter(place)[0])
+            note(file_of(Sdf.ComputeAssetPathRelativeToLayer(layer, name)))
+        for place in clips_of(layer):
+            note(file_of(place))
 
 
 def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:
@@ -125,7 +126,10 @@ def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str,
     for error in stage.GetCompositionErrors():
         kind, message = type(error).__name__, said(error)
         code = _CODES.get(kind, "missing-resource")
-        if any(word in kind for word in _OF_LAYERS):
+        is_lost_layer = "Sublayer" in kind
+        if "VariableExpression" in kind:  # no place is known, so that the file is refused
+            is_lost_layer = " for variant at " not in message
+        if is_lost_layer:
             raise Refused(code, message)
         if any(word in kind for word in _OF_OPINIONS) or _ONLY_MATERIALS.search(message):
             ignored.append(message)
@@ -158,21 +162,6 @@ def unknown_variants(stage: Any) -> dict[str, Refusal]:
                 message = f"variant set {name!r} has no variant {selected!r} ({listed(known)})"
                 lost.setdefault(str(prim.GetPath()), Refusal("missing-resource", message))
     return lost
-
-
-def _lost_clips(stage: Any) -> dict[str, Refusal]:
-    return {
-        str(prim.GetPath()): Refusal("missing-resource", f"missing value clip {path.path!r}")
-        for prim in stage.Traverse()
-        if prim.HasAuthoredMetadata("clips")
-        for path in _clips(Usd.ClipsAPI(prim))
-        if not path.resolvedPath
-    }
-
-
-def _clips(api: Any) -> Iterator[Any]:
-    for name in api.GetClips() or ():
-        yield from api.GetClipAssetPaths(name) or ()
 
 
 def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:

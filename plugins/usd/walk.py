@@ -162,6 +162,8 @@ class Walk:
             message = f"{len(numbers)} indices, {len(matrices)} placements"
             raise Refused("count-mismatch", message)
         mask = instancer.ComputeMaskAtTime(time) or [True] * len(numbers)
+        if len(mask) != len(numbers):
+            raise Refused("count-mismatch", f"{len(numbers)} indices, {len(mask)} ids")
         return [
             (index, roots[number], matrices[index])
             for index, number in enumerate(numbers)
@@ -190,3 +192,8 @@ def of_prototype(root: Any) -> Any:
 def type_of(prim: Any) -> str:
     """The type whose schema counts, perhaps a fallback that the file names; "": none is known."""
     return str(prim.GetPrimTypeInfo().GetSchemaTypeName())
+
+
+def has_geometry_below(prim: Any) -> bool:
+    below = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
+    return any(each.IsA(UsdGeom.Gprim) or each.IsA(UsdGeom.PointInstancer) for each in below)

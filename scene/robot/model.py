@@ -28,7 +28,7 @@ DRAWN_PLANE = "a plane that is drawn ends at its size: give a mesh or a box"
 FREEDOMS: dict[JointKind, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 4, "free": 7}
 
 
-class MeshReference(Struct, frozen=True):
+class MeshReference(Struct, frozen=True, tag=True):
     """A mesh file by its URI as written. scale: factors of x, y, z; negative ones mirror.
 
     start: a rigid pose that is applied before the scale. part: of the file; None: all of it. hull:

@@ -56,3 +56,8 @@ def _bounds(body: Body) -> Bounds:
 
 def said(scene: Scene) -> dict[str, str]:
     return {issue.code: issue.message for issue in scene.issues}
+
+
+def unread(scene: Scene) -> list[str]:
+    """What blocks a pass."""
+    return [issue.message for issue in scene.issues if issue.code == "unread"]

@@ -219,3 +219,16 @@ def test_a_reference_that_is_lost_in_an_instance_loses_the_file(
     scene = load(tmp_path, text)
     assert not scene.bodies
     assert "missing-resource" in said(scene)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        stage(referring("A", 'references = @`"${V}`@'), cube("B")),
+        stage(cube("B"), head='metersPerUnit = 1\nsubLayers = [@`"${V}`@]'),
+    ],
+)
+def test_an_expression_that_has_no_value_refuses_the_file(tmp_path: Path, text: str) -> None:
+    (lost,) = load(tmp_path, text).unreadable
+    assert lost.issue.code == "missing-resource"
+    assert "${V}" in lost.issue.message

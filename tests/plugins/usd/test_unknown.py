@@ -7,14 +7,10 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Scene
-from tests.plugins.usd.files import at, bounds_of, cube, load, said, stage
+from tests.plugins.usd.files import at, bounds_of, cube, load, said, stage, unread
 
 _HEAD = 'metersPerUnit = 1\nupAxis = "Z"'
 _ORDER = 'uniform token[] xformOpOrder = ["{}"]\n'
-
-
-def unread(scene: Scene) -> list[str]:
-    return [issue.message for issue in scene.issues if issue.code == "unread"]
 
 
 def refusals(scene: Scene) -> list[tuple[str, str]]:
@@ -416,21 +412,181 @@ def test_misspelt_names_of_animations_are_refused(tmp_path: Path) -> None:
     assert "did you mean translations?" in message
 
 
-@pytest.mark.parametrize("lost", ["primPath", "active", "assetPaths"])
-def test_value_clips_that_are_not_applied_block_a_pass(tmp_path: Path, lost: str) -> None:
-    (tmp_path / "clip.usda").write_text('#usda 1.0\ndef "A" {\n}\n')
-    lines = {
-        "primPath": 'string primPath = "/A"',
-        "active": "double2[] active = [(0, 0)]",
-        "assetPaths": "asset[] assetPaths = [@clip.usda@]",
+@pytest.mark.parametrize(
+    "below",
+    [
+        'over "Box" {\n token visibility = "invisible"\n}',
+        'over "Box" (active = false) {\n}',
+        f'over "Box" {{\n{at(5)}}}',
+        'over "Inner" {\n over "Box" {\n double size = 3\n}\n}',
+        'def Cube "More" {\n}',
+    ],
+)
+def test_an_override_below_an_instance_is_named(tmp_path: Path, below: str) -> None:
+    kit = f'class Xform "Kit" {{\n{cube("Box")}}}\n'
+    text = f'def Xform "A" (\ninherits = </Kit>\ninstanceable = true\n) {{\n{below}\n}}\n'
+    scene = load(tmp_path, stage(kit, text))
+    assert not unread(scene)
+    assert "/A: an override of" in said(scene)["left-out"]
+    assert "below an instance" in said(scene)["left-out"]
+
+
+def test_what_an_instance_shares_is_no_override(tmp_path: Path) -> None:
+    kit = f'class Xform "Kit" {{\n{cube("Box", at(5))}}}\n'
+    looks = 'def Material "Look" {\n}\nover "Box" {\n rel material:binding = </A/Look>\n}\n'
+    text = f'def Xform "A" (\ninherits = </Kit>\ninstanceable = true\n) {{\n{looks}\n}}\n'
+    assert "left-out" not in said(load(tmp_path, stage(kit, text)))
+
+
+_INSTANCER = """def PointInstancer "I" {{
+    int[] protoIndices = [0, 0]
+    point3f[] positions = [(0, 0, 0), (5, 0, 0)]
+    rel prototypes = {target}
+    {more}
+    {below}
+}}
+"""
+
+
+def test_ids_that_do_not_fit_the_instances_cannot_be_read(tmp_path: Path) -> None:
+    more = "int64[] ids = [7]\nint64[] invisibleIds = [7]"
+    text = _INSTANCER.format(target="</I/P>", more=more, below=cube("P"))
+    ((code, message),) = refusals(load(tmp_path, stage(text)))
+    assert code == "count-mismatch"
+    assert "1 ids" in message
+
+
+def test_an_invisible_id_of_no_instance_is_named(tmp_path: Path) -> None:
+    more = "int64[] invisibleIds = [1, 9]"
+    text = _INSTANCER.format(target="</I/P>", more=more, below=cube("P"))
+    scene = load(tmp_path, stage(text))
+    assert [body.id for body in scene.bodies] == ["/I[0]:P"]
+    assert "invisibleIds has 9" in said(scene)["left-out"]
+
+
+def test_what_stands_in_an_instancer_and_is_no_prototype_is_named(tmp_path: Path) -> None:
+    text = _INSTANCER.format(target="</Q>", more="", below=cube("P"))
+    assert "/I/P: in a point" in said(load(tmp_path, stage(text, cube("Q"))))["not-a-body"]
+    text = _INSTANCER.format(target="</I/P>", more="", below=cube("P"))
+    assert "not-a-body" not in said(load(tmp_path, stage(text)))
+
+
+@pytest.mark.parametrize("name", ["visibility", "purpose"])
+def test_a_prim_of_no_type_hides_nothing_and_is_named(tmp_path: Path, name: str) -> None:
+    text = f'def "A" {{\n token {name} = "guide"\n{cube("B")}}}\n'
+    scene = load(tmp_path, stage(text))
+    assert [body.id for body in scene.bodies] == ["/A/B"]
+    assert name in said(scene)["left-out"]
+
+
+def test_a_variant_of_no_set_is_named(tmp_path: Path) -> None:
+    text = cube("A", head='variants = {\n string size = "big"\n}')
+    assert "'size'" in said(load(tmp_path, stage(text)))["left-out"]
+
+
+def test_a_shape_that_a_stronger_type_makes_no_shape_blocks(tmp_path: Path) -> None:
+    text = 'class Cube "K" {\n}\ndef Xform "A" (\n inherits = </K>\n) {\n}\n'
+    (message,) = unread(load(tmp_path, stage(text, cube("B"))))
+    assert "Xform of this Cube" in message
+
+
+@pytest.mark.parametrize(
+    ("source", "target", "blocks"),
+    [
+        ("/W/A", "/W/Z", False),
+        ("/W/A", "", False),
+        ("/W/A", "/V/Z", True),
+        ("/W/Aa", "/W/Z", True),
+    ],
+)
+def test_a_prim_that_is_relocated_nowhere_blocks(
+    tmp_path: Path, source: str, target: str, blocks: bool
+) -> None:
+    (tmp_path / "kit.usda").write_text(stage(f'def Xform "W" {{\n{cube("A")}}}\n'))
+    head = f"{_HEAD}\nrelocates = {{\n <{source}> : <{target}>\n}}"
+    text = 'def Xform "W" (\n references = @kit.usda@</W>\n) {\n}\n'
+    scene = load(tmp_path, stage(text, cube("B"), head=head))
+    assert [target in message for message in unread(scene)] == [True] * blocks
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("physics:filteredPairs", "ignored-opinion"),
+        ("physics:filteredGroups", "ignored-opinion"),
+        ("collection:colliders:includes", "ignored-opinion"),
+        ("collection:colliders:excludes", "unread"),
+    ],
+)
+def test_an_exemption_of_a_prim_that_is_not_there_is_named(
+    tmp_path: Path, name: str, code: str
+) -> None:
+    api = '(prepend apiSchemas = ["PhysicsFilteredPairsAPI"])'
+    text = f'def PhysicsCollisionGroup "G" {api} {{\n rel {name} = </Lost>\n}}\n'
+    assert "/Lost" in said(load(tmp_path, stage(cube("A"), text)))[code]
+
+
+def test_filtered_pairs_without_their_schema_are_named(tmp_path: Path) -> None:
+    scene = load(tmp_path, stage(cube("A", "rel physics:filteredPairs = </B>"), cube("B")))
+    assert not scene.body_rules
+    assert "filteredPairs" in said(scene)["ignored-opinion"]
+
+
+def test_bodies_of_an_articulation_that_are_not_to_collide_are_named(tmp_path: Path) -> None:
+    text = cube("A", "bool physxArticulation:enabledSelfCollisions = 0")
+    assert "enabledSelfCollisions" in said(load(tmp_path, stage(text)))["left-out"]
+
+
+_BOUND = """int[] primvars:skel:jointIndices = [0] (
+    interpolation = "constant"
+    elementSize = 1
+)
+float[] primvars:skel:jointWeights = [1] (
+    interpolation = "constant"
+    elementSize = 1
+)
+"""
+
+
+def skinned(more: str, animation: str = "") -> str:
+    """A cube that its joint `b` moves by 5."""
+    matrix = "((1,0,0,0),(0,1,0,0),(0,0,1,0),({},0,0,1))".format
+    skeleton = f"""def Skeleton "K" (prepend apiSchemas = ["SkelBindingAPI"]) {{
+        uniform token[] joints = ["a", "b"]
+        uniform matrix4d[] bindTransforms = [{matrix(0)}, {matrix(0)}]
+        uniform matrix4d[] restTransforms = [{matrix(0)}, {matrix(5)}]
+        {animation}
+    }}
+    """
+    body = cube("A", f"{_BOUND}\n{more}", api='"SkelBindingAPI"')
+    return stage(f'def SkelRoot "W" {{\n{skeleton}\n{body}}}\n')
+
+
+def test_the_joints_of_a_mesh_are_some_of_its_skeleton(tmp_path: Path) -> None:
+    more = 'rel skel:skeleton = </W/K>\nuniform token[] skel:joints = ["{}"]'
+    scene = load(tmp_path, skinned(more.format("b")))
+    assert bounds_of(scene)["/W/A"][0] == (5, 0, 0)
+    assert not unread(scene)
+    (message,) = unread(load(tmp_path, skinned(more.format("c"))))
+    assert "skel:joints has c" in message
+
+
+def test_a_mesh_without_a_skeleton_is_named(tmp_path: Path) -> None:
+    assert "bound to a skeleton" in said(load(tmp_path, skinned("")))["left-out"]
+
+
+def test_an_animation_that_is_not_whole_blocks(tmp_path: Path) -> None:
+    animation = """rel skel:animationSource = </W/K/N>
+    def SkelAnimation "N" {
+        uniform token[] joints = ["b"]
+        float3[] translations = [(9, 0, 0)]
+        half3[] scales = [(1, 1, 1)]
     }
+    """
+    (message,) = unread(load(tmp_path, skinned("rel skel:skeleton = </W/K>", animation)))
+    assert "no rotations" in message
 
-    def scene() -> Scene:
-        clips = "\n".join(lines.values())
-        head = f"clips = {{\n dictionary default = {{\n{clips}\n}}\n}}"
-        return load(tmp_path, stage(cube("A", head=head)))
 
-    assert not unread(scene())
-    del lines[lost]
-    (message,) = unread(scene())
-    assert "value clips" in message
+def test_an_op_without_a_value_moves_no_body_where_there_is_none(tmp_path: Path) -> None:
+    text = 'def Xform "A" {\n double3 xformOp:translate\n' + _ORDER.format("xformOp:translate")
+    assert not unread(load(tmp_path, stage(text + "}", cube("B"))))
