@@ -17,16 +17,8 @@ from msgspec import Struct
 _LOST_FACES = frozenset(("GEO159", "GEO162", "GEO184", "GEO198"))
 _OF_FACES = ("IfcFace", "IfcFaceBound", "IfcLoop")
 # From an instance in a message, these lead up to the products that use it.
-_ABOVE = (
-    "IfcRepresentationItem",
-    "IfcRepresentation",
-    "IfcRepresentationMap",
-    "IfcProductRepresentation",
-    "IfcProfileDef",
-    "IfcObjectPlacement",
-)
-
-
+_ITEMS = ("IfcRepresentationItem", "IfcRepresentation", "IfcRepresentationMap", "IfcProfileDef")
+_ABOVE = (*_ITEMS, "IfcProductRepresentation", "IfcObjectPlacement")
 _INSTANCE = re.compile(r"#(\d+)=")
 
 

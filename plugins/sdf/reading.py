@@ -77,25 +77,23 @@ def _edge(joint: JointEntry, contents: Contents, slips: Slips) -> Edge | None:
     """None: the joint moves nothing, and a warning says so."""
     frames = contents.frames
     if frames.opaque and not all(map(frames.knows, (joint.parent, joint.child))):
-        cause = f"joint {joint.path!r} names a link of a model that is not read: it is ignored"
-        slips.note("joint-not-moved", joint.element, cause)
-        return None
-    parent, child = contents.body(joint.parent), contents.body(joint.child)
-    if parent == child:
-        cause = f"joint {joint.path!r} connects {child or 'the world'!r} to itself: it is ignored"
-        slips.note("joint-not-moved", joint.element, cause)
-        return None
-    moves = moves_of(joint, frames, slips)
-    return Edge(joint.path, parent, child, frames.world(joint.path), moves)
+        cause = "names a link of a model that is not read"
+    else:
+        parent, child = contents.body(joint.parent), contents.body(joint.child)
+        if parent != child:
+            moves = moves_of(joint, frames, slips)
+            return Edge(joint.path, parent, child, frames.world(joint.path), moves)
+        cause = f"connects {child or 'the world'!r} to itself"
+    cause = f"joint {joint.path!r} {cause}: it is ignored"
+    slips.note("joint-not-moved", joint.element, cause)
+    return None
 
 
 def _joined(edges: list[Edge], contents: Contents) -> Iterator[Exemption]:
     """Not with a model that is not read: its other links are checked."""
+    unchecked = {WORLD, *contents.frames.opaque}
     for edge in edges:
-        if contents.frames.opaque.isdisjoint((edge.parent, edge.child)) and WORLD not in (
-            edge.parent,
-            edge.child,
-        ):
+        if unchecked.isdisjoint((edge.parent, edge.child)):
             yield Exemption(edge.parent, edge.child, f"SDF: joint {edge.path}")
 
 

@@ -71,7 +71,12 @@ def pose_of(element: Element | None) -> Transform:
     form = element.attributes.get("rotation_format") or _EULER
     degrees = flag(element, "degrees")
     if form == _QUATERNION:
-        return _from_quaternion(element, degrees)
+        if degrees:
+            element.refuse("a quaternion has no degrees")
+        x, y, z, a, b, c, d = element.text_numbers(7)
+        if math.hypot(a, b, c, d) == 0.0:
+            element.refuse("a quaternion of length 0")
+        return from_quaternion((x, y, z), (a, b, c, d))
     if form != _EULER:
         element.refuse(f"rotation_format {form!r} is none of {_EULER}, {_QUATERNION}")
     x, y, z, *angles = element.text_numbers(6)
@@ -79,13 +84,3 @@ def pose_of(element: Element | None) -> Transform:
         roll, pitch, yaw = map(cos_sin, angles)
         return placed(about_fixed_axes(roll, pitch, yaw), (x, y, z))
     return from_rpy((x, y, z), (angles[0], angles[1], angles[2]))
-
-
-def _from_quaternion(element: Element, degrees: bool) -> Transform:
-    if degrees:
-        element.refuse("a quaternion has no degrees")
-    x, y, z, *quaternion = element.text_numbers(7)
-    if math.hypot(*quaternion) == 0.0:
-        element.refuse("a quaternion of length 0")
-    a, b, c, d = quaternion
-    return from_quaternion((x, y, z), (a, b, c, d))
