@@ -17,7 +17,6 @@ from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import (
     INTERNAL_ERROR,
-    NOTHING_TO_CHECK,
     Issue,
     PairCounts,
     Report,
@@ -44,7 +43,7 @@ def check_asset(
     """
     try:
         scene = load()
-        report = _passing_by_rules(check(scene, settings_for(scene), least=0), scene)
+        report = check(scene, settings_for(scene), least=0)
         return asset(file, with_stated_places(report, scene) if places else report)
     except SatcheckError as error:
         issues = [
@@ -67,23 +66,6 @@ def lost_asset(file: str, loss: Loss) -> Asset:
 def unreadable_asset(file: str, error: SatcheckError) -> Asset:
     """An asset whose result cannot be read."""
     return asset(file, _without_bodies([Issue(error.code, "error", None, file, str(error))]))
-
-
-def _passing_by_rules(report: Report, scene: Scene) -> Report:
-    """Among many assets, one whose every pair a user allows is settled: it has nothing to mend.
-    Robots are left out, as their own pairs are allowed without any rule."""
-    pairs = report.summary.pairs
-    if report.answers or any(issue.state == "blocking" for issue in report.issues):
-        return report
-    robots = any(not robot.loose for robot in scene.robots)
-    if robots or pairs.exempt or not pairs.allowed or pairs.allowed < pairs.total:
-        return report
-    issues = (
-        replace(issue, severity="note") if issue.code == NOTHING_TO_CHECK else issue
-        for issue in report.issues
-    )
-    summary = replace(report.summary, verdict="pass")
-    return replace(report, summary=summary, issues=tuple(issues))
 
 
 def _line_of(error: SatcheckError) -> int | None:

@@ -28,7 +28,14 @@ from satcheck.audit.request.settings import (
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, stated_reading, tool
 from satcheck.core.errors import SatcheckError
-from satcheck.report.report import OUTSIDE_REGION, REGION_OPEN, Finding, Issue, Report
+from satcheck.report.report import (
+    OUTSIDE_REGION,
+    REGION_OPEN,
+    Finding,
+    Issue,
+    Report,
+    all_allowed,
+)
 from satcheck.report.verdict import summarise, truncated_of
 from satcheck.scene.half_spaces import with_reach
 
@@ -100,10 +107,13 @@ def _check(
     support_issues = [] if support is None or statics is None else support.issues(scene, statics)
     regions, region_issues = _regions(scene, bodies, planner.settings)
     size_issues = doubtful_sizes(bodies, findings, settings.planar)
+    pose = scene.posture.pose() if scene.posture else None
+    allowed = all_allowed(counts, bodies.book.rules, pose)
     issues = issues_of(
         scene,
         bodies,
         counts,
+        allowed,
         (*size_issues, *motion_issues, *support_issues, *region_issues, *pair_issues),
         settings.accept,
     )
@@ -116,7 +126,7 @@ def _check(
             findings,
             settings.fail_on,
             issues=issues,
-            alone=len(bodies.placed) == len(bodies.ids) <= 1 or bool(regions),
+            alone=allowed or len(bodies.placed) == len(bodies.ids) <= 1 or bool(regions),
             answers=(
                 *(() if statics is None else statics.findings),
                 *(regions.findings if regions else ()),
@@ -133,7 +143,7 @@ def _check(
             units_unknown=bodies.several_units_count,
         ),
         motions=() if movers is None else movers.stated(),
-        pose=scene.posture.pose() if scene.posture else None,
+        pose=pose,
         findings=tuple(findings),
         issues=issues,
         truncated=truncated_of(counts, findings),

@@ -127,10 +127,12 @@ def issues_of(
     scene: Scene,
     bodies: PlacedBodies,
     counts: PairCounts,
+    allowed: bool,
     of_pairs: Iterable[Issue],
     accept: Sequence[str],
 ) -> tuple[Issue, ...]:
-    """The issues of the input, then those of the run; each once. accept: those that block nothing,
+    """The issues of the input, then those of the run; each once. allowed: rules allow all pairs.
+    accept: those that block nothing,
     beside those that the scene accepts."""
     issues = [
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
@@ -138,12 +140,14 @@ def issues_of(
     ]
     asks = counts.asked or scene.asks_for_regions or scene.asks_for_support
     lone = len(bodies.ids) == 1
-    empty = [] if asks or lone else [_nothing_to_check(scene, bodies, counts)]
+    empty = [] if asks or lone else [_nothing_to_check(scene, bodies, counts, allowed)]
     once = dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs))
     return tuple(with_states(once, (*scene.accept, *map(Accepted, accept))))
 
 
-def _nothing_to_check(scene: Scene, bodies: PlacedBodies, counts: PairCounts) -> Issue:
+def _nothing_to_check(
+    scene: Scene, bodies: PlacedBodies, counts: PairCounts, allowed: bool
+) -> Issue:
     """Return why no pair was checked."""
     if not bodies.ids:
         message = "nothing to compare: no body can collide"
@@ -158,4 +162,5 @@ def _nothing_to_check(scene: Scene, bodies: PlacedBodies, counts: PairCounts) ->
         "within ignored groups": in_group,
     }
     said = ", ".join(f"{count:,} {what}" for what, count in why.items() if count)
-    return Issue(NOTHING_TO_CHECK, "warning", None, None, f"no pair was checked: {said}")
+    message = f"no pair was checked: {said}"
+    return Issue(NOTHING_TO_CHECK, "note" if allowed else "warning", None, None, message)

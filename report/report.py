@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
@@ -320,6 +320,15 @@ class RuleReport(Value, frozen=True):
         return self.where or f"{self.a} and {self.b}"
 
 
+def all_allowed(counts: PairCounts, rules: Iterable[RuleReport], pose: object | None) -> bool:
+    """Return whether rules that somebody has stated allow all pairs, so that nothing has to be
+    compared. Robots allow pairs without any rule of a user, and --between those that it leaves out.
+    pose: of robots; None: there are none."""
+    by_choice = any(rule.where.startswith("--between") for rule in rules)
+    every = 0 < counts.total == counts.allowed and not counts.exempt
+    return every and pose is None and not by_choice
+
+
 class Report(Value, frozen=True, kw_only=True):
     """World frame, right-handed; lengths in the units of the files. A figure that was not computed
     is None, never 0. Numbers are finite.
@@ -371,10 +380,11 @@ class Report(Value, frozen=True, kw_only=True):
 
     @property
     def alone(self) -> bool:
-        """Return whether no pair has to be checked: the scene is one usable body, or none, or rules
-        ask for regions only."""
+        """Return whether no pair has to be compared: the scene is one usable body, or none, or
+        rules ask for regions only, or allow all pairs."""
         usable = all(body.triangles is not None for body in self.bodies)
-        return bool(self.regions) or (len(self.bodies) < 2 and usable)
+        lone = len(self.bodies) < 2 and usable
+        return lone or bool(self.regions) or all_allowed(self.summary.pairs, self.rules, self.pose)
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

@@ -69,8 +69,8 @@ def summarise(
     alone: bool = False,
     answers: Sequence[BodyAnswer] = (),
 ) -> Summary:
-    """alone: no pair has to be checked, because the scene is one usable body, or because rules ask
-    for regions only. answers: to questions about single bodies."""
+    """alone: no pair has to be checked, as of `Report.alone`. answers: to questions about single
+    bodies."""
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     unlisted_open = unlisted_indeterminate(counts, findings)
     by_relation["separated"] += _unlisted(counts, findings) - unlisted_open

@@ -13,6 +13,7 @@ from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Report, Truncated
 from satcheck.report.schema import schema_of
+from satcheck.scene import load_scene
 from satcheck.verify import verify
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
 from tests.scene import graphs
@@ -119,14 +120,22 @@ def test_a_scene_that_exempts_every_pair_says_why(tmp_path, static, ignored, why
     assert issue.message == f"no pair was checked: {why}"
 
 
-def test_a_scene_that_allows_every_pair_checks_nothing(tmp_path):
+def test_a_scene_whose_rules_allow_every_pair_passes_and_says_so(tmp_path):
     allowed = [["b0", "b1", "meant to"], ["b1", "b2", "too"], ["b0", "b2", "too"]]
-    report = check(row(tmp_path, 3, allowed_pairs=allowed))
+    path = row(tmp_path, 3, allowed_pairs=allowed)
+    report = check(path)
     pairs = adds_up(report)
-    assert (pairs.total, pairs.allowed, report.summary.verdict) == (3, 3, "incomplete")
+    assert (pairs.total, pairs.allowed, report.summary.verdict) == (3, 3, "pass")
     (issue,) = report.issues
-    assert (issue.code, issue.severity) == ("nothing-to-check", "warning")
+    assert (issue.code, issue.severity) == ("nothing-to-check", "note")
     assert issue.message == "no pair was checked: 3 allowed by rules"
+
+
+def test_a_choice_of_pairs_that_leaves_none_does_not_pass(tmp_path):
+    write(tmp_path, a=unit_box(), b=unit_box())
+    files = [tmp_path / "a.obj", tmp_path / "b.obj"]
+    report = check(load_scene(files, between=[("a", "nobody")]))
+    assert (report.summary.pairs.allowed, report.summary.verdict) == (1, "incomplete")
 
 
 def test_shapes_of_one_link_are_no_check(tmp_path):
