@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -120,14 +121,23 @@ def test_a_body_in_a_hole_is_no_pass(tmp_path: Path) -> None:
     assert satcheck("--allow-open", shell, str(part)).code == 0
 
 
-def test_nothing_checked_is_no_pass(tmp_path: Path) -> None:
-    bodies = [{"id": id, "mesh": str(SAMPLES / "box.obj")} for id in ("base", "bolt")]
-    scene = {"schema": "satcheck-scene-1", "name": "x", "bodies": bodies}
-    scene |= {"allowed_pairs": [["base", "bolt", "bolted down"]]}
+@pytest.mark.parametrize(
+    ("key", "value", "code", "line"),
+    [
+        ("allowed_pairs", [["base", "bolt", "bolted"]], 0, "PASS: No pair was checked: 1 allowed"),
+        ("ignore_within_groups", ["all"], 3, "INCOMPLETE: No pair was checked: 1 within ignored"),
+    ],
+)
+def test_nothing_checked_passes_only_where_rules_allow_all(
+    tmp_path: Path, key: str, value: list[Any], code: int, line: str
+) -> None:
+    mesh = str(SAMPLES / "box.obj")
+    bodies = [{"id": id, "mesh": mesh, "group": "all"} for id in ("base", "bolt")]
+    scene = {"schema": "satcheck-scene-1", "name": "x", "bodies": bodies, key: value}
     (tmp_path / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
     ran = satcheck(str(tmp_path / "scene.json"))
-    assert ran.code == 3
-    assert "No pair was checked: 1 allowed by rules." in ran.out
+    assert ran.code == code
+    assert line in ran.out
     assert "o collision" not in ran.out
 
 
