@@ -132,8 +132,7 @@ def issues_of(
     accept: Sequence[str],
 ) -> tuple[Issue, ...]:
     """The issues of the input, then those of the run; each once. allowed: rules allow all pairs.
-    accept: those that block nothing,
-    beside those that the scene accepts."""
+    accept: those that block nothing, beside those that the scene accepts."""
     issues = [
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues

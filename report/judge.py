@@ -42,7 +42,8 @@ class Judgement(Struct, frozen=True):
 
 
 def named(exact: Relation, within: bool | None, kept: bool | None = True) -> Relation:
-    """Return what a pair is called. This decides `touching`, and nothing else does.
+    """Return what a pair of bodies is called where they are placed. Nothing else decides whether
+    that is `touching`; what a motion meets on its way has words of its own (`report.sweep`).
 
     exact: what it is without a tolerance. within: whether its overlap, or its gap, is proven to be
     at most the tolerance; None: open. kept: whether its gap keeps the clearance; None: not even the

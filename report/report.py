@@ -321,9 +321,9 @@ class RuleReport(Value, frozen=True):
 
 
 def all_allowed(counts: PairCounts, rules: Iterable[RuleReport], pose: object | None) -> bool:
-    """Return whether rules that somebody has stated allow all pairs, so that nothing has to be
-    compared. Robots allow pairs without any rule of a user, and --between those that it leaves out.
-    pose: of robots; None: there are none."""
+    """Return whether rules, of a scene or of the files themselves, allow all pairs, so that nothing
+    has to be compared. Robots do not count: shapes of one link are allowed without any rule. Nor
+    does --between, which allows all that it leaves out. pose: of robots; None: there are none."""
     by_choice = any(rule.where.startswith("--between") for rule in rules)
     every = 0 < counts.total == counts.allowed and not counts.exempt
     return every and pose is None and not by_choice

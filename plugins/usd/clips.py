@@ -24,7 +24,7 @@ _FIRST = Usd.TimeCode.EarliestTime()
 
 
 def missing_clips(stage: Any) -> dict[str, Refusal]:
-    """Prim -> the clip of it that is not there."""
+    """Return the refusal of each prim that names a value clip which is not there."""
     lost = {}
     for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
         api = Usd.ClipsAPI(prim)

@@ -288,6 +288,8 @@ class Object:
         read = readers.read_coordinates("\n".join(self.coordinates).encode())
         if isinstance(read, readers.ReadError):
             raise Refused(read.code, f"vertex {(read.line - 1) // 3}: {read.message}")
+        if len(read.vertices) != 8 * len(self.coordinates):
+            raise Refused("bad-record", "a coordinate has a line break in it")
         return read
 
     def _triangles(self, vertices: int) -> bytes:

@@ -304,6 +304,13 @@ def test_what_makes_no_body_is_harmless(tmp_path, content):
     assert warnings(loaded(tmp_path, "a.3mf", content)) == {}
 
 
+def test_a_coordinate_of_several_lines_is_refused(tmp_path):
+    """Its three further numbers would be a vertex, and all later ones another."""
+    broken = CUBE.replace('x="1"', 'x="1&#10;2&#10;3&#10;4"', 1)
+    assert refusal(tmp_path, "a.3mf", package(broken))[0] == "bad-record"
+
+
+
 @pytest.mark.parametrize(
     ("old", "new"), [('x="1"', 'x="1_0"'), ('x="1"', 'x="\u0661"'), ('v1="1"', 'v1="0_1"')]
 )
