@@ -310,7 +310,6 @@ def test_a_coordinate_of_several_lines_is_refused(tmp_path):
     assert refusal(tmp_path, "a.3mf", package(broken))[0] == "bad-record"
 
 
-
 @pytest.mark.parametrize(
     ("old", "new"), [('x="1"', 'x="1_0"'), ('x="1"', 'x="\u0661"'), ('v1="1"', 'v1="0_1"')]
 )
