@@ -33,7 +33,7 @@ from satcheck.report.judge import (
     named,
 )
 from satcheck.report.report import OVERLAPS, Finding, finding_id
-from satcheck.scene.loading.readers import is_complete
+from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.thickness_ahead import Ahead

@@ -26,7 +26,7 @@ from satcheck.report.settings import StatedReading
 from satcheck.report.verdict import exempt_by, unlisted_indeterminate
 from satcheck.scene import Body, Unreadable
 from satcheck.scene.bodies import Accepted
-from satcheck.scene.loading.readers import stated_options
+from satcheck.scene.files.readers import stated_options
 from satcheck.scene.planar.outline import Outline as FlatOutline
 from satcheck.scene.planar.outline import Shape
 

@@ -63,7 +63,7 @@ class ConfigFile(Struct, frozen=True):
 
     def where(self, key: str) -> str:
         """`satcheck.toml:3`."""
-        from satcheck.scene.format.lines import innermost, lines_of
+        from satcheck.scene.scene_file.lines import innermost, lines_of
 
         keys = (*self.keys, key)
         return f"{self.path}:{innermost(lines_of(self.text, [keys], toml=True), keys)}"
@@ -233,7 +233,7 @@ def bad_config(message: str) -> SatcheckError:
 
 
 def _parsed(path: Path, data: bytes) -> dict[str, Any]:
-    from satcheck.scene.format.text import parse_toml
+    from satcheck.scene.scene_file.text import parse_toml
     from satcheck.scene.words import why_unreadable
 
     try:

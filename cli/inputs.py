@@ -16,15 +16,15 @@ from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.input_kind import kind_of
-from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
-from satcheck.scene.loading.nodes import Split
-from satcheck.scene.loading.readers import (
+from satcheck.scene.files.nodes import Split
+from satcheck.scene.files.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     ReadLimits,
     reader_of,
 )
+from satcheck.scene.input_kind import kind_of
+from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import ANYWHERE, is_folder
 from satcheck.scene.read_options import (

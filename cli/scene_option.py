@@ -13,7 +13,7 @@ import click
 
 from satcheck.cli.lengths import millimetres
 from satcheck.cli.option import DEFAULTS, seconds, together
-from satcheck.scene.loading.readers import readers
+from satcheck.scene.files.readers import readers
 from satcheck.scene.paths import is_folder
 from satcheck.scene.read_options import (
     ANGULAR_TOLERANCE,

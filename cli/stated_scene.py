@@ -15,9 +15,9 @@ from satcheck.report.report import Issue, Report
 from satcheck.scene import Body, MeshFile, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import FilePart
+from satcheck.scene.files.nodes import CORNER
+from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.inspect import shape_file
-from satcheck.scene.loading.nodes import CORNER
-from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.opening import read_whole
 from satcheck.scene.paths import Permitted
 from satcheck.scene.planar.outline import shape_from

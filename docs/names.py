@@ -15,7 +15,7 @@ from textwrap import TextWrapper
 from satcheck.plugins.sdf import places as sdf
 from satcheck.plugins.step import exchange as step
 from satcheck.plugins.usd import names as usd
-from satcheck.scene.loading import gltf_colliders, gltf_vocabulary, threemf_vocabulary
+from satcheck.scene.files import gltf_colliders, gltf_vocabulary, threemf_vocabulary
 from satcheck.scene.robot import srdf, urdf_places
 from satcheck.scene.robot.slips import Place
 from satcheck.scene.vocabulary import Names

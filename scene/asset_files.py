@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.files.readers import mesh_reader, robots_of
 from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
-from satcheck.scene.loading.readers import mesh_reader, robots_of
 from satcheck.scene.opening import size_of
 from satcheck.scene.paths import exists, is_folder
 

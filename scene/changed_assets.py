@@ -15,8 +15,8 @@ from xml.sax.saxutils import escape
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
+from satcheck.scene.files.readers import readers
 from satcheck.scene.input_kind import SCENE_SUFFIXES, robot_endings
-from satcheck.scene.loading.readers import readers
 from satcheck.scene.paths import followed
 
 # Files of these endings name no other file with geometry.

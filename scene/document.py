@@ -13,8 +13,8 @@ from msgspec import Struct
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Entry, MeshFile
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import RawJoint, RawRule
 from satcheck.scene.issue import Issue
-from satcheck.scene.loading.raw_mesh import RawJoint, RawRule
 from satcheck.scene.planar.outline import Shape
 
 if TYPE_CHECKING:

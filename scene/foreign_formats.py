@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path, PurePath
 
 from satcheck.scene.bodies import Scene
+from satcheck.scene.files.readers import reader_of, robots_of
 from satcheck.scene.issue import issue
-from satcheck.scene.loading.readers import reader_of, robots_of
 
 # Program or format -> endings. Endings that other kinds of files share are left out.
 _ENDINGS = {

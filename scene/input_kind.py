@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.loading.readers import mesh_reader, readers, robot_reader, robots, robots_of
+from satcheck.scene.files.readers import mesh_reader, readers, robot_reader, robots, robots_of
 from satcheck.scene.opening import size_of
 from satcheck.scene.paths import suffix_of
 

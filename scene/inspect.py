@@ -19,10 +19,10 @@ from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import RawMesh
+from satcheck.scene.files.readers import File
 from satcheck.scene.health import examine, examine_bytes
 from satcheck.scene.issue import issue
-from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.loading.readers import File
 from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.resolution import (
     FLOAT64_STEP,

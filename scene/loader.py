@@ -16,13 +16,13 @@ from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
 from satcheck.scene.document import Document, Item, Kind
 from satcheck.scene.errors import Refused
-from satcheck.scene.input_kind import InputKind, kind_of
-from satcheck.scene.loading.nodes import Split
-from satcheck.scene.loading.readers import (
+from satcheck.scene.files.nodes import Split
+from satcheck.scene.files.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     ReadLimits,
 )
+from satcheck.scene.input_kind import InputKind, kind_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import ANYWHERE, Permitted, name_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, plain_ids
@@ -35,9 +35,9 @@ from satcheck.scene.units import MICROMETRES, unit_of
 _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTILINE)
 
 if TYPE_CHECKING:
-    from satcheck.scene.format.entries import SceneFile
     from satcheck.scene.mesh_files import KnownMeshes
     from satcheck.scene.robot import Srdf
+    from satcheck.scene.scene_file.entries import SceneFile
 
 
 class LoadOptions(Struct, frozen=True, kw_only=True):
@@ -190,7 +190,7 @@ def _unit(name: str) -> str:
 
 def _scene(path: str, permitted: Permitted) -> SceneFile:
     """Raises Refused."""
-    from satcheck.scene.format.reading import read_scene_file
+    from satcheck.scene.scene_file.reading import read_scene_file
 
     return read_scene_file(path, Path(path), permitted)
 
@@ -239,7 +239,7 @@ def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
 
 def read_rules(path: str) -> SceneFile:
     """A file of rules. Raises Refused."""
-    from satcheck.scene.format.reading import read_rules_file
+    from satcheck.scene.scene_file.reading import read_rules_file
 
     return read_rules_file(path, Path(path))
 

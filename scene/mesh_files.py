@@ -21,12 +21,9 @@ from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
-from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
-from satcheck.scene.inspect import errors_of, remeshed, shape_file
-from satcheck.scene.issue import Issue
-from satcheck.scene.loading.nodes import Split, document_of
-from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.loading.readers import (
+from satcheck.scene.files.nodes import Split, document_of
+from satcheck.scene.files.raw_mesh import RawScene
+from satcheck.scene.files.readers import (
     File,
     NeedsChild,
     ReadLimits,
@@ -35,7 +32,10 @@ from satcheck.scene.loading.readers import (
     reader_named,
     reader_of,
 )
-from satcheck.scene.loading.reading_children import ReadingChildren, read_in_child
+from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
+from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
+from satcheck.scene.inspect import errors_of, remeshed, shape_file
+from satcheck.scene.issue import Issue
 from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.paths import StrPath, suffix_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK

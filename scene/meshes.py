@@ -12,9 +12,9 @@ from satcheck.core.mesh_arrays import MeshLike, arrays_of, numbers, refused, req
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import NumberFormat, RawMesh
+from satcheck.scene.files.readers import File
 from satcheck.scene.inspect import mesh_file
-from satcheck.scene.loading.raw_mesh import NumberFormat, RawMesh
-from satcheck.scene.loading.readers import File
 from satcheck.scene.resolution import STEPS
 
 if TYPE_CHECKING:

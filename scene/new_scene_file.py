@@ -17,13 +17,13 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.common_units import scaled_mesh, scaled_world
 from satcheck.scene.document import FilePart
-from satcheck.scene.format.document import SCENE_1
-from satcheck.scene.format.text import is_toml
-from satcheck.scene.loading.readers import mesh_reader, options_of
+from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
 from satcheck.scene.paths import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
+from satcheck.scene.scene_file.document import SCENE_1
+from satcheck.scene.scene_file.text import is_toml
 from satcheck.scene.units import ratio, stated_unit, unit_in
 
 Vector = tuple[float, float, float]

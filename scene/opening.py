@@ -12,8 +12,7 @@ from io import BufferedReader, FileIO
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
-from satcheck.scene.files_read import note
-from satcheck.scene.loading.readers import (
+from satcheck.scene.files.readers import (
     KINDS,
     File,
     Reader,
@@ -22,6 +21,7 @@ from satcheck.scene.loading.readers import (
     reader_of,
     readers,
 )
+from satcheck.scene.files_read import note
 from satcheck.scene.paths import StrPath, suffix_of
 from satcheck.scene.plugins import failures
 

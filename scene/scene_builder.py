@@ -20,16 +20,16 @@ from satcheck.scene.common_units import (
 )
 from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
-from satcheck.scene.format.entries import SceneFile
-from satcheck.scene.format.joined import JoinedScenes
+from satcheck.scene.files.placing import multiply
+from satcheck.scene.files.readers import mesh_reader
 from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import BLOCKING, Issue, issue
-from satcheck.scene.loading.placing import multiply
-from satcheck.scene.loading.readers import mesh_reader
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import suffix_of
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.scene_file.entries import SceneFile
+from satcheck.scene.scene_file.joined import JoinedScenes
 from satcheck.scene.units import RESCALED, ratio, stated_unit
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.loading.readers import reader_named
+from satcheck.scene.files.readers import reader_named
 from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect, stated_keys
 
 if TYPE_CHECKING:

@@ -19,9 +19,9 @@ from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
 from satcheck.scene.document import FilePart
+from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
-from satcheck.scene.loading.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene

@@ -78,7 +78,7 @@ def _of_samples(entries: list[dict[str, Any]], folder: Path) -> Iterator[Case]:
 
 
 def _of_folder(folder: Path) -> Iterator[Case]:
-    from satcheck.scene.loading.readers import mesh_reader  # not before it is needed: see case.py
+    from satcheck.scene.files.readers import mesh_reader  # not before it is needed: see case.py
 
     files = sorted(path for path in folder.iterdir() if mesh_reader(path.suffix) is not None)
     yield from (_as_they_stand(two) for two in combinations(files, 2))

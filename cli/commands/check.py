@@ -40,7 +40,7 @@ from satcheck.cli.rendering import Delivery, rendered, tell
 from satcheck.report.baseline import Baseline
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
-from satcheck.scene.loading.readers import readers, robots
+from satcheck.scene.files.readers import readers, robots
 
 if TYPE_CHECKING:
     from satcheck.scene.robot import Pose

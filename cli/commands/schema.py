@@ -56,7 +56,7 @@ def command(document: str) -> None:
 def text(name: str = "report") -> str:
     """Return the schema of one of DOCUMENTS."""
     if name == "scene":
-        from satcheck.scene.format.schema import schema as scene_schema
+        from satcheck.scene.scene_file.schema import schema as scene_schema
 
         return json.dumps(scene_schema(), indent=2) + "\n"
     if name == "config":

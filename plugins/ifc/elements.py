@@ -12,8 +12,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from satcheck.scene.loading.placing import tidy_name
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.files.placing import tidy_name
+from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.plain_ids import UniqueNames
 
 _BODIES = ("IfcElement", "IfcProxy")

@@ -17,8 +17,8 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.ifc.elements import curved_bodies, material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in, logged
 from satcheck.plugins.ifc.readers import CHORD
-from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh, Refusal
+from satcheck.scene.files.flatten import concatenate
+from satcheck.scene.files.raw_mesh import NO_SURFACE, RawMesh, Refusal
 from satcheck.scene.read_options import ReadOptions
 
 _METRES = 1e-3  # of a millimetre

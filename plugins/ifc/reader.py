@@ -17,9 +17,9 @@ from satcheck.plugins.ifc.model import UNITS, open_model
 from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.relations import relations_of
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.placing import tidy_name
-from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene, Refusal
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.placing import tidy_name
+from satcheck.scene.files.raw_mesh import RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.files.readers import File
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.loading.readers import Reader
+from satcheck.scene.files.readers import Reader
 
 CHORD = 1.0  # millimetres: buildings are drawn to about that
 

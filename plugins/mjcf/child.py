@@ -10,13 +10,13 @@ from msgspec.structs import replace
 
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.extras import imported
+from satcheck.scene.files.raw_mesh import RawScene
+from satcheck.scene.files.readers import File, RobotFile
+from satcheck.scene.files.reading_children import read_in_child
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.input_kind import is_robot
 from satcheck.scene.issue import Issue
-from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.loading.readers import File, RobotFile
-from satcheck.scene.loading.reading_children import read_in_child
-from satcheck.scene.loading.xml_tree import Element
 from satcheck.scene.robot.model import Robot
 
 if TYPE_CHECKING:

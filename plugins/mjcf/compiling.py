@@ -18,8 +18,8 @@ import numpy as np
 from satcheck.core.transform import Transform
 from satcheck.plugins.mjcf.files import ModelFiles
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.files.readers import File
 from satcheck.scene.plain_ids import COMPONENT_MARK
 from satcheck.scene.robot.kinematics import from_quaternion, inverse
 from satcheck.scene.robot.model import MeshReference

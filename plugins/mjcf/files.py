@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.reading import read_tree
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.loading.readers import Reader, RobotReader
+from satcheck.scene.files.readers import Reader, RobotReader
 
 ENDING = ".xml"
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.loading.xml_tree import Element, RefusedElement
+from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.words import meant
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.core.transform import Transform
 from satcheck.plugins.sdf.values import number, vector
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot import kinematics
 from satcheck.scene.robot.model import Geometry, MeshReference
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from satcheck.core.conventions import Vector
 from satcheck.plugins.sdf.frames import WORLD, Frames, Name, Scope
 from satcheck.plugins.sdf.values import boolean, vector
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.joint_forest import Moves
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import JointKind, Limits, Mimic

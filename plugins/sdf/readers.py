@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.loading.readers import RobotReader
+from satcheck.scene.files.readers import RobotReader
 
 ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
 

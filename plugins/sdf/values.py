@@ -8,7 +8,7 @@ import re
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}

@@ -19,9 +19,9 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.plugins.step.readers import CHORD
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.gltf_accessors import Accessors
-from satcheck.scene.loading.gltf_buffers import (
+from satcheck.scene.files.extras import imported
+from satcheck.scene.files.gltf_accessors import Accessors
+from satcheck.scene.files.gltf_buffers import (
     BufferViews,
     Work,
     extension,
@@ -30,11 +30,11 @@ from satcheck.scene.loading.gltf_buffers import (
     member,
     split_glb,
 )
-from satcheck.scene.loading.gltf_meshes import NO_TRIANGLES, Meshes, Shape
-from satcheck.scene.loading.gltf_nodes import placement_of
-from satcheck.scene.loading.placing import Instance, instances, raw_scene, tidy_name
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
+from satcheck.scene.files.gltf_nodes import placement_of
+from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
+from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.files.readers import File
 from satcheck.scene.paths import NOTHING_ELSE
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed

@@ -17,10 +17,10 @@ import numpy as np
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.placing import Instance, raw_scene
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.extras import imported
+from satcheck.scene.files.placing import Instance, raw_scene
+from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
+from satcheck.scene.files.readers import File
 from satcheck.scene.units import unit_of
 
 _MOST_VERTICES = 2**32  # they are numbered in 32 bits

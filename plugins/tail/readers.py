@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.loading.readers import Reader
+from satcheck.scene.files.readers import Reader
 
 _READ = "satcheck.plugins.tail.reader:read_tail"
 

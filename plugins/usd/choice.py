@@ -9,7 +9,7 @@ from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.walk import PlacedPrim, type_of
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Refusal
+from satcheck.scene.files.raw_mesh import NO_SURFACE, Refusal
 from satcheck.scene.read_options import ReadOptions
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.polygons import triangles_of
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
+from satcheck.scene.files.polygons import triangles_of
+from satcheck.scene.files.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
 
 Ints = NDArray[np.int64]
 Points = NDArray[np.floating[Any]]

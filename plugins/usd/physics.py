@@ -11,7 +11,7 @@ from pxr import Usd, UsdPhysics
 
 from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, of_prototype
-from satcheck.scene.loading.raw_mesh import RawNode, RawRule
+from satcheck.scene.files.raw_mesh import RawNode, RawRule
 
 
 def with_physics(

@@ -6,9 +6,9 @@ from __future__ import annotations
 import os
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.extras import imported
-from satcheck.scene.loading.raw_mesh import RawScene
-from satcheck.scene.loading.readers import File, Reader
+from satcheck.scene.files.extras import imported
+from satcheck.scene.files.raw_mesh import RawScene
+from satcheck.scene.files.readers import File, Reader
 
 
 def read_usd(file: File) -> RawScene:

@@ -22,8 +22,8 @@ from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.issue import CODES
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.read_options import ReadOptions
 
 # Approximations that reach out of the mesh.

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.files.raw_mesh import RawMesh
 
 
 class Skinning:

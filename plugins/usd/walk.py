@@ -9,8 +9,8 @@ from msgspec import Struct
 from pxr import Usd, UsdGeom
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import Refusal
+from satcheck.scene.files import limits
+from satcheck.scene.files.raw_mesh import Refusal
 
 
 class Frame(Struct, frozen=True):

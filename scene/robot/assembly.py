@@ -15,8 +15,8 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Entry, Scene
 from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.raw_mesh import Refusal
 from satcheck.scene.plain_ids import HULL_MARK
 from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.model import Joint, Link
 from satcheck.scene.words import listed, meant
 

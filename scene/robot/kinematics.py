@@ -21,7 +21,7 @@ from satcheck.core.transform import (
     quaternion_matrix,
 )
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.loading.xml_tree import Element
+from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.model import Joint, Robot, Values
 
 _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)

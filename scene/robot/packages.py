@@ -19,8 +19,8 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.files_read import note, note_folders_in
-from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.opening import read_whole
 from satcheck.scene.paths import (
     NOTHING_ELSE,

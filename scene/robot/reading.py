@@ -12,15 +12,15 @@ from contextlib import suppress
 from typing import NoReturn
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.readers import RobotFile, robot_reader, robots
-from satcheck.scene.loading.xml_tree import (
+from satcheck.scene.files.readers import RobotFile, robot_reader, robots
+from satcheck.scene.files.xml_tree import (
     EXPAND,
     Element,
     guarded_parser,
     parse_xml,
     read_elements,
 )
+from satcheck.scene.issue import Issue, issue
 from satcheck.scene.opening import read_whole
 from satcheck.scene.paths import StrPath
 from satcheck.scene.robot.model import Robot

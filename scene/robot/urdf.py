@@ -16,10 +16,10 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.files.readers import RobotFile
+from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue
-from satcheck.scene.loading.raw_mesh import Refusal
-from satcheck.scene.loading.readers import RobotFile
-from satcheck.scene.loading.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy

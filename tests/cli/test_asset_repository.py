@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from satcheck.scene.loading.readers import readers
+from satcheck.scene.files.readers import readers
 from tests.asset_repository import CONFIG, ON_TOP, commit, make, write_crate, write_shelf
 from tests.cli.process import Ran, satcheck
 

@@ -14,7 +14,7 @@ import pytest
 from satcheck.cli.click_classes import MANY, OTHER, SECTIONS, sections
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.commands.schema import text
-from satcheck.scene.loading.readers import readers, robots
+from satcheck.scene.files.readers import readers, robots
 from tests.cli.process import (
     SAMPLES,
     satcheck,

@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 
 from tests.cli.process import SAMPLES, VALIDATOR, satcheck
 from tests.scene import files
-from tests.scene.format.scenes import BOX, scene_of, toml_document, write
+from tests.scene.scene_file.scenes import BOX, scene_of, toml_document, write
 
 JSON = ("--format", "json", "--no-timings")
 

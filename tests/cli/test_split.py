@@ -9,7 +9,7 @@ from typing import get_args
 import pytest
 
 from satcheck.cli import scene_option
-from satcheck.scene.loading.nodes import Split
+from satcheck.scene.files.nodes import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.plugin_marks import needs
 from tests.plugins.usd.files import cube, stage

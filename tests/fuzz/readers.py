@@ -16,10 +16,10 @@ from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import Refused, Scene, load_scene
-from satcheck.scene.loading.flatten import flattened
-from satcheck.scene.loading.raw_mesh import RawScene, Refusal
-from satcheck.scene.loading.readers import File
-from satcheck.scene.loading.reading_children import Reply, Request, serve
+from satcheck.scene.files.flatten import flattened
+from satcheck.scene.files.raw_mesh import RawScene, Refusal
+from satcheck.scene.files.readers import File
+from satcheck.scene.files.reading_children import Reply, Request, serve
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
@@ -49,7 +49,7 @@ def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     data = path.read_bytes()
     file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
-    request = Request.about(file, "satcheck.scene.loading.readers:read")
+    request = Request.about(file, "satcheck.scene.files.readers:read")
     reply = serve(msgspec.msgpack.encode(request))
     content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
     if isinstance(content, Refusal):

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from tests.scene import files, graphs, test_gltf
-from tests.scene.format import scenes
 from tests.scene.robot import robots
+from tests.scene.scene_file import scenes
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 

@@ -138,7 +138,7 @@ def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:
 
 
 ROBOT = """
-from satcheck.scene.loading.readers import RobotReader
+from satcheck.scene.files.readers import RobotReader
 ROBOT = RobotReader("rbx", "RBX", (".rbx",), ("rbx",), "satcheck.scene.robot.urdf:robot_of")
 """
 

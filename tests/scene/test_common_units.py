@@ -11,8 +11,8 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.units import MICROMETRES, ratio, stated_unit, unit_in, unit_of
 from tests.scene import files
-from tests.scene.format.scenes import scene_of, toml_document
 from tests.scene.robot.robots import link, robot_of
+from tests.scene.scene_file.scenes import scene_of, toml_document
 
 ROWS = [[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 

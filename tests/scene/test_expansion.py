@@ -7,8 +7,8 @@ from itertools import pairwise
 import pytest
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.limits import MAX_DEPTH, MAX_PLACEMENTS
-from satcheck.scene.loading.placing import refuse_explosion
+from satcheck.scene.files.limits import MAX_DEPTH, MAX_PLACEMENTS
+from satcheck.scene.files.placing import refuse_explosion
 
 Held = dict[str, list[tuple[str, int]]]
 

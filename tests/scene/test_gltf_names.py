@@ -12,7 +12,7 @@ import pytest
 from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.gltf_nodes import parse_document
+from satcheck.scene.files.gltf_nodes import parse_document
 from satcheck.scene.read_options import GeometryKind
 from tests.scene import files
 from tests.scene.loading import refusal

@@ -11,7 +11,7 @@ import zipfile
 import pytest
 
 from satcheck.scene import load_scene
-from satcheck.scene.loading import limits
+from satcheck.scene.files import limits
 from tests.plugin_marks import needs
 from tests.plugins.ifc.models import Model
 from tests.scene import files, graphs

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Refused, load_scene, opening
-from satcheck.scene.loading import limits
+from satcheck.scene.files import limits
 from tests.scene import files
 from tests.scene.hostile import issues, needs_links, needs_pipes, write
 from tests.scene.loading import refusal

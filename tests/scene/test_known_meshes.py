@@ -11,8 +11,8 @@ import pytest
 
 from satcheck.core import worker
 from satcheck.scene import Scene, load_scene, mesh_files
+from satcheck.scene.files.reading_children import ReadingChildren
 from satcheck.scene.files_read import files_read
-from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES
 from tests.scene import files

@@ -13,7 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Box
 from satcheck.scene import CODES, load_scene
 from tests.scene import files, graphs
-from tests.scene.format.scenes import scene_of, write
+from tests.scene.scene_file.scenes import scene_of, write
 
 # What costs more to import than reading an OBJ and an STL file takes.
 EXPENSIVE = {

@@ -11,10 +11,10 @@ import pytest
 from satcheck.core import worker
 from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files, opening
 from satcheck.scene.document import FilePart
-from satcheck.scene.loading import limits
-from satcheck.scene.loading.native_formats import read_native
-from satcheck.scene.loading.readers import ReadLimits
-from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.files import limits
+from satcheck.scene.files.native_formats import read_native
+from satcheck.scene.files.readers import ReadLimits
+from satcheck.scene.files.reading_children import ReadingChildren
 from satcheck.scene.opening import open_file
 from satcheck.scene.paths import ANYWHERE
 from tests.scene import files, graphs

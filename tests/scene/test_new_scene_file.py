@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.loading.readers import ReadLimits
+from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file
 from satcheck.scene.paths import ANYWHERE

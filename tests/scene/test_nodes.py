@@ -8,10 +8,10 @@ import pytest
 from satcheck.core.worker import WorkerTimeout
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading import limits
-from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
-from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.files import limits
+from satcheck.scene.files.flatten import concatenate
+from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.files.reading_children import ReadingChildren
 from tests.scene import files, graphs
 
 
@@ -309,7 +309,7 @@ def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
 
 def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
     from satcheck.scene import inspect
-    from satcheck.scene.loading import gltf
+    from satcheck.scene.files import gltf
 
     counts = {"read": 0, "examined": 0}
 

@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from satcheck.scene import Refused
-from satcheck.scene.loading.placing import instances, multiply, tidy_name
+from satcheck.scene.files.placing import instances, multiply, tidy_name
 
 UNIT_ROUNDOFF = Fraction(1, 2**53)
 

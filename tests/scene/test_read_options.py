@@ -11,7 +11,7 @@ from satcheck.audit.batch.key import terms_of
 from satcheck.audit.batch.options import CheckOptions
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading.readers import readers, stated_options
+from satcheck.scene.files.readers import readers, stated_options
 from satcheck.scene.read_options import ReadOptions, as_stated
 from tests.plugin_marks import needs
 

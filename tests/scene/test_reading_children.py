@@ -11,7 +11,7 @@ import pytest
 from satcheck.core import worker
 from satcheck.core.worker import WorkerCrashed, WorkerOutOfMemory, WorkerTimeout
 from satcheck.scene import load_scene, mesh_files
-from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.files.reading_children import ReadingChildren
 from tests.scene import files
 
 SERVER = "misbehaving_server"

@@ -19,7 +19,7 @@ from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
 from satcheck.scene import mesh_files
-from satcheck.scene.loading.reading_children import ReadingChildren
+from satcheck.scene.files.reading_children import ReadingChildren
 from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES, on_posix
 from tests.plugin_marks import needs

@@ -11,8 +11,8 @@ import pytest
 from satcheck.plugins.ifc.reader import read_ifc
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.loading import extras
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files import extras
+from satcheck.scene.files.readers import File
 from tests.plugins.ifc.models import METRES, MILLIMETRES, Model
 from tests.scene.loading import refusal
 

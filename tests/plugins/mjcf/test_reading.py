@@ -12,8 +12,8 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, S
 from satcheck.plugins.mjcf.child import model as read_model
 from satcheck.scene import MeshFile, Refused, load_scene
 from satcheck.scene.document import FilePart
-from satcheck.scene.loading import extras
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files import extras
+from satcheck.scene.files.readers import File
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import ReadOptions
 from tests.cli.process import satcheck

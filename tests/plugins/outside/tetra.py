@@ -11,8 +11,8 @@ import click
 from satcheck.cli.commands import Plugin
 from satcheck.cli.formats.registry import Format, Reports
 from satcheck.scene import Refused
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
-from satcheck.scene.loading.readers import File, Reader
+from satcheck.scene.files.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.files.readers import File, Reader
 
 READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", text="plain")
 FORMAT = Format("verdicts", (".verdicts",), "tetra:render")

@@ -13,7 +13,7 @@ from satcheck.plugins.step.assembly import read_step
 from satcheck.plugins.step.exchange import read_exchange
 from satcheck.plugins.step.readers import CHORD
 from satcheck.scene import MeshFile, Refused, Scene, load_scene
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.readers import File
 from satcheck.scene.read_options import ReadOptions
 from satcheck.verify import verify
 from tests.plugins.step.files import StepFile, rig

@@ -13,7 +13,7 @@ import trimesh
 
 from satcheck.plugins.tail.reader import read_tail
 from satcheck.scene import Refused, load_scene
-from satcheck.scene.loading.readers import File
+from satcheck.scene.files.readers import File
 from tests.cli.process import satcheck
 from tests.scene import files
 

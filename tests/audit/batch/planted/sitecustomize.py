@@ -72,7 +72,7 @@ def _split(_: bytes) -> str:
 # The module, what in it, and how its first argument is named.
 _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "satcheck.scene.mesh_files": ("open_file", os.path.basename),
-    "satcheck.scene.loading.reading_children": (
+    "satcheck.scene.files.reading_children": (
         "_content",
         lambda file: Path(file.directory).name,
     ),

@@ -1,0 +1,73 @@
+"""Reads OBJ, STL, PLY and OFF with the strict C++ readers, in this process."""
+
+from __future__ import annotations
+
+from msgspec.structs import replace
+
+from satcheck._native import readers
+from satcheck.scene.errors import Refused
+from satcheck.scene.files import limits
+from satcheck.scene.files.placing import tidy_name
+from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
+from satcheck.scene.files.readers import File
+from satcheck.scene.plain_ids import UniqueNames
+
+_READERS = {
+    "obj": readers.read_obj,
+    "stl": readers.read_stl,
+    "ply": readers.read_ply,
+    "off": readers.read_off,
+}
+
+
+def read_native(file: File) -> RawScene:
+    """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
+    Refused with line or byte."""
+    outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
+    if isinstance(outcome, readers.ReadError):
+        raise Refused(outcome.code, f"{_place(outcome)}{outcome.message}")
+    whole = RawMesh(
+        vertices=outcome.vertices,
+        triangles=outcome.triangles,
+        number_format=outcome.number_format,
+        decimals=outcome.decimals,
+        significant=outcome.significant,
+        rounding=outcome.rounding,
+        warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
+    )
+    objects = [] if file.whole else outcome.objects()
+    if outcome.several_groups and len(objects) < 2 and not file.whole:
+        what = "solids" if file.format == "stl" else "groups (g)"
+        said = "left-out", f"{what} are no bodies: all of the file is one"
+        whole = replace(whole, warnings=(*whole.warnings, said))
+    return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
+
+
+def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
+    if len(objects) > limits.MAX_PLACEMENTS:
+        message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
+        raise Refused("too-large", message)
+    names = UniqueNames()
+    parts = []
+    for number, (name, mesh) in enumerate(objects, 1):
+        path = names.unique(tidy_name(name.decode(errors="replace"), f"object{number}"))
+        own = replace(whole, vertices=mesh.vertices, triangles=mesh.triangles, warnings=())
+        parts.append(RawPart(path, own))
+    nodes = (RawNode(part.name, number) for number, part in enumerate(parts))
+    return RawScene(tuple(parts), tuple(nodes), whole.warnings)
+
+
+def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:
+    try:
+        with file.location.open("rb", buffering=0) as opened:
+            return readers.read_binary_stl(opened.fileno(), file.size)
+    except OSError as error:
+        raise Refused("unreadable-file", f"cannot be read: {error.strerror}") from None
+
+
+def _place(error: readers.ReadError) -> str:
+    if error.line >= 0:
+        return f"line {error.line}: "
+    if error.offset >= 0:
+        return f"byte {error.offset}: "
+    return ""

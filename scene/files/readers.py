@@ -1,0 +1,325 @@
+"""The registry of readers: which files are read, and by what.
+
+Formats of this package are listed here. Plug-ins and other packages register theirs in the same
+way (`plugins.py`). A reader is imported when the first file of its format is read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.scene.files import limits
+from satcheck.scene.files.raw_mesh import Block, RawScene
+from satcheck.scene.paths import NOTHING_ELSE, Permitted, suffix_of
+from satcheck.scene.plugins import function_at, others, own
+from satcheck.scene.read_options import GeometryKind, ReadOptions
+
+if TYPE_CHECKING:
+    from satcheck.scene.files.reading_children import ReadingChildren
+    from satcheck.scene.files.xml_tree import Element
+    from satcheck.scene.issue import Issue
+    from satcheck.scene.robot.model import Robot
+    from satcheck.scene.robot.packages import FilePlaces
+
+T = TypeVar("T")
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
+_ZIP = b"PK\x03\x04"
+
+
+class File(Struct, frozen=True):
+    """A file that is open for a reader. It can be sent to a child process.
+
+    directory: that its references are relative to. name: in the directory. data: its bytes, text as
+    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
+    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
+    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
+    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
+    packages: of a robot, see `robot.FilePlaces`.
+    """
+
+    format: str
+    directory: str
+    name: str
+    data: Block
+    size: int
+    options: ReadOptions = ReadOptions()
+    whole: bool = False
+    permitted: Permitted = NOTHING_ELSE
+    isolated: bool = False
+    path: str = ""
+    sha256: str | None = None
+    packages: Mapping[str, str] = {}
+
+    @property
+    def location(self) -> Path:
+        return Path(self.directory, self.name)
+
+    @property
+    def in_pieces(self) -> bool:
+        """Return whether the data are the first bytes alone."""
+        return len(self.data) < self.size
+
+
+class ReadLimits(Struct, frozen=True):
+    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+
+    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
+    """
+
+    seconds: float = DEFAULT_SECONDS_PER_FILE
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+    permitted: Permitted = NOTHING_ELSE
+    hashed: bool = True
+    options: ReadOptions = ReadOptions()
+
+    @property
+    def file_bytes(self) -> int:
+        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+
+
+class NeedsChild(Exception):
+    """Raised by a reader in this process that wants to be asked in a child process."""
+
+
+class Reader(Struct, frozen=True):
+    """A format of files with meshes.
+
+    name: in reports. title: for people. endings: of the names of its files, in small letters.
+    read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
+    Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
+    each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
+    reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
+    may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
+    byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
+    read in this process, all others, and all of other packages, in a child process. by_name: it
+    opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.
+    up: the axis that points up, if the format says so. complete: False: the reader may leave
+    something out without a word, so that no pair is proven apart.
+    """
+
+    name: str
+    title: str
+    endings: tuple[str, ...]
+    read: str
+    kind: Literal["mesh", "document", "robot"] = "mesh"
+    options: tuple[str, ...] = ()
+    marks: tuple[bytes, ...] = ()
+    text: Literal["none", "plain", "own"] = "none"
+    here: float = 0
+    by_name: bool = False
+    chord: float | None = None
+    up: Literal["y", "z"] | None = None
+    complete: bool = True
+
+    def __post_init__(self) -> None:
+        unknown = {*self.options} - {*ReadOptions.__struct_fields__}
+        if unknown:
+            raise ValueError(f"no options of readers: {', '.join(sorted(unknown))}")
+
+    def scene(self, file: File) -> RawScene:
+        """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
+        scene = cast("RawScene", function_at(self.read)(file))
+        scene.check()
+        if self.complete:
+            return scene
+        message = (
+            "the library that reads it may leave out what it does not know: overlaps count as it "
+            "places the bodies, and no pair is proven apart"
+        )
+        return replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
+
+
+class RobotFile(Struct, frozen=True):
+    """An XML file of a robot, and what its reader may ask for.
+
+    places: where the files that it names are looked for. packages: as given. geometry: which
+    elements of links become bodies. allowed, children: for readers that need a child process.
+    """
+
+    places: FilePlaces
+    packages: Mapping[str, str | Path]
+    geometry: GeometryKind
+    allowed: ReadLimits
+    children: ReadingChildren
+
+
+class RobotReader(Struct, frozen=True):
+    """A format of robots in XML.
+
+    name, title, endings: as of a `Reader`. roots: tags of the outermost element. read: "module:
+    function". The function takes this element and a `RobotFile`, and returns the robot and issues;
+    it raises Refused. marks: files of its endings in a folder are robots if they hold one of
+    these, or one of the roots; None: all of them are.
+    """
+
+    name: str
+    title: str
+    endings: tuple[str, ...]
+    roots: tuple[str, ...]
+    read: str
+    marks: tuple[bytes, ...] | None = None
+
+    def function(self) -> Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]:
+        return cast(
+            "Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]",
+            function_at(self.read),
+        )
+
+
+def _native(name: str, *more: str, marks: tuple[bytes, ...] = ()) -> Reader:
+    """The strict readers in C++."""
+    read = "satcheck.scene.files.native_formats:read_native"
+    endings = (f".{name}", *more)
+    return Reader(name, name.upper(), endings, read, marks=marks, text="plain", here=math.inf)
+
+
+def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
+    return Reader(
+        name,
+        title,
+        (f".{name}",),
+        "satcheck.scene.files.gltf:read_gltf",
+        options=("geometry",),
+        marks=marks,
+        text="plain" if name == "gltf" else "none",
+        here=limits.IN_PROCESS_BYTES,
+        up="y",  # the glTF 2.0 specification, 3.4
+    )
+
+
+_BUILT_IN: tuple[Reader | RobotReader, ...] = (
+    _native("obj"),
+    _native("stl", ".stla", ".stlb"),
+    _native("ply", marks=(b"ply\n", b"ply\r\n")),
+    _native("off"),
+    _gltf("glb", "GLB", (b"glTF",)),
+    _gltf("gltf", "glTF"),
+    Reader("3mf", "3MF", (".3mf",), "satcheck.scene.files.threemf:read_3mf", marks=(_ZIP,)),
+    Reader("dae", "DAE", (".dae",), "satcheck.scene.files.collada:read_collada", text="own"),
+    RobotReader("urdf", "URDF", (".urdf",), ("robot",), "satcheck.scene.robot.urdf:robot_of"),
+)
+
+
+KINDS = (Reader, RobotReader)
+
+
+class _Registry(Struct):
+    """robots: by the tags of outermost elements."""
+
+    by_ending: dict[str, Reader] = {}
+    by_name: dict[str, Reader] = {}
+    robots: dict[str, RobotReader] = {}
+
+    def add(self, readers: Iterable[Reader | RobotReader]) -> None:
+        """A format that is there already stays."""
+        for reader in readers:
+            if isinstance(reader, RobotReader):
+                for root in reader.roots:
+                    self.robots.setdefault(root, reader)
+                continue
+            self.by_name.setdefault(reader.name, reader)
+            for ending in reader.endings:
+                self.by_ending.setdefault(ending, reader)
+
+
+@cache
+def _registry() -> _Registry:
+    registry = _Registry()
+    registry.add(_BUILT_IN)
+    registry.add(own("readers"))
+    return registry
+
+
+def readers() -> Mapping[str, Reader]:
+    """Return the readers of this package and its plug-ins, by the endings of their files."""
+    return _registry().by_ending
+
+
+def robots() -> Mapping[str, RobotReader]:
+    """Return the readers of robots, by the tags of outermost elements."""
+    return _registry().robots
+
+
+def robots_of(ending: str) -> tuple[RobotReader, ...]:
+    """Return the readers of robots whose names end so."""
+    registry, ending = _registry(), ending.lower()
+    if not any(ending in robot.endings for robot in registry.robots.values()):
+        _found(registry.by_ending, ending)
+    known = dict.fromkeys(registry.robots.values())
+    return tuple(robot for robot in known if ending in robot.endings)
+
+
+def reader_of(ending: str) -> Reader | None:
+    """Return the reader of files whose names end so; None: there is none."""
+    return _found(_registry().by_ending, ending.lower())
+
+
+def mesh_reader(suffix: str) -> Reader | None:
+    """Return the reader of files that are meshes or documents; None: there is none."""
+    reader = reader_of(suffix)
+    return None if reader is None or reader.kind == "robot" else reader
+
+
+def reader_named(name: str) -> Reader | None:
+    """Return the reader of a format by its name in reports; None: this process has not looked for
+    it, or there is none, as of shapes."""
+    return _registry().by_name.get(name)
+
+
+def read(file: File) -> RawScene:
+    """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
+    # A child process has not looked for the readers of other packages.
+    reader = reader_named(file.format) or reader_of(suffix_of(file.name))
+    assert reader is not None  # it has been opened for its reader
+    return reader.scene(file)
+
+
+def robot_reader(root: str) -> RobotReader | None:
+    """Return the reader of robots whose outermost element has this tag; None: there is none."""
+    return _found(_registry().robots, root)
+
+
+def is_complete(format_name: str) -> bool:
+    """Return whether the reader of a format leaves nothing out without a word."""
+    reader = reader_named(format_name)
+    return reader is None or reader.complete
+
+
+def options_of(formats: Iterable[str]) -> set[str]:
+    """Return the names of the options that count for files of these formats."""
+    return {name for each in _known(formats) for name in each.options}
+
+
+def stated_options(options: ReadOptions, formats: Iterable[str]) -> dict[str, Any] | None:
+    """Return the options that count for files of these formats, by name; None: no option counts.
+    The chord tolerance is None if these formats have different ones."""
+    formats = set(formats)
+    values = options.named(options_of(formats))
+    chords = {options.chord(r.chord) for r in _known(formats) if r.chord is not None}
+    if len(chords) == 1:
+        values["chord_tolerance"] = chords.pop()
+    return values if any(value is not None for value in values.values()) else None
+
+
+def _known(formats: Iterable[str]) -> list[Reader]:
+    return [reader for name in formats if (reader := reader_named(name)) is not None]
+
+
+def _found(among: Mapping[str, T], key: str) -> T | None:
+    """Other packages are asked only for what this one does not have."""
+    if key and key not in among:
+        _registry().add(map(_isolated, others("readers", KINDS)))
+    return among.get(key)
+
+
+def _isolated(reader: Reader | RobotReader) -> Reader | RobotReader:
+    """Return the reader of another package, which runs in a child process: it may fail."""
+    return replace(reader, here=0) if isinstance(reader, Reader) else reader

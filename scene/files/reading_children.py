@@ -1,0 +1,191 @@
+"""The child processes that read the files of a run.
+
+A file of a large parser is untrusted input. All of its reading, checks included, happens in
+`serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
+and msgspec checks their types. A child reads many files, because importing its large parsers takes
+longer than reading most files. If a file stops or kills its child, only this file fails, and the
+next file gets a new child.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Generic, Self, TypeVar
+
+import msgspec
+from msgspec.structs import replace
+
+from satcheck.core.errors import SatcheckError
+from satcheck.core.worker_errors import (
+    WorkerCrashed,
+    WorkerError,
+    WorkerFailed,
+    WorkerOutOfMemory,
+    WorkerTimeout,
+)
+from satcheck.scene.errors import Refused
+from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.files.readers import File, ReadLimits
+from satcheck.scene.files_read import files_read, note, note_lost_reader
+from satcheck.scene.issue import CODES
+from satcheck.scene.paths import ANYWHERE, NOTHING_ELSE, Permitted
+from satcheck.scene.plugins import function_at
+
+if TYPE_CHECKING:
+    from satcheck.core.worker import Worker
+
+Content = TypeVar("Content")
+
+_LONGEST_MESSAGE = 200  # characters of what a library says
+
+
+class ReadingChildren:
+    """A child process for each module that serves. megabytes: limit for each child. The children
+    end by `close`, when this object is deleted, or when the process ends."""
+
+    def __init__(self, megabytes: int) -> None:
+        self._megabytes = megabytes
+        self._workers: dict[str, Worker] = {}
+
+    def ask(self, module: str, request: bytes, *, seconds: float) -> bytes:
+        """`serve(request)` of that module. seconds: for this request. Raises WorkerError.
+
+        Earlier files may have used up the memory of a child, or damaged it. If such a child fails,
+        a new one decides, so that no answer depends on earlier files.
+        """
+        worker = self._worker(module)
+        fresh = worker.answered == 0
+        try:
+            return worker.ask(request, seconds=seconds)
+        except (WorkerOutOfMemory, WorkerCrashed):
+            if fresh:
+                raise
+            return worker.ask(request, seconds=seconds)
+
+    def close(self) -> None:
+        for worker in self._workers.values():
+            worker.close()
+
+    def _worker(self, module: str) -> Worker:
+        if module not in self._workers:
+            from weakref import finalize
+
+            from satcheck.core.worker import Worker
+
+            worker = Worker(module, megabytes=self._megabytes)
+            finalize(self, worker.close)
+            self._workers[module] = worker
+        return self._workers[module]
+
+
+class Request(msgspec.Struct, frozen=True):
+    """A file to read, without its names: these are bytes, as those of some files are no UTF-8.
+
+    read: "module:function", which takes the file. folders: that the file may name files in, beside
+    its own; None: all.
+    """
+
+    read: str
+    directory: bytes
+    name: bytes
+    path: bytes
+    folders: tuple[bytes, ...] | None
+    file: File
+
+    @classmethod
+    def about(cls, file: File, read: str) -> Self:
+        may = file.permitted
+        folders = None if may.anywhere else tuple(map(os.fsencode, may.folders))
+        directory = os.fsencode(Path(file.directory).absolute())
+        names = directory, os.fsencode(file.name), os.fsencode(file.path)
+        blank = {"directory": "", "name": "", "path": "", "permitted": NOTHING_ELSE}
+        return cls(read, *names, folders, replace(file, **blank, isolated=True))
+
+    def named(self) -> File:
+        """Return the file with its names."""
+        folders = self.folders
+        return replace(
+            self.file,
+            directory=os.fsdecode(self.directory),
+            name=os.fsdecode(self.name),
+            path=os.fsdecode(self.path),
+            permitted=ANYWHERE if folders is None else Permitted(tuple(map(os.fsdecode, folders))),
+        )
+
+
+class Reply(msgspec.Struct, Generic[Content], frozen=True):
+    """files: those that the file refers to, read or looked for."""
+
+    content: Content | Refusal
+    files: tuple[bytes, ...]
+
+
+def read_in_child(
+    file: File, read: str, kind: type[Content], children: ReadingChildren, allowed: ReadLimits
+) -> Content:
+    """Return what a function, "module:name", makes of a file in a child process: an object of this
+    kind. Raises Refused."""
+    request = Request.about(file, read)
+    try:
+        sent = msgspec.msgpack.encode(request)
+        reply = children.ask(__name__, sent, seconds=allowed.seconds)
+        answer = msgspec.msgpack.decode(reply, type=Reply[kind])  # type: ignore[valid-type]
+    except WorkerError as error:
+        note_lost_reader()
+        raise _lost(error, file, allowed.megabytes) from error
+    except msgspec.DecodeError:
+        message = "the reader's answer is damaged"
+        raise Refused("reader-failed", message, file=file.path) from None
+    for name in answer.files:
+        note(_as_given(Path(os.fsdecode(name)), os.fsdecode(request.directory), file.directory))
+    content: Content | Refusal = answer.content
+    if isinstance(content, Refusal):
+        code = content.code if content.code in CODES else "reader-failed"
+        raise Refused(code, content.message, file=file.path)
+    return content
+
+
+def _as_given(file: Path, directory: str, folder: str) -> Path:
+    """The file by the path of its folder as given; it may lie elsewhere."""
+    return Path(folder) / file.relative_to(directory) if file.is_relative_to(directory) else file
+
+
+def _lost(error: WorkerError, file: File, megabytes: int) -> Refused:
+    """The error for a child that was stopped or died while it read a file."""
+    kind, code = file.format.upper(), "reader-failed"
+    if isinstance(error, WorkerTimeout):
+        limit = f"{error.seconds:g} s (raise it with --seconds-per-file)"
+        code, said = "reader-timeout", f"reading this {kind} file was stopped after {limit}"
+    elif error.code == "worker-out-of-memory":
+        limit = f"{megabytes} MiB (raise it with --megabytes-per-file)"
+        code, said = "reader-out-of-memory", f"reading this {kind} file needs more than {limit}"
+    elif isinstance(error, WorkerFailed):
+        what = f"{error.exception_type}: {error.exception_message}"
+        said = _one_line(f"the {kind} reader failed: {what}")
+    else:
+        said = _one_line(f"the {kind} reader died: {error.message}")
+    return Refused(code, said, file=file.path)
+
+
+def _one_line(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST_MESSAGE else line[:_LONGEST_MESSAGE] + " ..."
+
+
+def serve(message: bytes) -> bytes:
+    """Runs in the child process. The answer may be a Refusal."""
+    request = msgspec.msgpack.decode(message, type=Request)
+    with files_read() as files:
+        content = _content(request.named(), request.read)
+    return msgspec.msgpack.encode(Reply(content, tuple(map(os.fsencode, files))))
+
+
+def _content(file: File, read: str) -> object:
+    try:
+        return function_at(read)(file)
+    except SatcheckError as error:
+        line = error.line if isinstance(error, Refused) else None
+        return Refusal(
+            error.code, error.message if line is None else f"line {line}: {error.message}"
+        )

@@ -1,0 +1,43 @@
+"""Opens untrusted zip archives. Damage is an error, and so is a part that unpacks to too much."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import IO
+
+from satcheck.scene.errors import Refused
+from satcheck.scene.files import limits
+
+
+@contextmanager
+def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]:
+    """kind: such as "a 3MF file", for messages. Raises Refused for any error in the archive,
+    also while the `with` block reads its parts."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            yield archive
+    except zipfile.BadZipFile as error:
+        raise Refused("not-this-format", f"not {kind}: {error}") from None
+    except (zlib.error, EOFError, ValueError) as error:  # ValueError: an offset before its start
+        raise Refused("bad-record", f"damaged zip data: {error}") from None
+    except (RuntimeError, NotImplementedError) as error:  # encrypted, or an unknown compression
+        raise Refused("unsupported-feature", f"zip: {error}") from None
+
+
+def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
+    """A part of the archive. Raises Refused if it unpacks to too much."""
+    entry = archive.getinfo(name)
+    inflation = entry.file_size / max(entry.compress_size, 1)
+    if entry.file_size > limits.MAX_PART_BYTES or (
+        entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
+    ):
+        raise Refused(
+            "too-large",
+            f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes, like an attack: "
+            "unpack it, and check what is in it",
+        )
+    return archive.open(entry)

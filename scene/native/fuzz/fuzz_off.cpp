@@ -1,9 +1,0 @@
-#include "fuzz/invariants.hpp"
-#include "fuzz/target.hpp"
-#include "readers.hpp"
-
-using namespace satcheck::scene;
-
-FUZZ_TARGET(off) {
-  check(read_off(data));
-}

@@ -1,0 +1,88 @@
+"""The JSON Schema (2020-12) of satcheck.scene/1, made from the structs that read it."""
+
+from __future__ import annotations
+
+import re
+from inspect import cleandoc
+from typing import Any
+
+from msgspec.json import schema_components
+
+from satcheck.scene.rules import KEYS
+from satcheck.scene.scene_file.document import RULES_FILE_KEYS, BodyRule, Rule, Scene
+from satcheck.scene.scene_file.form import LARGEST, Table
+from satcheck.scene.statics import KEYS as BODY_KEYS
+
+_ABOUT_KEY = re.compile(r"^([$\w]+): (.*(?:\n    .*)*)$", re.MULTILINE)
+
+
+def schema() -> dict[str, Any]:
+    _, tables = schema_components((Scene, Rule, BodyRule), ref_template="#/$defs/{name}")
+    for table in tables.values():
+        _describe(table)
+    for kind in Table.__subclasses__():
+        if kind.__name__ in tables:
+            tables[kind.__name__] |= _conditions(kind)
+    _require_effect(tables["Rule"], KEYS)
+    _require_effect(tables["BodyRule"], BODY_KEYS)
+    tables["Rule"] |= {
+        "if": {"properties": {"allowed": {"const": True}}, "required": ["allowed"]},
+        "then": {
+            "required": ["reason"],
+            "properties": {key: False for key in KEYS if key != "allowed"},
+        },
+    }
+    scene = _plain(tables.pop("Scene"))
+    del scene["required"]
+    rules_file = {"required": ["rules"], "propertyNames": {"enum": list(RULES_FILE_KEYS)}}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "urn:satcheck:scene:1",
+        **scene,
+        "title": "satcheck.scene/1",
+        "anyOf": [
+            {"required": ["schema", "bodies"]},
+            {"description": "A file of rules.", **rules_file},
+        ],
+        "$defs": _plain(tables),
+    }
+
+
+def _describe(table: dict[str, Any]) -> None:
+    """Moves what the docstring says about keys to these keys."""
+    text = cleandoc(table.get("description", ""))
+    for key, about in _ABOUT_KEY.findall(text):
+        table["properties"][key]["description"] = " ".join(about.split())
+    table["description"] = " ".join(_ABOUT_KEY.sub("", text).split())
+
+
+def _conditions(kind: type[Table]) -> dict[str, Any]:
+    """What keys say about other keys."""
+    found: dict[str, Any] = {}
+    if kind.one_of:
+        found["oneOf"] = [{"required": [key]} for key in kind.one_of]
+    if kind.excludes:
+        found["dependentSchemas"] = {
+            key: {"not": {"anyOf": [{"required": [other]} for other in others]}}
+            for key, others in kind.excludes.items()
+        }
+    return found
+
+
+def _require_effect(table: dict[str, Any], keys: tuple[str, ...]) -> None:
+    table["anyOf"] = [{"required": [key]} for key in keys]
+
+
+def _plain(part: Any) -> Any:
+    """The same without limits that only keep infinity out, and with lists of equal items in the
+    short form that more editors know."""
+    if isinstance(part, list):
+        return [_plain(inner) for inner in part]
+    if not isinstance(part, dict):
+        return part
+    part = {k: _plain(v) for k, v in part.items() if v not in (LARGEST, -LARGEST)}
+    items = part.get("prefixItems", ())
+    if part.get("items") is False and all(item == items[0] for item in items):
+        del part["prefixItems"]
+        part["items"] = items[0]
+    return part
