@@ -40,18 +40,28 @@ bool bounds_no_area(const Mesh& mesh, const BoundaryLoop& loop, double width) {
   return std::all_of(loop.begin(), loop.end(), [&](auto v) { return distance_to_segment(at(v), p, q) <= width; });
 }
 
-// For each vertex of the loops: the first vertex within the width, by x; the vertex itself where there is no other.
+int widest_axis(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
+  Aabb box;
+  for (const std::uint32_t v : vertices) box.include(mesh.vertices[v]);
+  const Vec3 size = box.max - box.min;
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+// For each vertex of the loops: the first vertex within the width, along the widest axis, where the fewest are
+// near; the vertex itself where there is no other.
 std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
   std::vector<std::uint32_t> vertices;
   for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
-  std::sort(vertices.begin(), vertices.end(), [&](auto u, auto v) { return at(u).x != at(v).x ? at(u).x < at(v).x : u < v; });
+  const int axis = widest_axis(mesh, vertices);
+  const auto place = [&](std::uint32_t v) { return at(v)[axis]; };
+  std::sort(vertices.begin(), vertices.end(), [&](auto u, auto v) { return place(u) != place(v) ? place(u) < place(v) : u < v; });
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::map<std::uint32_t, std::uint32_t> same;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t first = vertices[i];
     if (!same.try_emplace(first, first).second) continue;
-    for (std::size_t k = i + 1; k < vertices.size() && at(vertices[k]).x - at(first).x <= width; ++k) {
+    for (std::size_t k = i + 1; k < vertices.size() && place(vertices[k]) - place(first) <= width; ++k) {
       if (distance(at(first), at(vertices[k])) <= width) same.try_emplace(vertices[k], first);
     }
   }

@@ -97,18 +97,22 @@ class Hinges {
       across.erase(std::unique(across.begin(), across.end()), across.end());
       Hinge hinge{mesh.vertices[corner(h[0], 0)], mesh.vertices[corner(h[0], 1)], {}};
       for (const std::uint32_t v : across) hinge.wings.push_back(mesh.vertices[v]);
-      for (const std::uint32_t half_edge : h) by_triangle_[half_edge / 3].push_back(hinge);
+      for (const std::uint32_t half_edge : h) by_triangle_[half_edge / 3].push_back(hinges_.size());
+      hinges_.push_back(std::move(hinge));
     }
   }
 
-  const std::vector<Hinge>& of(std::uint32_t triangle) const {
-    static const std::vector<Hinge> none;
-    const auto hinges = by_triangle_.find(triangle);
-    return hinges == by_triangle_.end() ? none : hinges->second;
+  // Whether `holds` is true for a hinge at the triangle.
+  template <class Holds>
+  bool any_at(std::uint32_t triangle, Holds holds) const {
+    const auto at = by_triangle_.find(triangle);
+    return at != by_triangle_.end() &&
+           std::any_of(at->second.begin(), at->second.end(), [&](std::size_t k) { return holds(hinges_[k]); });
   }
 
  private:
-  std::unordered_map<std::uint32_t, std::vector<Hinge>> by_triangle_;
+  std::vector<Hinge> hinges_;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> by_triangle_;  // numbers of hinges: many pages may share one
 };
 
 // Whether the segment p q, in the plane of t, passes through the open triangle.
@@ -193,14 +197,12 @@ struct SheetPair {
 };
 
 bool crosses_at_edge(const SheetPair& pair, const Hinges& hinges_a, const Hinges& hinges_b) {
-  for (const Hinge& h : hinges_a.of(pair.a)) {
-    if (crosses_triangle(h, pair.of_b)) return true;
-    for (const Hinge& k : hinges_b.of(pair.b)) {
-      if (share_length(h, k) && alternate(h, k)) return true;
-    }
-  }
-  const auto& of_b = hinges_b.of(pair.b);
-  return std::any_of(of_b.begin(), of_b.end(), [&](const Hinge& k) { return crosses_triangle(k, pair.of_a); });
+  const auto crosses = [&](const Hinge& h) {
+    return crosses_triangle(h, pair.of_b) ||
+           hinges_b.any_at(pair.b, [&](const Hinge& k) { return share_length(h, k) && alternate(h, k); });
+  };
+  return hinges_a.any_at(pair.a, crosses) ||
+         hinges_b.any_at(pair.b, [&](const Hinge& k) { return crosses_triangle(k, pair.of_a); });
 }
 
 // A dot product of a direction and a normal, both unit: far more than the rounding of 0.
