@@ -22,8 +22,7 @@ from satcheck.report.samples import (
     SamplesTruncated,
     StatedPose,
 )
-from satcheck.scene.robot.assembly import posed
-from satcheck.scene.robot.pose_batches import PoseBatch
+from satcheck.scene.robot.postures import PoseBatch, posed
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene

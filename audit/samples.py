@@ -25,8 +25,7 @@ from satcheck.audit.sorted_poses import sorted_and_counted
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose
-from satcheck.scene.robot.assembly import posed
-from satcheck.scene.robot.pose_batches import PoseBatch, pose_batches, require_joints
+from satcheck.scene.robot.postures import PoseBatch, pose_batches, posed
 
 Progress = Callable[[int, int], None]
 
@@ -56,12 +55,11 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     settings = replace(settings, list_pruned=False)
-    require_joints(scene, poses)  # all poses are judged before work is done
     cache = BodyCache()
     results = SampleResults(settings.fail_on, lists_all=len(poses) <= LISTED_SAMPLES)
     checks = SingleChecks(scene, settings, cache, results)
-    batches = pose_batches(scene, poses, BATCH)
-    first = next(batches)
+    batches = pose_batches([robot.robot for robot in scene.robots], poses, BATCH)
+    first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(checks, first), chain((first,), batches)
     with ExitStack() as stack:
         if pairs is None:

@@ -187,7 +187,7 @@ class SceneBuilder:
         if not robots and not self._srdfs and not jointed:
             return with_reach(scene)
         from satcheck.scene.robot import permissions, posed, with_srdfs
-        from satcheck.scene.robot.document import robots_of_documents
+        from satcheck.scene.robot.trees import robots_of_documents
 
         robots = with_srdfs(robots, self._srdfs)
         allowed, issues = [], list(scene.issues)

@@ -88,7 +88,7 @@ class _Reader:
             roots={link.name: IDENTITY for link in (links[0], *flexes)},
             links={link.name: link for link in links},
             joints=tuple(joints),
-            exempt=self._exemptions.exempt(),
+            exempt=tuple(self._exemptions.exempt()),
             geometry=self._geometry,
             states=states,
         )

@@ -17,7 +17,6 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision
 from satcheck.scene.robot.slips import Slips
 
@@ -52,10 +51,9 @@ class LinkEntry(NamedTuple):
 class Contents:
     """links, joints: of all models. models: path -> the canonical link if the model names one."""
 
-    def __init__(self, includes: Includes, slips: Slips, geometry: GeometryKind) -> None:
+    def __init__(self, includes: Includes, slips: Slips) -> None:
         self._includes = includes
-        self._slips = slips
-        self._geometry = geometry
+        self.slips = slips
         self.frames = Frames()
         self.links: dict[str, LinkEntry] = {}
         self.joints: list[JointEntry] = []
@@ -79,9 +77,9 @@ class Contents:
         worlds = root.all("world")
         if len(worlds) > 1:
             worlds[1].refuse("a second <world>: check each in a file of its own")
-        self._slips.look(root, places.ROOT)
+        self.slips.look(root, places.ROOT)
         for world in worlds:
-            self._slips.look(world, places.WORLD)
+            self.slips.look(world, places.WORLD)
         for container in (root, *worlds):
             for tag in _ONLY_IN_MODELS:
                 for element in container.all(tag):
@@ -101,7 +99,7 @@ class Contents:
         """include: names the model, and says more about it."""
         if around.depth >= MOST_NESTED:
             element.refuse(f"more than {MOST_NESTED} models in each other", "too-large")
-        self._slips.look(element, places.MODEL)
+        self.slips.look(element, places.MODEL)
 
         def stated(tag: str) -> Element | None:
             return include.only(tag) if include else None
@@ -147,7 +145,7 @@ class Contents:
         self.frames.declare(path, frame)
 
     def _include(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.INCLUDE)
+        self.slips.look(element, places.INCLUDE)
         uri = text_of(element, "uri")
         named = element.only("name")
         name = (named.text if named else "") or None
@@ -194,7 +192,7 @@ class Contents:
     def _link(self, element: Element, around: Around) -> None:
         if around.scope.model == WORLD:
             return
-        self._slips.look(element, places.LINK)
+        self.slips.look(element, places.LINK)
         path = around.scope.path(element.attribute("name"))
         self._declare(path, element, element.only("pose"), around.scope)
         alone = boolean(element, "self_collide", around.self_collide)
@@ -203,7 +201,7 @@ class Contents:
         self._first.setdefault(around.scope.model, path)
 
     def _frame(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.FRAME)
+        self.slips.look(element, places.FRAME)
         path = self._free_path(element, around.scope)
         text = element.attributes.get("attached_to")
         attached = Name(around.scope, text, element) if text else None
@@ -211,7 +209,7 @@ class Contents:
         self._declare(path, element, pose, around.scope, default=attached, attached=attached)
 
     def _joint(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.JOINT)
+        self.slips.look(element, places.JOINT)
         path = self._free_path(element, around.scope)
         parent, child = (
             Name(around.scope, text_of(element, role), element.need(role), of_joint=True)
@@ -232,14 +230,14 @@ class Contents:
 
     def _actor(self, element: Element, around: Around) -> None:
         for link in element.all("link"):
-            self._slips.look(link, places.LINK)
+            self.slips.look(link, places.LINK)
         solid = any(link.all("collision") for link in element.all("link"))
-        if solid or self._geometry == "visual":
+        if solid or self.slips.geometry == "visual":
             name, why = element.attribute("name"), "a script moves it"
             self._lose(element, around, name, "unsupported-feature", name, why)
         else:
             cause = "an <actor> without <collision>: no body is checked"
-            self._slips.note("no-collision-geometry", element, cause)
+            self.slips.note("no-collision-geometry", element, cause)
 
     def _population(self, element: Element, around: Around) -> None:
         name = element.attributes.get("name") or element.tag
@@ -247,15 +245,15 @@ class Contents:
         self._lose(element, around, name, "unsupported-feature", name, why)
 
     def _road(self, element: Element, around: Around) -> None:
-        if self._geometry == "visual":
+        if self.slips.geometry == "visual":
             name = element.attributes.get("name") or element.tag
             self._lose(element, around, name, "unsupported-feature", name, "a road has no mesh")
 
     def _state(self, element: Element, _: Around) -> None:
-        self._slips.look(element, places.STATE)
+        self.slips.look(element, places.STATE)
         if element.all("model"):
             cause = "a stored <state> is not applied: models stand where <model> places them"
-            self._slips.note("stored-state", element, cause)
+            self.slips.note("stored-state", element, cause)
 
     def body(self, name: Name | str) -> str:
         """The link that a frame moves with; WORLD if it does not move. Raises Refused."""

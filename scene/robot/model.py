@@ -94,10 +94,11 @@ class Joint(Struct, frozen=True):
     """Moves the link `child` relative to the link `parent`.
 
     origin: the pose of the joint's frame in the frame of the parent. axis: unit vector in the
-    joint's frame. limits: None if there are none. child_origin: the pose of the child in the
-    joint's frame. stands_at_zero: without a value it stands at 0, or at `reference`, even if that
-    is beyond its limits, because the file states the pose of the child there. reference: the value
-    at which it does not move the child; (): 0. The value of a free joint is a pose in the world.
+    joint's frame; of a prismatic joint its length is that of a metre in the unit of the poses.
+    limits: None if there are none. child_origin: the pose of the child in the joint's frame.
+    stands_at_zero: without a value it stands at 0, or at `reference`, even if that is beyond its
+    limits, because the file states the pose of the child there. reference: the value at which it
+    does not move the child; (): 0. The value of a free joint is a pose in the world.
     """
 
     name: str
@@ -105,16 +106,16 @@ class Joint(Struct, frozen=True):
     parent: str
     child: str
     origin: Transform
-    axis: Vector
-    limits: Limits | None
-    mimic: Mimic | None
+    axis: Vector = (1.0, 0.0, 0.0)
+    limits: Limits | None = None
+    mimic: Mimic | None = None
     child_origin: Transform = IDENTITY
     stands_at_zero: bool = False
     reference: Values = ()
 
     @property
     def freedoms(self) -> int:
-        """How many numbers its value has."""
+        """Return how many numbers its value has."""
         return FREEDOMS.get(self.kind, 1)
 
     @property
@@ -124,26 +125,19 @@ class Joint(Struct, frozen=True):
 
     @property
     def free(self) -> bool:
-        """Whether a pose sets its value: it moves and mimics no other joint."""
+        """Return whether a pose sets its value: it moves and mimics no other joint."""
         return self.freedoms > 0 and self.mimic is None
 
 
 class Exemption(Struct, frozen=True):
     """Bodies that need no check against each other, as the format says. a, b: two links, or two
-    groups of collisions, which may be the same."""
+    groups of collisions, which may be the same. checked: these are checked nevertheless."""
 
     a: str
     b: str
     reason: str
-
-
-class Exempt(Struct, frozen=True):
-    """The exemptions of a robot: pairs of links, and pairs of groups of collisions. checked: groups
-    that are checked nevertheless."""
-
-    links: tuple[Exemption, ...] = ()
-    groups: tuple[Exemption, ...] = ()
-    checked: tuple[Exemption, ...] = ()
+    of_groups: bool = False
+    checked: bool = False
 
 
 class State(Struct, frozen=True):
@@ -161,9 +155,9 @@ class Robot(Struct, frozen=True):
     """Trees of links, checked. The links of an SDFormat or MJCF file are one robot.
 
     file: its path as given. roots: links that no joint carries -> their pose in the world. joints:
-    each after the joint of its parent link. exempt: pairs that the format does not check; None: the
-    format says nothing about them. geometry: the elements of links that are checked. states: those
-    that the file itself names.
+    each after the joint of its parent link. exempt: pairs that the format does not check, of which
+    a later one counts more; None: the format says nothing about them. geometry: the elements of
+    links that are checked. states: those that the file itself names.
     """
 
     name: str
@@ -171,9 +165,6 @@ class Robot(Struct, frozen=True):
     roots: dict[str, Transform]
     links: dict[str, Link]
     joints: tuple[Joint, ...]
-    exempt: Exempt | None = None
+    exempt: tuple[Exemption, ...] | None = None
     geometry: GeometryKind = "collision"
     states: tuple[State, ...] = ()
-
-    def joint(self, name: str) -> Joint | None:
-        return next((joint for joint in self.joints if joint.name == name), None)
