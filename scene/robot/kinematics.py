@@ -39,16 +39,10 @@ def poses_of(pose: Transform) -> Numbers:
     return np.array(pose[:12]).reshape(3, 4, 1)
 
 
-def single(poses: Numbers) -> Transform:
-    """Return the only pose."""
-    return (*poses.ravel().tolist(), 0.0, 0.0, 0.0, 1.0)
-
-
 def within(outer: Numbers, inner: Numbers) -> Numbers:
     """Return poses in the frames of other poses, as `compose` does."""
-    a, b, c, origin = (outer[:, k : k + 1] for k in range(4))
-    poses: Numbers = a * inner[0] + b * inner[1] + c * inner[2]
-    poses[:, 3:] += origin
+    poses: Numbers = outer[:, 0:1] * inner[0] + outer[:, 1:2] * inner[1] + outer[:, 2:3] * inner[2]
+    poses[:, 3] += outer[:, 3]
     return poses
 
 
@@ -78,30 +72,28 @@ def link_poses(robot: Robot, values: Mapping[str, Numbers]) -> dict[str, Numbers
 def motion(joint: Joint, values: Numbers) -> Numbers:
     """Return the motion of a joint that moves, which is applied after its origin."""
     start = joint.reference[0] if joint.reference else 0.0
+    turn: Sequence[Any] = _NO_TURN
+    shift: Sequence[Any] = _NO_SHIFT
     match joint.kind:
         case "prismatic":
-            return _moved(_NO_TURN, [(values[0] - start) * c for c in joint.axis])
+            shift = [(values[0] - start) * c for c in joint.axis]
         case "planar":
             x, y, angle = values
+            turn = about(joint.axis, _cos_sin(angle))
             shift = [x * u + y * v for u, v in zip(*_plane(joint.axis), strict=True)]
-            return _moved(about(joint.axis, _cos_sin(angle)), shift)
         case "floating":
             roll, pitch, yaw = map(_cos_sin, values[3:])
-            return _moved(about_fixed_axes(roll, pitch, yaw), values[:3])
+            turn, shift = about_fixed_axes(roll, pitch, yaw), [*values[:3]]
         case "ball":
-            return _moved(_turned(values), _NO_SHIFT)
+            turn = _turned(values)
         case "free":
-            return _moved(_turned(values[3:]), values[:3])
-    return _moved(about(joint.axis, _cos_sin(values[0] - start)), _NO_SHIFT)
-
-
-def _moved(rotation: Sequence[Any], shift: Any) -> Numbers:
-    """The entries are numbers, or arrays over the poses."""
-    entries = placed(rotation, shift)[:12]
-    rows = np.empty((12, max(np.size(entry) for entry in entries)))
-    for row, entry in zip(rows, entries, strict=True):
-        row[:] = entry
-    return rows.reshape(3, 4, -1)
+            turn, shift = _turned(values[3:]), [*values[:3]]
+        case _:
+            turn = about(joint.axis, _cos_sin(values[0] - start))
+    poses = np.empty((12, values.shape[1]))
+    for row, entry in enumerate(placed(turn, shift)[:12]):
+        poses[row] = entry
+    return poses.reshape(3, 4, -1)
 
 
 def _turned(quaternion: Numbers) -> Any:

@@ -14,10 +14,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
-from satcheck.core.transform import compose
 from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.robot.kinematics import Numbers, link_frames, placements, single
+from satcheck.scene.robot.kinematics import Numbers, link_frames, placements
 from satcheck.scene.robot.model import Joint, Robot, State, Values
 from satcheck.scene.robot.poses import Pose, RandomPoses, pose_at, values_of
 from satcheck.scene.words import meant
@@ -165,23 +164,14 @@ def posed(scene: Scene, pose: Pose) -> Scene:
     """
     (batch,) = pose_batches([robot.robot for robot in scene.robots], [pose], 1)
     posture = batch.posture(0)
-    transforms = {}
-    for robot, poses in zip(scene.robots, link_frames(scene, batch.values), strict=True):
-        frames = {link: single(own) for link, own in poses.items()}
-        for body in robot.bodies:
-            transforms[body.id] = compose(frames[body.link], body.offset)
+    bodies = []
+    for body, rows in zip(scene.bodies, batch.matrices(scene)[0].tolist(), strict=True):
+        transform = (*rows, 0.0, 0.0, 0.0, 1.0)
+        stays = transform == (body.transform or IDENTITY)
+        bodies.append(body if stays else replace(body, transform=transform))
     earlier = scene.posture.issues if scene.posture else ()
-    return replace(
-        scene,
-        bodies=tuple(
-            body
-            if body.id not in transforms or transforms[body.id] == (body.transform or IDENTITY)
-            else replace(body, transform=transforms[body.id])
-            for body in scene.bodies
-        ),
-        issues=(*(remark for remark in scene.issues if remark not in earlier), *posture.issues),
-        posture=posture,
-    )
+    issues = (*(remark for remark in scene.issues if remark not in earlier), *posture.issues)
+    return replace(scene, bodies=tuple(bodies), issues=issues, posture=posture)
 
 
 def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:

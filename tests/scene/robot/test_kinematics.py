@@ -20,7 +20,6 @@ from satcheck.scene.robot.kinematics import (
     from_rpy,
     motion,
     scaled,
-    single,
 )
 from satcheck.scene.robot.model import Joint
 from satcheck.scene.robot.poses import values_of
@@ -59,7 +58,7 @@ def turn(pose: Matrix) -> Matrix:
 
 
 def moved(joint: Joint, values: tuple[float, ...]) -> Matrix:
-    return single(motion(joint, values_of(values)))
+    return (*motion(joint, values_of(values)).ravel(), 0.0, 0.0, 0.0, 1.0)
 
 
 def test_roll_pitch_yaw_turn_about_fixed_axes_in_that_order() -> None:
