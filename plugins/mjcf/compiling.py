@@ -154,7 +154,8 @@ def _replace_meshes(
     spec: Any, path: str, places: FilePlaces, models: list[str]
 ) -> tuple[dict[str, MeshReference], dict[str, Refusal]]:
     """Puts a box in the place of each mesh that MuJoCo need not read, or cannot."""
-    fitted = _fitted(spec)
+    # Shapes are fitted to these.
+    fitted = {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
     files: dict[str, MeshReference] = {}
     refused: dict[str, Refusal] = {}
     for mesh in spec.meshes:
@@ -174,11 +175,6 @@ def _replace_meshes(
         mesh.uservert, mesh.userface = np.array(_CORNERS, float), np.array(_FACES)
         mesh.scale, mesh.refpos, mesh.refquat = (1, 1, 1), (0, 0, 0), (1, 0, 0, 0)
     return files, refused
-
-
-def _fitted(spec: Any) -> set[str]:
-    """The meshes that shapes are fitted to."""
-    return {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
 
 
 def _has_faces(place: Path) -> bool:

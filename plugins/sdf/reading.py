@@ -38,14 +38,14 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
     elements = {joint.path: joint.element for joint in contents.joints}
     joints = [made for joint in contents.joints if (made := _joint(joint, contents, slips))]
-    contacts = {path: link.contacts for path, link in contents.links.items()}
-    collisions, exempted = exempt(contacts, {path: _parts(path, contents) for path in contacts})
+    parts = {path: _parts(path, contents) for path in contents.links}
+    collisions, exempted = exempt(contents.links, parts)
     links = {
         path: Link(
             name=path,
             collisions=collisions[path],
             unused=bool(link.element.all(slips.others)),
-            static=link.contacts.static,
+            static=link.static,
             rest=poses[path],
         )
         for path, link in contents.links.items()
@@ -102,7 +102,7 @@ def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[Exemption]:
 def _starts(contents: Contents) -> Iterator[str]:
     """The world, the canonical link of each outermost model, then all links."""
     yield WORLD
-    for model in dict.fromkeys(link.contacts.model for link in contents.links.values()):
+    for model in dict.fromkeys(link.model for link in contents.links.values()):
         yield contents.body(model)
     yield from contents.links
 
