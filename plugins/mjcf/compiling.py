@@ -15,13 +15,13 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from satcheck.core.transform import Transform
+from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.plugins.mjcf.files import ModelFiles
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.plain_ids import COMPONENT_MARK
-from satcheck.scene.robot.kinematics import from_quaternion, inverse
+from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import MeshReference
 from satcheck.scene.robot.packages import FilePlaces
 
@@ -226,7 +226,7 @@ def numbers(values: Any) -> Any:
 def pose_of(at: Any, turn: Any) -> Transform:
     """turn: a unit quaternion (w, x, y, z), as in MuJoCo."""
     w, x, y, z = numbers(turn)
-    return from_quaternion(numbers(at), (x, y, z, w))
+    return placed(quaternion_matrix(x, y, z, w), numbers(at))
 
 
 def own_meshes_of(read: Compiled) -> RawScene:

@@ -91,7 +91,6 @@ class _Reader:
             links={link.name: link for link in links},
             joints=tuple(joints),
             exempt=tuple(self._exemptions.exempt()),
-            geometry=self._geometry,
             states=states,
         )
 

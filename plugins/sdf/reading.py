@@ -64,7 +64,6 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
         links=links,
         joints=ordered,
         exempt=(*exempted, *_joined(joints, contents)),
-        geometry=file.geometry,
     )
     return robot, slips.issues()
 

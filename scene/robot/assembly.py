@@ -117,7 +117,7 @@ def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue])
             else item
             for item in items
         ),
-        issues=(*issues, *_bare_links(robot)),
+        issues=tuple(issues),
         robot=robot,
     )
 
@@ -152,19 +152,6 @@ def _placed(code: str, message: str, lost: Sequence[Collision]) -> Refused:
         place += f": {first.geometry.uri!r}" if number == 1 else f" ({first.geometry.uri})"
     start = place if number == 1 else f"{number} bodies, the first in {place}"
     return Refused(code, f"{start}: {message}")
-
-
-def _bare_links(robot: Robot) -> Iterator[Issue]:
-    """A note on links that have only geometry of the kind that is not checked."""
-    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
-    if bare:
-        have = "link has" if len(bare) == 1 else "links have"
-        others = "visual" if robot.geometry == "collision" else "collision"
-        message = (
-            f"{len(bare)} {have} {others} geometry and no {robot.geometry} geometry, so no body is "
-            f"checked: {listed(bare)}"
-        )
-        yield issue("no-collision-geometry", message, file=robot.file)
 
 
 def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[SceneRobot]:

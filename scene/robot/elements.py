@@ -16,12 +16,11 @@ from satcheck.core.shapes import (
     Primitive,
     Sphere,
 )
-from satcheck.core.transform import Transform, compose, placed
+from satcheck.core.transform import Transform, compose, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot.kinematics import from_quaternion
 from satcheck.scene.robot.model import Collision, Geometry, Joint, MeshReference
 
 MESH = "mesh"
@@ -113,7 +112,7 @@ def turned_by(element: Element, xyz: Vector, quaternion: Sequence[float]) -> Tra
     x, y, z, w = quaternion
     if math.hypot(x, y, z, w) == 0.0:
         element.refuse("a quaternion of length 0")
-    return from_quaternion(xyz, (x, y, z, w))
+    return placed(quaternion_matrix(x, y, z, w), xyz)
 
 
 def unit_axis(element: Element, axis: Vector) -> Vector:

@@ -160,8 +160,3 @@ def scaled(pose: Transform, scale: Vector) -> Transform:
 def from_rpy(xyz: Vector, rpy: Vector) -> Transform:
     roll, pitch, yaw = ((math.cos(angle), math.sin(angle)) for angle in rpy)
     return placed(about_fixed_axes(roll, pitch, yaw), xyz)
-
-
-def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) -> Transform:
-    """Return a pose. quaternion: (x, y, z, w) of any length except 0."""
-    return placed(quaternion_matrix(*quaternion), xyz)

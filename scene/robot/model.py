@@ -16,15 +16,14 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.raw_mesh import Refusal
-from satcheck.scene.read_options import GeometryKind
 
-UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
-JointKind = UrdfJointKind | Literal["ball", "free"]
+JointKind = Literal[
+    "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "free"
+]
 # The value of a joint: no number for a fixed joint, (x, y, angle) for a planar one, (x, y, z, roll,
 # pitch, yaw) for a floating one, a quaternion (w, x, y, z) for a ball joint, (x, y, z, w, x, y, z)
 # for a free one, an angle or a length for others.
 Values = tuple[float, ...]
-DRAWN_PLANE = "a plane that is drawn ends at its size: give a mesh or a box"
 FREEDOMS: dict[JointKind, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 4, "free": 7}
 
 
@@ -156,8 +155,8 @@ class Robot(Struct, frozen=True):
 
     file: its path as given. roots: links that no joint carries -> their pose in the world. joints:
     each after the joint of its parent link. exempt: pairs that the format does not check, of which
-    a later one counts more; None: the format says nothing about them. geometry: the elements of
-    links that are checked. states: those that the file itself names.
+    a later one counts more; None: the format says nothing about them. states: those that the file
+    itself names.
     """
 
     name: str
@@ -166,5 +165,4 @@ class Robot(Struct, frozen=True):
     links: dict[str, Link]
     joints: tuple[Joint, ...]
     exempt: tuple[Exemption, ...] | None = None
-    geometry: GeometryKind = "collision"
     states: tuple[State, ...] = ()

@@ -17,6 +17,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from urllib.parse import unquote
 
+from msgspec.structs import replace
+
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.files_read import note, note_folders_in
@@ -60,15 +62,14 @@ class FilePlaces:
         self._permitted = permitted
         self._root = self._package()
         self._own = followed(self._root)
-        self._includer: FilePlaces | None = None
         self._places = {file: self}
 
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            included = FilePlaces(file, self._packages, self._permitted)
-            included._includer = self
-            self._places[file] = included
+            folders = (*self._permitted.folders, str(self._own))
+            permitted = replace(self._permitted, folders=folders)
+            self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
 
     def locate(self, uri: str, *, models: bool = False) -> Path:
@@ -185,9 +186,7 @@ class FilePlaces:
         return [_tidy(self._folder.joinpath(*[".."] * steps)) for steps in range(count + 1)]
 
     def _may_open(self, place: Path) -> bool:
-        if self._permitted.has(place, self._own) or _is_from_environment(place):
-            return True
-        return self._includer is not None and self._includer._may_open(place)
+        return self._permitted.has(place, self._own) or _is_from_environment(place)
 
     def _outside(self) -> str:
         return self._permitted.beyond(f"of {self._own}, where the package of the file is")

@@ -99,16 +99,35 @@ class Joints:
     def posture(self, joints: dict[str, Values], pose: Pose) -> Posture:
         """Return the posture with these values of all joints that move, of which the pose names
         some. A value beyond the limits is kept, with a warning."""
-        issues: list[Issue] = []
-        for name, joint in self.movable.items():
-            if name not in pose and joint.free:
-                issues += _not_at_zero(joint, joints[name])
-        for joint in self.movable.values():
-            issues += _mimic_differs(joint, joints, pose)
-        for name, joint in self.movable.items():
-            issues += _beyond(joint, joints[name])
         mimics = frozenset(name for name, joint in self.movable.items() if joint.mimic)
-        return Posture(joints, mimics, tuple(issues))
+        return Posture(joints, mimics, tuple(self._issues(joints, pose)))
+
+    def _issues(self, joints: Mapping[str, Values], pose: Pose) -> Iterator[Issue]:
+        moved = [(repr(name), joint, joints[name][0]) for name, joint in self.movable.items()]
+        for name, joint, value in moved:
+            limited = joint.limits is not None and joint.mimic is None and not joint.stands_at_zero
+            if limited and value and joint.name not in pose:
+                message = f"joint {name}: 0 is beyond its limits, so it stands at {value:g}"
+                yield issue("not-at-zero", message)
+        for name, joint, value in moved:
+            given = pose.get(joint.name)
+            if joint.mimic is not None and given is not None and abs(given[0] - value) > _SAME:
+                message = (
+                    f"joint {name} follows {joint.mimic.joint!r} and stands at {value:g}, "
+                    f"not at {given[0]:g} as the pose says"
+                )
+                yield issue("mimic-differs", message)
+        for name, joint, value in moved:
+            if joint.limits is None:
+                continue
+            low, high = joint.limits.lower, joint.limits.upper
+            excess = max(low - value, value - high)
+            if excess > 0:
+                message = (
+                    f"joint {name}: {value:g} is beyond its limits {low:g} .. {high:g} "
+                    f"by {excess:.3g}: checked there all the same"
+                )
+                yield issue("beyond-limits", message)
 
 
 class PoseBatch(Struct, frozen=True):
@@ -212,32 +231,3 @@ def _rest(joint: Joint) -> Values:
     if joint.limits is None or joint.stands_at_zero:
         return joint.neutral
     return (min(max(0.0, joint.limits.lower), joint.limits.upper),)
-
-
-def _not_at_zero(joint: Joint, values: Values) -> Iterator[Issue]:
-    if joint.limits is not None and not joint.stands_at_zero and values[0]:
-        message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {values[0]:g}"
-        yield issue("not-at-zero", message)
-
-
-def _mimic_differs(joint: Joint, joints: Mapping[str, Values], pose: Pose) -> Iterator[Issue]:
-    value, given = joints[joint.name][0], pose.get(joint.name)
-    if joint.mimic is not None and given is not None and abs(given[0] - value) > _SAME:
-        message = (
-            f"joint {joint.name!r} follows {joint.mimic.joint!r} and stands at {value:g}, "
-            f"not at {given[0]:g} as the pose says"
-        )
-        yield issue("mimic-differs", message)
-
-
-def _beyond(joint: Joint, values: Values) -> Iterator[Issue]:
-    if joint.limits is None:
-        return
-    low, high = joint.limits.lower, joint.limits.upper
-    excess = max(low - values[0], values[0] - high)
-    if excess > 0:
-        message = (
-            f"joint {joint.name!r}: {values[0]:g} is beyond its limits {low:g} .. {high:g} "
-            f"by {excess:.3g}: checked there all the same"
-        )
-        yield issue("beyond-limits", message)

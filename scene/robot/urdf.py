@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
-from typing import Literal, get_args
+from typing import get_args
 
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform
@@ -31,13 +31,22 @@ from satcheck.scene.robot.elements import (
     unit_axis,
 )
 from satcheck.scene.robot.kinematics import from_rpy
-from satcheck.scene.robot.model import Collision, Joint, Limits, Link, MeshReference, Mimic, Robot
+from satcheck.scene.robot.model import (
+    Collision,
+    Joint,
+    JointKind,
+    Limits,
+    Link,
+    MeshReference,
+    Mimic,
+    Robot,
+)
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
 from satcheck.scene.words import listed, meant
 
-_Kind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
-_KINDS: tuple[_Kind, ...] = get_args(_Kind)
+# The others are those of MJCF.
+_KINDS = tuple(kind for kind in get_args(JointKind) if kind not in ("ball", "free"))
 _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"
@@ -72,7 +81,7 @@ def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
         slips.note("constraint-not-solved", element, cause)
     base, ordered = _in_order(root, links, list(joints.values()))
     name = root.attributes.get("name") or Path(root.file).stem
-    robot = Robot(name, root.file, {base: IDENTITY}, links, ordered, geometry=file.geometry)
+    robot = Robot(name, root.file, {base: IDENTITY}, links, ordered)
     return robot, slips.issues()
 
 
@@ -177,7 +186,7 @@ def _joint(element: Element, names: Sequence[str], slips: Slips) -> Joint:
     )
 
 
-def _limits(element: Element, kind: _Kind, slips: Slips) -> Limits | None:
+def _limits(element: Element, kind: JointKind, slips: Slips) -> Limits | None:
     limit = element.only("limit")
     if kind not in _LIMITED:
         return None
@@ -191,7 +200,7 @@ def _limits(element: Element, kind: _Kind, slips: Slips) -> Limits | None:
     return limits
 
 
-def _mimic(joint: Element, kind: _Kind, names: Sequence[str], slips: Slips) -> Mimic | None:
+def _mimic(joint: Element, kind: JointKind, names: Sequence[str], slips: Slips) -> Mimic | None:
     element = joint.only("mimic")
     if element is None:
         return None

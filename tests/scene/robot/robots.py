@@ -21,7 +21,9 @@ BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
 def link_transforms(robot: Robot, pose: Pose) -> dict[str, Transform]:
     """The poses of the links of a robot in a pose."""
     values = {name: values_of(own) for name, own in settle([robot], pose).joints.items()}
-    return {link: (*own.ravel(), 0.0, 0.0, 0.0, 1.0) for link, own in link_poses(robot, values).items()}
+    return {
+        link: (*own.ravel(), 0.0, 0.0, 0.0, 1.0) for link, own in link_poses(robot, values).items()
+    }
 
 
 def link(name: str, inside: str = BOX) -> str:
