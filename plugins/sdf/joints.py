@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from satcheck.core.conventions import Vector
 from satcheck.plugins.sdf.frames import WORLD, Frames, Name, Scope
-from satcheck.plugins.sdf.values import boolean, number, vector
+from satcheck.plugins.sdf.values import boolean, number, numbers
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.elements import unit_axis
 from satcheck.scene.robot.kinematics import inverse
@@ -68,7 +68,8 @@ def joint_of(joint: JointEntry, parent: str, child: str, frames: Frames, slips: 
 
 def _axis(element: Element, joint: JointEntry, frames: Frames) -> Vector:
     """In the frame of the joint, scaled to length 1."""
-    axis = unit_axis(element, vector(element, "xyz", (0.0, 0.0, 1.0)))
+    x, y, z = numbers(element, "xyz", 3, (0.0, 0.0, 1.0))
+    axis = unit_axis(element, (x, y, z))
     frame = _frame_of_axis(element, joint, frames)
     if frame is None:
         return axis

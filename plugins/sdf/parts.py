@@ -8,19 +8,18 @@ from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, compose
 from satcheck.plugins.sdf.frames import Frames, Name, Scope
 from satcheck.plugins.sdf.places import SHAPE
-from satcheck.plugins.sdf.values import bits, pose_of, vector
+from satcheck.plugins.sdf.values import bits, numbers, pose_of
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.robot.elements import (
     MESH,
     SHAPES,
+    ShapeForm,
     collision_of,
-    mesh,
     only_shape,
-    primitive,
     refused,
 )
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Collision, Geometry
+from satcheck.scene.robot.model import Collision, MeshReference
 from satcheck.scene.robot.slips import Slips
 
 ALL_BITS = 0xFFFF
@@ -65,10 +64,7 @@ def parts_in(link: Element, path: str, scope: Scope, frames: Frames, slips: Slip
             if shape is None:
                 continue
             origin = _origin(element.only("pose"), path, scope, frames)
-            geometry = _geometry(shape)
-            up: Vector = (0.0, 0.0, 1.0)
-            normal = vector(shape, "normal", up) if shape.tag == "plane" else None
-            part = collision_of(element, shape, slips.geometry, origin, geometry, normal)
+            part = collision_of(element, shape, origin, slips.geometry, _SHAPES)
         except RefusedElement as error:
             part = refused(element, error)
         parts.append(Part(part, mask))
@@ -88,11 +84,7 @@ def _shape(element: Element, slips: Slips) -> Element | None:
     return shape
 
 
-def _geometry(shape: Element) -> Geometry:
-    if shape.tag != MESH:
-        return primitive(
-            shape, (MESH, *SHAPES), lambda name, count: shape.need(name).text_numbers(count)
-        )
+def _mesh(shape: Element, scale: Vector) -> MeshReference:
     if (submesh := shape.only("submesh")) is not None:
         submesh.refuse("a part of a mesh file is not read", "unsupported-feature")
     # Converters of early versions leave a second <uri> with this text.
@@ -102,8 +94,10 @@ def _geometry(shape: Element) -> Geometry:
     if len(uris) > 1:
         uris[1].refuse("a second <uri> in one <mesh>")
     uri = uris[0].text or uris[0].refuse("is empty")
-    scale = vector(shape, "scale", (1.0, 1.0, 1.0))
-    return mesh(shape, uri, scale, hull=shape.attributes.get("optimization") == _HULL)
+    return MeshReference(uri, scale, hull=shape.attributes.get("optimization") == _HULL)
+
+
+_SHAPES = ShapeForm((MESH, *SHAPES), numbers, _mesh, normal=(0.0, 0.0, 1.0))
 
 
 def _origin(pose: Element | None, link: str, scope: Scope, frames: Frames) -> Transform:

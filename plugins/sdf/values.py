@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.xml_tree import Element
@@ -23,19 +22,18 @@ def text_of(element: Element, tag: str) -> str:
     return child.text or child.refuse("is empty")
 
 
-def number(element: Element, tag: str, default: float) -> float:
-    """Of a child."""
+def numbers(
+    element: Element, tag: str, count: int, default: tuple[float, ...] | None = None
+) -> tuple[float, ...]:
+    """Of a child, which is required if there is no default."""
     child = element.only(tag)
-    return default if child is None else child.text_numbers(1)[0]
-
-
-def vector(element: Element, tag: str, default: Vector) -> Vector:
-    """Of a child."""
-    child = element.only(tag)
-    if child is None:
+    if child is None and default is not None:
         return default
-    x, y, z = child.text_numbers(3)
-    return x, y, z
+    return (child or element.need(tag)).text_numbers(count)
+
+
+def number(element: Element, tag: str, default: float) -> float:
+    return numbers(element, tag, 1, (default,))[0]
 
 
 def boolean(element: Element, tag: str, default: bool, instead: Element | None = None) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
+from typing import NamedTuple
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import (
@@ -46,43 +47,47 @@ def only_shape(geometry: Element) -> Element | None:
     return shapes[0] if shapes else None
 
 
-def primitive(
-    shape: Element, known: Iterable[str], numbers: Callable[[str, int], Sequence[float]]
-) -> Primitive:
-    """Return an exact shape. known: tags that are read. numbers: take the name of a size and how
-    many numbers it has. Raises RefusedElement."""
-    if shape.tag not in known:
-        shape.refuse(f"no geometry that is read ({', '.join(known)})", "unsupported-feature")
+class ShapeForm(NamedTuple):
+    """How a format states shapes. tags: those that are read. numbers: takes an element, the name of
+    a size, how many numbers it has, and those that it has by default. mesh: takes the element of a
+    mesh and its scale. normal: of a plane that states none; None: it has to."""
+
+    tags: Collection[str]
+    numbers: Callable[[Element, str, int, Vector | None], Sequence[float]]
+    mesh: Callable[[Element, Vector], MeshReference]
+    normal: Vector | None = None
+
+
+def collision_of(
+    element: Element, shape: Element, origin: Transform, kind: GeometryKind, form: ShapeForm
+) -> Collision:
+    """Return the collision, or the visual, of an element. kind: which of them is checked. Raises
+    RefusedElement."""
+    geometry = _geometry(shape, form)
+    if isinstance(geometry, HalfSpace):
+        if kind == "visual":
+            message = "a plane that is drawn ends at its size: give a mesh or a box"
+            shape.refuse(message, "unsupported-feature")
+        x, y, z = form.numbers(shape, "normal", 3, form.normal)
+        origin = compose(origin, _facing((x, y, z), shape))
+    return Collision(_name(element), origin, geometry, element.line, element.file)
+
+
+def _geometry(shape: Element, form: ShapeForm) -> Geometry:
+    if shape.tag not in form.tags:
+        known = ", ".join(form.tags)
+        shape.refuse(f"no geometry that is read ({known})", "unsupported-feature")
+    if shape.tag == MESH:
+        x, y, z = form.numbers(shape, "scale", 3, (1.0, 1.0, 1.0))
+        if 0.0 in (x, y, z):
+            shape.refuse("scale 0 flattens the mesh", "singular-transform")
+        return form.mesh(shape, (x, y, z))
     kind, sizes = SHAPES[shape.tag]
-    values = [numbers(name, count) for name, count in sizes.items()]
+    values = [form.numbers(shape, name, count, None) for name, count in sizes.items()]
     try:
         return kind(*(value if len(value) > 1 else value[0] for value in values))
     except ValueError as error:  # a size that is not positive
         shape.refuse(str(error))
-
-
-def mesh(shape: Element, uri: str, scale: Vector, *, hull: bool = False) -> MeshReference:
-    if 0.0 in scale:
-        shape.refuse("scale 0 flattens the mesh", "singular-transform")
-    return MeshReference(uri, scale, hull=hull)
-
-
-def collision_of(
-    element: Element,
-    shape: Element,
-    kind: GeometryKind,
-    origin: Transform,
-    geometry: Geometry,
-    normal: Vector | None,
-) -> Collision:
-    """Return the collision, or the visual, of an element. kind: which of them is checked. normal:
-    of a plane. Raises RefusedElement."""
-    if normal is not None:
-        if kind == "visual":
-            message = "a plane that is drawn ends at its size: give a mesh or a box"
-            shape.refuse(message, "unsupported-feature")
-        origin = compose(origin, _facing(normal, shape))
-    return Collision(_name(element), origin, geometry, element.line, element.file)
 
 
 def refused(element: Element, error: RefusedElement) -> Collision:

@@ -17,15 +17,13 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import RobotFile
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.elements import (
     MESH,
     SHAPES,
+    ShapeForm,
     check_mimics,
     collision_of,
-    mesh,
     only_shape,
-    primitive,
     refused,
     turned_by,
     unit_axis,
@@ -51,7 +49,11 @@ _X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
 _UNLIMITED = "treated as unlimited"
 _LOOPS = ("loop_joint", "drake:ball_constraint")  # joints stand where the pose says
-_SHAPES = (MESH, "box", "sphere", "cylinder", "capsule", "plane")
+_SHAPES = ShapeForm(
+    (MESH, "box", "sphere", "cylinder", "capsule", "plane"),
+    Element.numbers,
+    lambda shape, scale: MeshReference(shape.attribute("filename"), scale),
+)
 _Joints = Sequence[tuple[Joint, Element]]
 
 
@@ -62,7 +64,7 @@ def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     slips.look(root, ROBOT)
     links: dict[str, Link] = {}
     for element in root.all("link"):
-        link = _link(element, file.geometry, slips)
+        link = _link(element, slips)
         if link.name in links:
             element.refuse(f"a second link {link.name!r}", "duplicate-id")
         links[link.name] = link
@@ -97,9 +99,9 @@ def _look_for_folders(root: Element, links: Iterable[Link], slips: Slips) -> Non
             slips.note("unread", compiler, cause)
 
 
-def _link(element: Element, kind: GeometryKind, slips: Slips) -> Link:
+def _link(element: Element, slips: Slips) -> Link:
     slips.look(element, LINK)
-    collisions = (_collision(inner, kind, slips) for inner in element.all(kind))
+    collisions = (_collision(inner, slips) for inner in element.all(slips.geometry))
     return Link(
         name=element.attribute("name"),
         collisions=tuple(collision for collision in collisions if collision is not None),
@@ -107,7 +109,7 @@ def _link(element: Element, kind: GeometryKind, slips: Slips) -> Link:
     )
 
 
-def _collision(element: Element, kind: GeometryKind, slips: Slips) -> Collision | None:
+def _collision(element: Element, slips: Slips) -> Collision | None:
     """None: it has no geometry or size 0, and a warning says so."""
     try:
         slips.look(element, SHAPE)
@@ -116,14 +118,7 @@ def _collision(element: Element, kind: GeometryKind, slips: Slips) -> Collision 
             at, what = (element, "without geometry") if shape is None else (shape, "of size 0")
             slips.note("no-shape", at, f"a <{at.tag}> {what}: no body")
             return None
-        origin = _origin(element)
-        if shape.tag == MESH:
-            scale = _vector(shape, "scale", (1.0, 1.0, 1.0))
-            geometry = mesh(shape, shape.attribute("filename"), scale)
-            return collision_of(element, shape, kind, origin, geometry, None)
-        exact = primitive(shape, _SHAPES, shape.numbers)
-        normal = _vector(shape, "normal") if shape.tag == "plane" else None
-        return collision_of(element, shape, kind, origin, exact, normal)
+        return collision_of(element, shape, _origin(element), slips.geometry, _SHAPES)
     except RefusedElement as error:
         return refused(element, error)
 
@@ -162,7 +157,7 @@ def _origin(owner: Element) -> Transform:
     return turned_by(origin, xyz, origin.numbers("quat_xyzw", 4))
 
 
-def _vector(element: Element, attribute: str, default: Vector | None = None) -> Vector:
+def _vector(element: Element, attribute: str, default: Vector) -> Vector:
     x, y, z = element.numbers(attribute, 3, default)
     return x, y, z
 
