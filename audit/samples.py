@@ -25,7 +25,7 @@ from satcheck.audit.sorted_poses import sorted_and_counted
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose
-from satcheck.scene.robot.postures import PoseBatch, pose_batches, posed
+from satcheck.scene.robot.postures import PoseBatch, pose_batches
 
 Progress = Callable[[int, int], None]
 
@@ -58,7 +58,7 @@ def check_poses(
     cache = BodyCache()
     results = SampleResults(settings.fail_on, lists_all=len(poses) <= LISTED_SAMPLES)
     checks = SingleChecks(scene, settings, cache, results)
-    batches = pose_batches([robot.robot for robot in scene.robots], poses, BATCH)
+    batches = pose_batches(scene, poses, BATCH)
     first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(checks, first), chain((first,), batches)
     with ExitStack() as stack:
@@ -87,7 +87,7 @@ def _sortable(checks: SingleChecks, batch: PoseBatch) -> PosedPairs | None:
     """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
     what is the same in all poses."""
     checks.sample(batch, 0)
-    scene, settings = posed(checks.scene, batch.pose(0)), checks.settings
+    scene, settings = batch.posed(0), checks.settings
     bodies = place(scene, settings, checks.cache)
     if not same_way(scene, settings, bodies):
         return None

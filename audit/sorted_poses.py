@@ -44,7 +44,7 @@ def sorted_and_counted(
     waiting: _SortedBatch | None = None
     with ThreadPoolExecutor(1) as beside:
         for batch in batches:
-            matrices = batch.matrices(checks.scene)
+            matrices = batch.matrices
             sorting = beside.submit(pairs.sift, matrices)
             if checks.settings.jobs == 1:
                 wait([sorting])

@@ -58,11 +58,10 @@ def with_joint_path(scene: Scene, poses: Sequence[Pose], fixed: Pose | None = No
     """
     if len(poses) < 2:
         raise SatcheckError("bad-pose", "a path needs two poses at least")
-    robots = [robot.robot for robot in scene.robots]
-    joints = [joint for robot in robots for joint in robot.joints]
+    joints = [joint for robot in scene.robots for joint in robot.robot.joints]
     timed, times = _times(poses, any(joint.name == TIME for joint in joints))
     given = [{**(fixed or {}), **pose} for pose in timed]
-    (batch,) = pose_batches(robots, given, len(given))
+    (batch,) = pose_batches(scene, given, len(given))
     values = {
         name: np.broadcast_to(own, (len(own), len(given))) for name, own in batch.values.items()
     }

@@ -7,7 +7,7 @@ limit.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from msgspec import Struct
@@ -130,34 +130,53 @@ class Joints:
                 yield issue("beyond-limits", message)
 
 
-class PoseBatch(Struct, frozen=True):
-    """Some poses one after another. first: the number of the first one, from 1. values: of every
-    joint that moves. pose: takes a row, and returns the pose as it was given or drawn."""
+class PoseBatch:
+    """Some poses of a scene one after another. first: the number of the first one, from 1. values:
+    of every joint that moves. pose: takes a row, and returns the pose as it was given or drawn."""
 
-    first: int
-    count: int
-    values: Mapping[str, Numbers]
-    joints: Joints
-    pose: Callable[[int], Pose]
+    def __init__(
+        self,
+        scene: Scene,
+        first: int,
+        count: int,
+        values: Mapping[str, Numbers],
+        joints: Joints,
+        pose: Callable[[int], Pose],
+    ) -> None:
+        self._scene, self._joints = scene, joints
+        self.first, self.count, self.values, self.pose = first, count, values, pose
 
     def posture(self, row: int) -> Posture:
-        return self.joints.posture(pose_at(self.values, row), self.pose(row))
+        return self._joints.posture(pose_at(self.values, row), self.pose(row))
 
-    def matrices(self, scene: Scene) -> Numbers:
-        """See `placements`. The same bits as those of `posed`."""
-        return placements(scene, link_frames(scene, self.values), self.count)
+    @cached_property
+    def matrices(self) -> Numbers:
+        """See `placements`."""
+        return placements(self._scene, link_frames(self._scene, self.values), self.count)
+
+    def posed(self, row: int) -> Scene:
+        """The scene with its robots in this pose; see `posed`."""
+        scene, posture = self._scene, self.posture(row)
+        bodies = []
+        for body, rows in zip(scene.bodies, self.matrices[row].tolist(), strict=True):
+            transform = (*rows, 0.0, 0.0, 0.0, 1.0)
+            stays = transform == (body.transform or IDENTITY)
+            bodies.append(body if stays else replace(body, transform=transform))
+        earlier = scene.posture.issues if scene.posture else ()
+        issues = (*(remark for remark in scene.issues if remark not in earlier), *posture.issues)
+        return replace(scene, bodies=tuple(bodies), issues=issues, posture=posture)
 
 
-def pose_batches(robots: Iterable[Robot], poses: Sequence[Pose], size: int) -> Iterator[PoseBatch]:
+def pose_batches(scene: Scene, poses: Sequence[Pose], size: int) -> Iterator[PoseBatch]:
     """Yield the poses, at most `size` at a time. Raises what `Joints.check` raises for any of them
     before the first batch."""
-    joints = Joints(robots)
+    joints = Joints(robot.robot for robot in scene.robots)
     for pose in [poses.fixed] if isinstance(poses, RandomPoses) else poses:
         joints.check(pose)
     if isinstance(poses, RandomPoses):
         for start, named in poses.batches(size):
             count, drawn = min(size, len(poses) - start), partial(pose_at, named)
-            yield PoseBatch(start + 1, count, joints.complete(named), joints, drawn)
+            yield PoseBatch(scene, start + 1, count, joints.complete(named), joints, drawn)
         return
     for start in range(0, len(poses), size):
         given = poses[start : start + size]
@@ -166,12 +185,15 @@ def pose_batches(robots: Iterable[Robot], poses: Sequence[Pose], size: int) -> I
             rest = _rest(joints.movable[name])
             named[name] = np.array([pose.get(name, rest) for pose in given]).T.copy()
         values = joints.complete(named)
-        yield PoseBatch(start + 1, len(given), values, joints, given.__getitem__)
+        yield PoseBatch(scene, start + 1, len(given), values, joints, given.__getitem__)
 
 
 def settle(robots: Iterable[Robot], pose: Pose) -> Posture:
     """Return the complete pose of these robots. Raises what `Joints.check` raises."""
-    return next(pose_batches(robots, [pose], 1)).posture(0)
+    joints = Joints(robots)
+    joints.check(pose)
+    values = joints.complete({name: values_of(own) for name, own in pose.items()})
+    return joints.posture(pose_at(values, 0), pose)
 
 
 def posed(scene: Scene, pose: Pose) -> Scene:
@@ -181,16 +203,7 @@ def posed(scene: Scene, pose: Pose) -> Scene:
     pose: joint -> values; `settle` says what happens to other joints, and which values are refused.
     The result has the complete posture and the issues about it.
     """
-    (batch,) = pose_batches([robot.robot for robot in scene.robots], [pose], 1)
-    posture = batch.posture(0)
-    bodies = []
-    for body, rows in zip(scene.bodies, batch.matrices(scene)[0].tolist(), strict=True):
-        transform = (*rows, 0.0, 0.0, 0.0, 1.0)
-        stays = transform == (body.transform or IDENTITY)
-        bodies.append(body if stays else replace(body, transform=transform))
-    earlier = scene.posture.issues if scene.posture else ()
-    issues = (*(remark for remark in scene.issues if remark not in earlier), *posture.issues)
-    return replace(scene, bodies=tuple(bodies), issues=issues, posture=posture)
+    return next(pose_batches(scene, [pose], 1)).posed(0)
 
 
 def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:

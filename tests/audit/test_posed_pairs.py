@@ -20,7 +20,7 @@ from satcheck.audit.samples import check_poses
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot import RandomPoses, Robot, posed
+from satcheck.scene.robot import RandomPoses, posed
 from satcheck.scene.robot.postures import pose_batches
 from tests.scene.robot.robots import SAMPLES, joint, link, robot_of
 
@@ -32,10 +32,6 @@ SHAPES = (
     '<cylinder radius="0.5" length="1.6"/>',
     '<box size="1.5 0.5 0.8"/>',
 )
-
-
-def robots_of(scene: Scene) -> list[Robot]:
-    return [robot.robot for robot in scene.robots]
 
 
 def spider(folder: Path, geometries: list[str], rules: str = "") -> Scene:
@@ -82,7 +78,7 @@ def plain(finding: Finding) -> dict[str, Any]:
 
 def compare(scene: Scene, settings: Settings, count: int, seed: int = 0) -> set[str]:
     """Every finding of every pose equals that of a check of the pose. Returns the relations."""
-    poses = RandomPoses(robots_of(scene), count, seed)
+    poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
     found = check_poses(scene, poses, settings)
     relations = set()
     for sample, pose in zip(found.samples, poses, strict=True):
@@ -136,10 +132,10 @@ def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int
     """How many pairs the core sorts so, and a check of the pose decides so."""
     bodies = place(scene, QUICK)
     pairs = PosedPairs(scene, bodies, Planner(QUICK, bodies.book, scene.composed))
-    poses = RandomPoses(robots_of(scene), count, seed)
+    poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
     seen: Counter[tuple[int, str]] = Counter()
-    for batch in pose_batches(robots_of(scene), poses, 10):
-        codes = pairs.sift(batch.matrices(scene))
+    for batch in pose_batches(scene, poses, 10):
+        codes = pairs.sift(batch.matrices)
         for row in range(batch.count):
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
@@ -190,15 +186,15 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     assert [f.relation for f in check(posed(scene, pose), settings).findings] == ["touching"]
     bodies = place(scene, settings)
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
-    (batch,) = pose_batches(robots_of(scene), [pose], 1)
-    assert pairs.sift(batch.matrices(scene)).tolist() == [[OPEN]]
+    (batch,) = pose_batches(scene, [pose], 1)
+    assert pairs.sift(batch.matrices).tolist() == [[OPEN]]
 
 
 def test_matrices_have_the_bits_of_single_poses() -> None:
     scene = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
-    poses = RandomPoses(robots_of(scene), 30, 1)
-    (batch,) = pose_batches(robots_of(scene), poses, 30)
-    matrices = batch.matrices(scene)
+    poses = RandomPoses([robot.robot for robot in scene.robots], 30, 1)
+    (batch,) = pose_batches(scene, poses, 30)
+    matrices = batch.matrices
     for row, pose in enumerate(poses):
         bodies = posed(scene, pose).bodies
         expected = [body.transform or IDENTITY for body in bodies]
