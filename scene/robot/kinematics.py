@@ -58,7 +58,7 @@ def link_poses(robot: Robot, values: Mapping[str, Numbers]) -> dict[str, Numbers
         stays = still[joint.parent]
         if joint.freedoms:
             own = values[joint.name]
-            stays = stays & (joint.neutral == own.T).all(axis=1)
+            stays = stays & np.equal(own.T, joint.neutral).all(axis=1)
             pose = within(pose, motion(joint, own))
         if joint.child_origin != IDENTITY:
             pose = within(pose, poses_of(joint.child_origin))
