@@ -162,9 +162,8 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     """
     matched = list(robots)
     for srdf in srdfs:
-        named = [k for k, robot in enumerate(matched) if robot.robot.name == srdf.robot]
-        if not named and len(matched) == 1:
-            named = [0]
+        alone = len(matched) == 1
+        named = [k for k, robot in enumerate(matched) if alone or robot.robot.name == srdf.robot]
         if not named:
             names = ", ".join(robot.robot.name for robot in matched) or "no URDF is given"
             message = f"about robot {srdf.robot!r}, which is not given ({names})"
