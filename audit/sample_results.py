@@ -22,8 +22,7 @@ from satcheck.report.samples import (
     SamplesTruncated,
     StatedPose,
 )
-from satcheck.scene.robot.assembly import posed
-from satcheck.scene.robot.pose_batches import PoseBatch
+from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -129,7 +128,7 @@ class SingleChecks:
         self.first: Report | None = None
 
     def sample(self, batch: PoseBatch, row: int) -> SampledPose:
-        scene = posed(self.scene, batch.pose(row))
+        scene = batch.posed(row)
         report = check(scene, self.settings, cache=self.cache)
         self.first = self.first or report
         posture = scene.posture

@@ -25,8 +25,7 @@ from satcheck.audit.sorted_poses import sorted_and_counted
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose
-from satcheck.scene.robot.assembly import posed
-from satcheck.scene.robot.pose_batches import PoseBatch, pose_batches, require_joints
+from satcheck.scene.robot.postures import PoseBatch, pose_batches
 
 Progress = Callable[[int, int], None]
 
@@ -56,12 +55,11 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     settings = replace(settings, list_pruned=False)
-    require_joints(scene, poses)  # all poses are judged before work is done
     cache = BodyCache()
     results = SampleResults(settings.fail_on, lists_all=len(poses) <= LISTED_SAMPLES)
     checks = SingleChecks(scene, settings, cache, results)
     batches = pose_batches(scene, poses, BATCH)
-    first = next(batches)
+    first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(checks, first), chain((first,), batches)
     with ExitStack() as stack:
         if pairs is None:
@@ -89,7 +87,7 @@ def _sortable(checks: SingleChecks, batch: PoseBatch) -> PosedPairs | None:
     """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
     what is the same in all poses."""
     checks.sample(batch, 0)
-    scene, settings = posed(checks.scene, batch.pose(0)), checks.settings
+    scene, settings = batch.posed(0), checks.settings
     bodies = place(scene, settings, checks.cache)
     if not same_way(scene, settings, bodies):
         return None

@@ -21,7 +21,7 @@ from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SampledPose
 from satcheck.report.verdict import fails
-from satcheck.scene.robot.pose_batches import PoseBatch
+from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.boxes import Box
@@ -44,7 +44,7 @@ def sorted_and_counted(
     waiting: _SortedBatch | None = None
     with ThreadPoolExecutor(1) as beside:
         for batch in batches:
-            matrices = batch.matrices(checks.scene)
+            matrices = batch.matrices
             sorting = beside.submit(pairs.sift, matrices)
             if checks.settings.jobs == 1:
                 wait([sorting])

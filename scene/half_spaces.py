@@ -8,7 +8,7 @@ half space: the corners of a block that is turned are rounded as those of any me
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -168,8 +168,5 @@ def _slide(joint: Joint, scene: Scene) -> float:
 def _values(joint: str, scene: Scene) -> Iterator[Sequence[float]]:
     if scene.posture is not None and joint in scene.posture.joints:
         yield scene.posture.joints[joint]
-    stated: Mapping[str, Sequence[Sequence[float]]] = (
-        {} if scene.joint_path is None else scene.joint_path.values  # type: ignore[assignment]
-    )
-    if joint in stated:
-        yield from ([float(number) for number in row] for row in zip(*stated[joint], strict=True))
+    if scene.joint_path is not None and joint in scene.joint_path.values:
+        yield from scene.joint_path.values[joint].T.tolist()

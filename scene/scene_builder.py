@@ -187,12 +187,15 @@ class SceneBuilder:
         if not robots and not self._srdfs and not jointed:
             return with_reach(scene)
         from satcheck.scene.robot import permissions, posed, with_srdfs
-        from satcheck.scene.robot.document import robots_of_documents
 
         robots = with_srdfs(robots, self._srdfs)
         allowed, issues = [], list(scene.issues)
-        documents, remarks = robots_of_documents(jointed, scene.bodies, common)
-        issues += remarks
+        documents: list[SceneRobot] = []
+        if jointed:
+            from satcheck.scene.robot.trees import robots_of_documents
+
+            documents, remarks = robots_of_documents(jointed, scene.bodies, common)
+            issues += remarks
         for robot in robots:
             permitted, remarks = permissions(robot)
             allowed += permitted

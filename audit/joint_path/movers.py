@@ -25,7 +25,7 @@ from satcheck.report.report import Issue
 from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene import Scene
 from satcheck.scene.robot import JointPath
-from satcheck.scene.robot.pose_batches import Numbers
+from satcheck.scene.robot.kinematics import Numbers
 
 # Parts of each piece of the path that get a box of their own for the broad phase.
 PARTS = 8

@@ -11,7 +11,6 @@ half space that stays, only the part along its normal counts: the gap is the lea
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -19,13 +18,10 @@ from numpy.typing import NDArray
 
 from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
-from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
 from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.robot import Joint, JointPath
-from satcheck.scene.robot.assembly import link_frames
-from satcheck.scene.robot.kinematics import motion
-from satcheck.scene.robot.pose_batches import placements, rows_of
+from satcheck.scene.robot.kinematics import link_frames, motion, placements, poses_of, within
 
 Numbers = NDArray[np.float64]
 Ball = tuple[tuple[float, float, float], float]
@@ -103,12 +99,10 @@ class Travel:
         count = len(intervals.start)
         frames = link_frames(self._scene, values)
         matrices = placements(self._scene, frames, count)
-        placed = [
-            rows_of(_moved(joint, frames[number], values), count) for number, joint in self._joints
-        ]
+        placed = [_moved(joint, frames[number], values) for number, joint in self._joints]
         movers = [joint for _, joint in self._joints]
-        axes = [_turned(entries, joint) for entries, joint in zip(placed, movers, strict=True)]
-        origins = np.array([entries[:, 3::4] for entries in placed])
+        axes = [_turned(poses, joint) for poses, joint in zip(placed, movers, strict=True)]
+        origins = np.array([poses[:, 3].T for poses in placed])
         turns, shifts = self._steps(intervals)
         linear = matrices.reshape(count, -1, 3, 4)
         centres = np.einsum("nbij,bj->bni", linear[..., :3], self._centres)
@@ -195,7 +189,7 @@ class Travel:
             shifts.append(shift)
         return np.array(turns), np.array(shifts)
 
-    def _pad(self, values: dict[str, tuple[Numbers, ...]], reach: float) -> float:
+    def _pad(self, values: Mapping[str, Numbers], reach: float) -> float:
         angle = length = 0.0
         for robot in self._scene.robots:
             for joint in robot.robot.joints:
@@ -207,13 +201,14 @@ class Travel:
         return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + angle) * (reach + length)
 
 
-def _moved(joint: Joint, links: Mapping[str, Transform], values: Mapping[str, Any]) -> Transform:
+def _moved(joint: Joint, links: Mapping[str, Numbers], values: Mapping[str, Numbers]) -> Numbers:
     """The frame of a joint after its own motion: a planar joint turns about where it has slid."""
-    return compose(compose(links[joint.parent], joint.origin), motion(joint, values[joint.name]))
+    own = motion(joint, values[joint.name])
+    return within(within(links[joint.parent], poses_of(joint.origin)), own)
 
 
-def _turned(entries: Numbers, joint: Joint) -> Numbers:
+def _turned(poses: Numbers, joint: Joint) -> Numbers:
     """The unit axis of a joint in the world."""
     axis = np.array(joint.axis)
-    turned: Numbers = entries.reshape(-1, 3, 4)[..., :3] @ (axis / np.linalg.norm(axis))
+    turned: Numbers = poses.transpose(2, 0, 1)[..., :3] @ (axis / np.linalg.norm(axis))
     return turned

@@ -15,13 +15,13 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from satcheck.core.transform import Transform
+from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.plugins.mjcf.files import ModelFiles
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.plain_ids import COMPONENT_MARK
-from satcheck.scene.robot.kinematics import from_quaternion, inverse
+from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import MeshReference
 from satcheck.scene.robot.packages import FilePlaces
 
@@ -154,7 +154,8 @@ def _replace_meshes(
     spec: Any, path: str, places: FilePlaces, models: list[str]
 ) -> tuple[dict[str, MeshReference], dict[str, Refusal]]:
     """Puts a box in the place of each mesh that MuJoCo need not read, or cannot."""
-    fitted = _fitted(spec)
+    # Shapes are fitted to these.
+    fitted = {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
     files: dict[str, MeshReference] = {}
     refused: dict[str, Refusal] = {}
     for mesh in spec.meshes:
@@ -174,11 +175,6 @@ def _replace_meshes(
         mesh.uservert, mesh.userface = np.array(_CORNERS, float), np.array(_FACES)
         mesh.scale, mesh.refpos, mesh.refquat = (1, 1, 1), (0, 0, 0), (1, 0, 0, 0)
     return files, refused
-
-
-def _fitted(spec: Any) -> set[str]:
-    """The meshes that shapes are fitted to."""
-    return {geom.meshname for geom in spec.geoms if geom.type != _GEOM.mjGEOM_MESH}
 
 
 def _has_faces(place: Path) -> bool:
@@ -230,7 +226,7 @@ def numbers(values: Any) -> Any:
 def pose_of(at: Any, turn: Any) -> Transform:
     """turn: a unit quaternion (w, x, y, z), as in MuJoCo."""
     w, x, y, z = numbers(turn)
-    return from_quaternion(numbers(at), (x, y, z, w))
+    return placed(quaternion_matrix(x, y, z, w), numbers(at))
 
 
 def own_meshes_of(read: Compiled) -> RawScene:

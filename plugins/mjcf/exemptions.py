@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import mujoco
 
-from satcheck.scene.robot.model import Exempt, Exemption
+from satcheck.scene.robot.model import Exemption
 
 _WORLD = 0
 _STATIC = "static"
@@ -66,25 +66,30 @@ class Exemptions:
             groups.append(self._geom(geom))
         return tuple(groups)
 
-    def exempt(self) -> Exempt:
-        groups = [*self._by_weld(), *self._by_masks()]
-        checked = (Exemption(self._geom(a), self._geom(b), "MJCF: pair") for a, b in self._pairs)
-        return Exempt((*self._by_parent(), *self._excluded()), tuple(groups), tuple(checked))
+    def exempt(self) -> Iterator[Exemption]:
+        yield from self._by_weld()
+        for a, b in self._apart:
+            yield Exemption(str(a), str(b), f"MJCF: {a} and {b} share no bit", of_groups=True)
+        yield from self._by_parent()
+        for signature in self._model.exclude_signature.tolist():
+            a, b = signature >> 16, signature & 0xFFFF
+            yield Exemption(self._bodies[a], self._bodies[b], "MJCF: exclude")
+        for a, b in self._pairs:
+            yield Exemption(
+                self._geom(a), self._geom(b), "MJCF: pair", of_groups=True, checked=True
+            )
 
     def _is_static(self, body: int) -> bool:
         """Whether no joint moves it; a mocap body is static."""
         return bool(self._model.body_treeid[body] < 0)
 
     def _by_weld(self) -> Iterator[Exemption]:
-        yield Exemption(_STATIC, _STATIC, "MJCF: both static")
+        yield Exemption(_STATIC, _STATIC, "MJCF: both static", of_groups=True)
         for weld, names in self._welded.items():
             if len(names) > 1 and not self._is_static(weld):
                 group = self._weld(weld)
-                yield Exemption(group, group, "MJCF: welded together, no joint between")
-
-    def _by_masks(self) -> Iterator[Exemption]:
-        for a, b in self._apart:
-            yield Exemption(str(a), str(b), f"MJCF: {a} and {b} share no bit")
+                reason = "MJCF: welded together, no joint between"
+                yield Exemption(group, group, reason, of_groups=True)
 
     def _by_parent(self) -> Iterator[Exemption]:
         """Welded bodies count as one; no body is exempt from those that are welded to the world."""
@@ -96,11 +101,6 @@ class Exemptions:
             if weld != _WORLD and above != _WORLD:
                 for a, b in product(self._welded[above], names):
                     yield Exemption(a, b, "MJCF: parent and child")
-
-    def _excluded(self) -> Iterator[Exemption]:
-        for signature in self._model.exclude_signature.tolist():
-            a, b = signature >> 16, signature & 0xFFFF
-            yield Exemption(self._bodies[a], self._bodies[b], "MJCF: exclude")
 
     def _weld(self, weld: int) -> str:
         return f"welded to {self._bodies[weld]}"

@@ -5,7 +5,6 @@ MuJoCo looks for an included file in the folder of the model, then in that of th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 from satcheck.scene.errors import Refused
@@ -48,7 +47,7 @@ class ModelFiles:
         root = read_tree(path, Path(path), *ROOTS, "robot")
         if len(self._read) > _MOST_FILES:
             root.refuse(f"more than {_MOST_FILES} files", "too-large")
-        for element in _all_below(root):
+        for element in root.below():
             tag, file = element.tag.lower(), element.attributes.get("file")
             if tag == "compiler":
                 self._folders += [element.attributes.get(name, "") for name in _FOLDERS]
@@ -82,9 +81,3 @@ class ModelFiles:
                     break
         assert first is not None
         return element.refuse(f"{file!r}: {first.message}", first.code)
-
-
-def _all_below(element: Element) -> Iterator[Element]:
-    for child in element.children:
-        yield child
-        yield from _all_below(child)

@@ -41,8 +41,7 @@ def joints_of(
         own = np.flatnonzero(m.jnt_bodyid == number).tolist()
         if not own:
             name = taken.unique(f"{body} in {parent}")
-            axis = (1.0, 0.0, 0.0)
-            joints.append(Joint(name, "fixed", parent, body, start, axis, None, None))
+            joints.append(Joint(name, "fixed", parent, body, start))
         for k in own:
             child = body
             if k != own[-1]:
@@ -71,7 +70,6 @@ def _joint(m: Any, k: int, name: str, parent: str, child: str, start: Transform)
         origin=origin,
         axis=numbers(m.jnt_axis[k]),
         limits=limits,
-        mimic=None,
         child_origin=back,
         stands_at_zero=True,
         reference=numbers(_values(m.qpos0, m, k)),

@@ -17,6 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
+from satcheck.core.transform import compose
 from satcheck.plugins.mjcf.child import Answer
 from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, pose_of
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
@@ -26,6 +27,7 @@ from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import Collision, Geometry, Link, MeshReference, Robot, State
 
 _GEOM = mujoco.mjtGeom
@@ -88,8 +90,7 @@ class _Reader:
             roots={link.name: IDENTITY for link in (links[0], *flexes)},
             links={link.name: link for link in links},
             joints=tuple(joints),
-            exempt=self._exemptions.exempt(),
-            geometry=self._geometry,
+            exempt=tuple(self._exemptions.exempt()),
             states=states,
         )
 
@@ -117,13 +118,15 @@ class _Reader:
 
     def _collision(self, k: int) -> Collision:
         m = self._model
-        at, turn = m.geom_pos[k], m.geom_quat[k]
-        shape = self._shape(k)
+        origin, shape = pose_of(m.geom_pos[k], m.geom_quat[k]), self._shape(k)
         if isinstance(shape, MeshReference) and shape.part is None:
-            at, turn = _uncentred(at, turn, m, m.geom_dataid[k])
+            # MuJoCo has moved its coordinates by their centre, and turned them.
+            mesh = m.geom_dataid[k]
+            moved = pose_of(m.mesh_pos[mesh], m.mesh_quat[mesh])
+            origin = origin if moved == IDENTITY else compose(origin, inverse(moved))
         return Collision(
             name=self._geoms[k],
-            origin=pose_of(at, turn),
+            origin=origin,
             geometry=shape,
             line=self._read.lines.get(k, 0),
             groups=self._exemptions.groups(int(m.geom_bodyid[k]), self._masks[k], k),
@@ -214,15 +217,3 @@ def _primitive(kind: int, size: Vector) -> Primitive:
         case _GEOM.mjGEOM_BOX:
             return Box((2 * a, 2 * b, 2 * c))
     raise ValueError(f"a geom of type {kind} is not read")
-
-
-def _uncentred(at: Any, turn: Any, m: Any, mesh: int) -> tuple[Any, Any]:
-    """The place of the coordinates of a mesh, which MuJoCo has moved by the centre and turned."""
-    centre, turned = m.mesh_pos[mesh], m.mesh_quat[mesh]
-    if not centre.any() and turned.tolist() == [1, 0, 0, 0]:
-        return at, turn
-    back = np.zeros(3), np.zeros(4)
-    mujoco.mju_negPose(*back, centre, turned)
-    placed = np.zeros(3), np.zeros(4)
-    mujoco.mju_mulPose(*placed, at, turn, *back)
-    return placed

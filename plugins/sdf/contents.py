@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from satcheck.plugins.sdf import places
-from satcheck.plugins.sdf.exemptions import Contacts
 from satcheck.plugins.sdf.frames import WORLD, Frame, Frames, Name, Scope
 from satcheck.plugins.sdf.includes import Includes, name_in, version_of
 from satcheck.plugins.sdf.joints import JointEntry
@@ -17,7 +16,6 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision
 from satcheck.scene.robot.slips import Slips
 
@@ -41,21 +39,23 @@ class Around(NamedTuple):
 
 
 class LinkEntry(NamedTuple):
-    """refusal: why there is no such link; the body stands for what is not read."""
+    """model: the outermost one. self_collide: the link is checked against other links of this
+    model. refusal: why there is no such link; the body stands for what is not read."""
 
     element: Element
     scope: Scope
-    contacts: Contacts
+    model: str
+    static: bool
+    self_collide: bool
     refusal: Collision | None = None
 
 
 class Contents:
     """links, joints: of all models. models: path -> the canonical link if the model names one."""
 
-    def __init__(self, includes: Includes, slips: Slips, geometry: GeometryKind) -> None:
+    def __init__(self, includes: Includes, slips: Slips) -> None:
         self._includes = includes
-        self._slips = slips
-        self._geometry = geometry
+        self.slips = slips
         self.frames = Frames()
         self.links: dict[str, LinkEntry] = {}
         self.joints: list[JointEntry] = []
@@ -79,9 +79,9 @@ class Contents:
         worlds = root.all("world")
         if len(worlds) > 1:
             worlds[1].refuse("a second <world>: check each in a file of its own")
-        self._slips.look(root, places.ROOT)
+        self.slips.look(root, places.ROOT)
         for world in worlds:
-            self._slips.look(world, places.WORLD)
+            self.slips.look(world, places.WORLD)
         for container in (root, *worlds):
             for tag in _ONLY_IN_MODELS:
                 for element in container.all(tag):
@@ -101,7 +101,7 @@ class Contents:
         """include: names the model, and says more about it."""
         if around.depth >= MOST_NESTED:
             element.refuse(f"more than {MOST_NESTED} models in each other", "too-large")
-        self._slips.look(element, places.MODEL)
+        self.slips.look(element, places.MODEL)
 
         def stated(tag: str) -> Element | None:
             return include.only(tag) if include else None
@@ -137,20 +137,20 @@ class Contents:
         pose: Element | None,
         scope: Scope,
         *,
-        default: Name | None = None,
         attached: Name | None = None,
         place: Name | None = None,
     ) -> None:
-        """scope: in which the pose names frames. default: the frame of a pose that names none."""
-        parent = frame_named(pose, scope) or default or scope.model
+        """scope: in which the pose names frames. attached: what the frame moves with, and is
+        relative to if the pose names no frame; None: the model."""
+        parent = frame_named(pose, scope) or attached or scope.model
         frame = Frame(element, parent, pose_of(pose), attached or scope.model, place)
         self.frames.declare(path, frame)
 
     def _include(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.INCLUDE)
+        self.slips.look(element, places.INCLUDE)
         uri = text_of(element, "uri")
         named = element.only("name")
-        name = (named.text if named else "") or None
+        name = (named.text if named else "") or name_in(uri)
         changes = [child for child in element.children if child.tag.endswith(":params")]
         try:
             if changes:
@@ -158,22 +158,21 @@ class Contents:
                 raise Refused("unsupported-feature", message)
             root = self._includes.document(uri, element.file)
         except Refused as error:
-            self._lose(element, around, name or name_in(uri), error.code, uri, error.message)
+            self._lose(element, around, name, error.code, uri, error.message)
             return
         if root.file in around.files:
             element.refuse(f"{uri!r} includes itself", "reference-cycle")
         within = around._replace(version=_version(root), files=(*around.files, root.file))
-        for model in root.all("model")[:1]:
+        models, worlds, actors = map(root.all, ("model", "world", "actor"))
+        for model in models[:1]:
             self._model(model, within, element)
-        others = [*root.all("model")[1:], *root.all("world")]
-        for other in others[:1]:
-            what = f"its <{other.tag}> of line {other.line} is not read: only a first model is"
-            self._lose(element, around, name or name_in(uri), "unsupported-feature", uri, what)
-        for actor in root.all("actor"):
+        for other in [*models[1:], *worlds][:1]:
+            why = f"its <{other.tag}> of line {other.line} is not read: only a first model is"
+            self._lose(element, around, name, "unsupported-feature", uri, why)
+        for actor in actors:
             self._actor(actor, within)
-        if not any(root.all(tag) for tag in ("model", "actor", "light", "world")):
-            what = "it has no <model>"
-            self._lose(element, around, name or name_in(uri), "not-this-format", uri, what)
+        if not (models or worlds or actors or root.all("light")):
+            self._lose(element, around, name, "not-this-format", uri, "it has no <model>")
 
     def _lose(
         self, element: Element, around: Around, name: str, code: str, what: str, why: str
@@ -186,39 +185,38 @@ class Contents:
         self._declare(path, element, element.only("pose"), around.scope)
         self.frames.opaque.add(path)
         # What is not read may be checked against the links around it, so its pairs stay open.
-        contacts = Contacts(around.model or path, around.static, self_collide=True)
         reason = Refusal(code, f"<{element.tag}>: {what!r} is not read: {why}")
         body = Collision(None, IDENTITY, reason, element.line, element.file)
-        self.links[path] = LinkEntry(element, around.scope, contacts, body)
+        model = around.model or path
+        self.links[path] = LinkEntry(element, around.scope, model, around.static, True, body)
 
     def _link(self, element: Element, around: Around) -> None:
         if around.scope.model == WORLD:
             return
-        self._slips.look(element, places.LINK)
+        self.slips.look(element, places.LINK)
         path = around.scope.path(element.attribute("name"))
         self._declare(path, element, element.only("pose"), around.scope)
         alone = boolean(element, "self_collide", around.self_collide)
-        contacts = Contacts(around.model, around.static, alone)
-        self.links[path] = LinkEntry(element, around.scope, contacts)
+        self.links[path] = LinkEntry(element, around.scope, around.model, around.static, alone)
         self._first.setdefault(around.scope.model, path)
 
     def _frame(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.FRAME)
+        self.slips.look(element, places.FRAME)
         path = self._free_path(element, around.scope)
         text = element.attributes.get("attached_to")
         attached = Name(around.scope, text, element) if text else None
         pose = element.only("pose")
-        self._declare(path, element, pose, around.scope, default=attached, attached=attached)
+        self._declare(path, element, pose, around.scope, attached=attached)
 
     def _joint(self, element: Element, around: Around) -> None:
-        self._slips.look(element, places.JOINT)
+        self.slips.look(element, places.JOINT)
         path = self._free_path(element, around.scope)
         parent, child = (
             Name(around.scope, text_of(element, role), element.need(role), of_joint=True)
             for role in ("parent", "child")
         )
         pose = element.only("pose")
-        self._declare(path, element, pose, around.scope, default=child, attached=child)
+        self._declare(path, element, pose, around.scope, attached=child)
         moves = not around.static
         joint = JointEntry(element, path, around.scope, around.version, parent, child, moves)
         self.joints.append(joint)
@@ -232,14 +230,14 @@ class Contents:
 
     def _actor(self, element: Element, around: Around) -> None:
         for link in element.all("link"):
-            self._slips.look(link, places.LINK)
+            self.slips.look(link, places.LINK)
         solid = any(link.all("collision") for link in element.all("link"))
-        if solid or self._geometry == "visual":
+        if solid or self.slips.geometry == "visual":
             name, why = element.attribute("name"), "a script moves it"
             self._lose(element, around, name, "unsupported-feature", name, why)
         else:
             cause = "an <actor> without <collision>: no body is checked"
-            self._slips.note("no-collision-geometry", element, cause)
+            self.slips.note("no-collision-geometry", element, cause)
 
     def _population(self, element: Element, around: Around) -> None:
         name = element.attributes.get("name") or element.tag
@@ -247,15 +245,15 @@ class Contents:
         self._lose(element, around, name, "unsupported-feature", name, why)
 
     def _road(self, element: Element, around: Around) -> None:
-        if self._geometry == "visual":
+        if self.slips.geometry == "visual":
             name = element.attributes.get("name") or element.tag
             self._lose(element, around, name, "unsupported-feature", name, "a road has no mesh")
 
     def _state(self, element: Element, _: Around) -> None:
-        self._slips.look(element, places.STATE)
+        self.slips.look(element, places.STATE)
         if element.all("model"):
             cause = "a stored <state> is not applied: models stand where <model> places them"
-            self._slips.note("stored-state", element, cause)
+            self.slips.note("stored-state", element, cause)
 
     def body(self, name: Name | str) -> str:
         """The link that a frame moves with; WORLD if it does not move. Raises Refused."""

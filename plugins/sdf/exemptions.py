@@ -3,82 +3,55 @@ connects, and collisions whose bit masks share no bit."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations_with_replacement
-from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from satcheck.plugins.sdf.parts import ANY, Mask, Part
-from satcheck.scene.robot.model import Collision, Exempt, Exemption
+from satcheck.plugins.sdf.contents import LinkEntry
+from satcheck.plugins.sdf.parts import Mask, Part
+from satcheck.scene.robot.model import Collision, Exemption
 
 _STATIC = "static"
 
 
-class Contacts(NamedTuple):
-    """model: the outermost model of a link. self_collide: the link is checked against other links
-    of this model."""
-
-    model: str
-    static: bool
-    self_collide: bool
-
-
 def exempt(
-    contacts: Mapping[str, Contacts],
-    parts: Mapping[str, Sequence[Part]],
-    joined: Iterable[Exemption],
-) -> tuple[dict[str, tuple[Collision, ...]], Exempt]:
-    """(the collisions of each link, with their groups, the exemptions). contacts, parts: of each
-    link. joined: the links that a joint connects."""
-    masks = {part.mask for link in parts.values() for part in link}
-    apart = [(a, b) for a, b in combinations_with_replacement(sorted(masks), 2) if not a.meets(b)]
+    links: Mapping[str, LinkEntry], parts: Mapping[str, Sequence[Part]]
+) -> tuple[dict[str, tuple[Collision, ...]], list[Exemption]]:
+    """(the collisions of each link, with their groups, the exemptions). parts: of each link."""
+    masks = sorted({part.mask for link in parts.values() for part in link})
+    apart = [(a, b) for a, b in combinations_with_replacement(masks, 2) if not a.meets(b)]
     told_apart = {mask for pair in apart for mask in pair}
     collisions = {
-        link: tuple(
-            replace(part.collision, groups=_groups(contacts[link], part.mask, told_apart))
+        path: tuple(
+            replace(part.collision, groups=tuple(_groups(links[path], part.mask, told_apart)))
             for part in of_link
         )
-        for link, of_link in parts.items()
+        for path, of_link in parts.items()
     }
-    groups = [*_by_masks(apart), *_by_model(contacts.values())]
-    return collisions, Exempt(tuple(joined), tuple(groups))
+    return collisions, list(_exemptions(links.values(), apart))
 
 
-def _groups(link: Contacts, mask: Mask, told_apart: set[Mask]) -> tuple[str, ...]:
-    groups = [_STATIC] if link.static else []
+def _groups(link: LinkEntry, mask: Mask, told_apart: set[Mask]) -> Iterator[str]:
+    if link.static:
+        yield _STATIC
     if not link.self_collide:
-        groups.append(_model_group(link.model))
+        yield _of_model(link.model)
     if mask in told_apart:
-        groups.append(_mask_name(mask))
-    return tuple(groups)
+        yield str(mask)
 
 
-def _by_model(contacts: Iterable[Contacts]) -> list[Exemption]:
-    links = list(contacts)
-    exemptions = (
-        [Exemption(_STATIC, _STATIC, "SDF: both static")] if any(c.static for c in links) else []
-    )
+def _exemptions(
+    links: Collection[LinkEntry], apart: Iterable[tuple[Mask, Mask]]
+) -> Iterator[Exemption]:
+    for a, b in apart:
+        yield Exemption(str(a), str(b), f"SDF: {a} and {b} share no bit", of_groups=True)
+    if any(link.static for link in links):
+        yield Exemption(_STATIC, _STATIC, "SDF: both static", of_groups=True)
     for model in dict.fromkeys(link.model for link in links if not link.self_collide):
-        group = _model_group(model)
-        reason = f"SDF: links of model {model} without self_collide"
-        exemptions.append(Exemption(group, group, reason))
-    return exemptions
+        group, reason = _of_model(model), f"SDF: links of model {model} without self_collide"
+        yield Exemption(group, group, reason, of_groups=True)
 
 
-def _by_masks(apart: Iterable[tuple[Mask, Mask]]) -> list[Exemption]:
-    names = ((_mask_name(a), _mask_name(b)) for a, b in apart)
-    return [Exemption(a, b, f"SDF: {a} and {b} share no bit") for a, b in names]
-
-
-def _model_group(model: str) -> str:
+def _of_model(model: str) -> str:
     return f"model {model}"
-
-
-def _mask_name(mask: Mask) -> str:
-    if mask == ANY:
-        return "any collide_bitmask"
-    name = f"collide_bitmask {mask.collide:#06x}"
-    if mask.category == mask.collide:
-        return name
-    return f"{name}, category_bitmask {mask.category:#06x}"

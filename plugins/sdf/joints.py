@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from satcheck.core.conventions import Vector
 from satcheck.plugins.sdf.frames import WORLD, Frames, Name, Scope
-from satcheck.plugins.sdf.values import boolean, vector
+from satcheck.plugins.sdf.values import boolean, number, numbers
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.robot.joint_forest import Moves
+from satcheck.scene.robot.elements import unit_axis
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import JointKind, Limits, Mimic
+from satcheck.scene.robot.model import Joint, JointKind, Limits, Mimic
 from satcheck.scene.robot.slips import Slips
 
 UNLIMITED = 1e16  # SDFormat writes it for "no limit"
-_KINDS: dict[str, JointKind] = {
-    "revolute": "revolute",
-    "continuous": "continuous",
-    "prismatic": "prismatic",
-    "fixed": "fixed",
-}
+_KINDS: tuple[JointKind, ...] = ("revolute", "continuous", "prismatic", "fixed")
 # They have several axes, or axes that depend on each other.
-_STILL = frozenset(("ball", "universal", "revolute2", "screw", "gearbox", "ball2"))
+_STILL = ("ball", "ball2", "gearbox", "revolute2", "screw", "universal")
 _LIMITED = ("revolute", "prismatic")
-_Z: Vector = (0.0, 0.0, 1.0)  # the default axis
 _JOINT_FRAME_SINCE = (1, 5)  # before, the axis was in the frame of the model
 
 
@@ -40,46 +33,47 @@ class JointEntry(NamedTuple):
     moves: bool
 
 
-def moves_of(joint: JointEntry, frames: Frames, slips: Slips) -> Moves:
+def joint_of(joint: JointEntry, parent: str, child: str, frames: Frames, slips: Slips) -> Joint:
+    """Return the joint between two links, or a link and the world, at its pose in the world."""
     element = joint.element
+    still = Joint(joint.path, "fixed", parent, child, frames.world(joint.path))
     given = element.attribute("type")
-    if given not in _KINDS and given not in _STILL:
-        element.refuse(f"type {given!r} is none of {', '.join((*_KINDS, *sorted(_STILL)))}")
-    if not joint.moves or given == "fixed":
-        return Moves("fixed")
+    kind = next((kind for kind in _KINDS if kind == given), None)
+    if kind is None and given not in _STILL:
+        element.refuse(f"type {given!r} is none of {', '.join((*_KINDS, *_STILL))}")
+    if not joint.moves or kind == "fixed":
+        return still
     axis = element.only("axis")
-    if given in _STILL or axis is None:
-        why = (
-            f"a {given} joint is not moved" if axis or given in _STILL else "a joint has no <axis>"
-        )
+    if kind is None or axis is None:
+        why = "a joint has no <axis>" if kind else f"a {given} joint is not moved"
         slips.note("joint-not-moved", element, f"{why}: its links stay as the file places them")
-        return Moves("fixed")
-    kind = _KINDS[given]
+        return still
     dynamics = axis.only("dynamics")
-    spring = dynamics and [dynamics.only(tag) for tag in ("spring_stiffness", "spring_reference")]
-    if spring and all(each and each.text_numbers(1)[0] for each in spring):
+    if dynamics and all(
+        number(dynamics, tag, 0.0) for tag in ("spring_stiffness", "spring_reference")
+    ):
         cause = "a spring that rests elsewhere is not solved: joints stand where the pose says"
         slips.note("constraint-not-solved", axis, cause)
-    return Moves(
-        kind,
-        _axis(axis, joint, frames),
-        _limits(axis, kind, slips),
-        _mimic(axis, joint, frames),
+    return Joint(
+        name=joint.path,
+        kind=kind,
+        parent=parent,
+        child=child,
+        origin=still.origin,
+        axis=_axis(axis, joint, frames),
+        limits=_limits(axis, slips) if kind in _LIMITED else None,
+        mimic=_mimic(axis, joint, frames),
     )
 
 
 def _axis(element: Element, joint: JointEntry, frames: Frames) -> Vector:
     """In the frame of the joint, scaled to length 1."""
-    axis = vector(element, "xyz", _Z)
-    length = math.hypot(*axis)
-    if not (length > 0.0 and math.isfinite(length)):
-        element.refuse("an axis of length 0" if length == 0.0 else "the axis is too long")
+    x, y, z = numbers(element, "xyz", 3, (0.0, 0.0, 1.0))
+    axis = unit_axis(element, (x, y, z))
     frame = _frame_of_axis(element, joint, frames)
-    if frame is not None:
-        into = inverse(frames.world(joint.path))
-        axis = _turned(into, _turned(frames.world(frame), axis))
-    x, y, z = (c / length for c in axis)
-    return x, y, z
+    if frame is None:
+        return axis
+    return _turned(inverse(frames.world(joint.path)), _turned(frames.world(frame), axis))
 
 
 def _frame_of_axis(element: Element, joint: JointEntry, frames: Frames) -> str | None:
@@ -97,9 +91,9 @@ def _turned(pose: tuple[float, ...], v: Vector) -> Vector:
     return x, y, z
 
 
-def _limits(axis: Element, kind: JointKind, slips: Slips) -> Limits | None:
+def _limits(axis: Element, slips: Slips) -> Limits | None:
     limit = axis.only("limit")
-    if kind not in _LIMITED or limit is None:
+    if limit is None:
         return None
     lower, upper = _bound(limit, "lower", -UNLIMITED), _bound(limit, "upper", UNLIMITED)
     if lower <= -UNLIMITED and upper >= UNLIMITED:
@@ -126,8 +120,6 @@ def _mimic(axis: Element, joint: JointEntry, frames: Frames) -> Mimic | None:
     leader = frames.find(Name(joint.scope, element.attribute("joint"), element))
     if leader == WORLD or frames.element(leader).tag != "joint":
         element.refuse(f"mimics {leader!r}, which is no joint")
-    multiplier, offset, reference = (
-        child.text_numbers(1)[0] if (child := element.only(tag)) else default
-        for tag, default in (("multiplier", 1.0), ("offset", 0.0), ("reference", 0.0))
-    )
-    return Mimic(leader, multiplier, offset - multiplier * reference)
+    multiplier = number(element, "multiplier", 1.0)
+    offset = number(element, "offset", 0.0) - multiplier * number(element, "reference", 0.0)
+    return Mimic(leader, multiplier, offset)

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, compose
 from satcheck.plugins.sdf.frames import Frames, Name, Scope
-from satcheck.plugins.sdf.geometry import HULL, PLANE, facing, geometry_of, shape_in
 from satcheck.plugins.sdf.places import SHAPE
-from satcheck.plugins.sdf.values import bits, pose_of
-from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.plugins.sdf.values import bits, numbers, pose_of
 from satcheck.scene.files.xml_tree import Element, RefusedElement
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.robot.elements import (
+    MESH,
+    SHAPES,
+    ShapeForm,
+    collision_of,
+    only_shape,
+    refused,
+)
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import DRAWN_PLANE, Collision
+from satcheck.scene.robot.model import Collision, MeshReference
 from satcheck.scene.robot.slips import Slips
 
 ALL_BITS = 0xFFFF
+_HULL = "convex_hull"  # the optimization of a mesh
+_EMPTY = "empty"
 
 
 class Mask(NamedTuple):
@@ -29,6 +36,13 @@ class Mask(NamedTuple):
     def meets(self, other: Mask) -> bool:
         return bool(self.category & other.collide or other.category & self.collide)
 
+    def __str__(self) -> str:
+        if self == ANY:
+            return "any collide_bitmask"
+        name = f"collide_bitmask {self.collide:#06x}"
+        alike = self.category == self.collide
+        return name if alike else f"{name}, category_bitmask {self.category:#06x}"
+
 
 ANY = Mask(-1, -1)  # all bits: of a collision whose masks are not known
 
@@ -38,18 +52,10 @@ class Part(NamedTuple):
     mask: Mask
 
 
-def parts_in(
-    link: Element,
-    path: str,
-    scope: Scope,
-    frames: Frames,
-    slips: Slips,
-    tag: GeometryKind,
-) -> list[Part]:
+def parts_in(link: Element, path: str, scope: Scope, frames: Frames, slips: Slips) -> list[Part]:
     """path: the frame of the link. scope: in which its poses name frames."""
     parts = []
-    for element in link.all(tag):
-        name = element.attributes.get("name") or None
+    for element in link.all(slips.geometry):
         mask = ANY
         try:
             slips.look(element, SHAPE)
@@ -58,31 +64,40 @@ def parts_in(
             if shape is None:
                 continue
             origin = _origin(element.only("pose"), path, scope, frames)
-            geometry = geometry_of(shape)
-            if shape.tag == PLANE:
-                if tag == "visual":
-                    shape.refuse(DRAWN_PLANE, "unsupported-feature")
-                origin = compose(origin, facing(shape))
+            part = collision_of(element, shape, origin, slips.geometry, _SHAPES)
         except RefusedElement as error:
-            refused = Refusal(error.code, error.reason)
-            part = Collision(name, IDENTITY, refused, error.at, element.file)
-            parts.append(Part(part, mask))
-        else:
-            part = Collision(name, origin, geometry, element.line, element.file)
-            parts.append(Part(part, mask))
+            part = refused(element, error)
+        parts.append(Part(part, mask))
     return parts
 
 
 def _shape(element: Element, slips: Slips) -> Element | None:
     """None: it makes no body, and a warning says so unless the file does."""
-    shape = shape_in(element)
+    shape = only_shape(element.need("geometry"))
     if shape is None:
-        if not element.need("geometry").all("empty"):
-            slips.note("no-shape", element, f"a <{element.tag}> without geometry: no body")
-    elif (how := shape.attributes.get("optimization")) and how != HULL:
+        slips.note("no-shape", element, f"a <{element.tag}> without geometry: no body")
+    elif shape.tag == _EMPTY:
+        return None
+    elif (how := shape.attributes.get("optimization")) and how != _HULL:
         cause = f"a simulator replaces this mesh ({how}): the mesh itself is checked"
         slips.note("unread", shape, cause)
     return shape
+
+
+def _mesh(shape: Element, scale: Vector) -> MeshReference:
+    if (submesh := shape.only("submesh")) is not None:
+        submesh.refuse("a part of a mesh file is not read", "unsupported-feature")
+    # Converters of early versions leave a second <uri> with this text.
+    uris = [uri for uri in shape.all("uri") if uri.text != "__default__"]
+    if not uris:
+        shape.refuse("<uri> is missing")
+    if len(uris) > 1:
+        uris[1].refuse("a second <uri> in one <mesh>")
+    uri = uris[0].text or uris[0].refuse("is empty")
+    return MeshReference(uri, scale, hull=shape.attributes.get("optimization") == _HULL)
+
+
+_SHAPES = ShapeForm((MESH, *SHAPES), numbers, _mesh, normal=(0.0, 0.0, 1.0))
 
 
 def _origin(pose: Element | None, link: str, scope: Scope, frames: Frames) -> Transform:
@@ -107,7 +122,5 @@ def _mask(element: Element) -> Mask:
     contact = surface.only("contact") if surface else None
     if contact is None:
         return Mask()
-    collide = bits(contact, "collide_bitmask")
-    category = bits(contact, "category_bitmask")
-    collide = ALL_BITS if collide is None else collide
-    return Mask(collide if category is None else category, collide)
+    collide = bits(contact, "collide_bitmask", ALL_BITS)
+    return Mask(bits(contact, "category_bitmask", collide), collide)

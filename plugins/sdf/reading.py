@@ -7,25 +7,23 @@ errors refuse the file, with the line.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from satcheck.core.transform import Transform
-from satcheck.plugins.sdf.contents import Contents, LinkEntry
+from satcheck.plugins.sdf.contents import Contents
 from satcheck.plugins.sdf.exemptions import exempt
 from satcheck.plugins.sdf.frames import WORLD
 from satcheck.plugins.sdf.includes import Includes
-from satcheck.plugins.sdf.joints import JointEntry, moves_of
+from satcheck.plugins.sdf.joints import JointEntry, joint_of
 from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import RobotFile
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.issue import Issue
-from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot.joint_forest import Edge, trees_of
-from satcheck.scene.robot.joint_tree import check_mimics
-from satcheck.scene.robot.model import Exemption, Link, Robot
+from satcheck.scene.robot.elements import check_mimics
+from satcheck.scene.robot.model import Exemption, Joint, Link, Robot
 from satcheck.scene.robot.slips import Slips
+from satcheck.scene.robot.trees import trees_of
 
 
 def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
@@ -34,46 +32,50 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     root: the outermost element. Links and joints have their paths as names. Raises Refused
     with the file, the line and the element. No mesh is opened.
     """
-    includes, geometry = Includes(file.places), file.geometry
-    slips = Slips(geometry)
-    contents = Contents(includes, slips, geometry)
+    slips = Slips(file.geometry)
+    contents = Contents(Includes(file.places), slips)
     contents.read(root)
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
-    edges = [edge for joint in contents.joints if (edge := _edge(joint, contents, slips))]
-    parts = {path: _parts(path, contents, slips, geometry) for path in contents.links}
-    contacts = {path: link.contacts for path, link in contents.links.items()}
-    collisions, exempted = exempt(contacts, parts, _joined(edges, contents))
+    elements = {joint.path: joint.element for joint in contents.joints}
+    joints = [made for joint in contents.joints if (made := _joint(joint, contents, slips))]
+    parts = {path: _parts(path, contents) for path in contents.links}
+    collisions, exempted = exempt(contents.links, parts)
     links = {
         path: Link(
             name=path,
             collisions=collisions[path],
             unused=bool(link.element.all(slips.others)),
-            static=link.contacts.static,
+            static=link.static,
             rest=poses[path],
         )
         for path, link in contents.links.items()
     }
     still = frozenset((WORLD, *(path for path, link in links.items() if link.static)))
-    elements = {joint.path: joint.element for joint in contents.joints}
 
-    def note(edge: Edge, cause: str) -> None:
-        slips.note("joint-not-moved", elements[edge.path], cause)
+    def note(joint: Joint, cause: str) -> None:
+        slips.note("joint-not-moved", elements[joint.name], cause)
 
-    trees = trees_of([*_starts(contents)], still, poses, edges, note)
-    check_mimics([(joint, elements[joint.name]) for joint in trees.joints])
-    roots: dict[str, Transform] = {path: poses[path] for path in trees.roots}
-    robot = Robot(_name(root), root.file, roots, links, trees.joints, exempted, geometry)
+    roots, ordered = trees_of(_starts(contents), still, poses, joints, note)
+    check_mimics([(joint, elements[joint.name]) for joint in ordered])
+    robot = Robot(
+        name=_name(root),
+        file=root.file,
+        roots={path: poses[path] for path in roots},
+        links=links,
+        joints=ordered,
+        exempt=(*exempted, *_joined(joints, contents)),
+    )
     return robot, slips.issues()
 
 
-def _parts(path: str, contents: Contents, slips: Slips, geometry: GeometryKind) -> list[Part]:
-    link: LinkEntry = contents.links[path]
+def _parts(path: str, contents: Contents) -> list[Part]:
+    link = contents.links[path]
     if link.refusal is not None:
         return [Part(link.refusal, ANY)]
-    return parts_in(link.element, path, link.scope, contents.frames, slips, geometry)
+    return parts_in(link.element, path, link.scope, contents.frames, contents.slips)
 
 
-def _edge(joint: JointEntry, contents: Contents, slips: Slips) -> Edge | None:
+def _joint(joint: JointEntry, contents: Contents, slips: Slips) -> Joint | None:
     """None: the joint moves nothing, and a warning says so."""
     frames = contents.frames
     if frames.opaque and not all(map(frames.knows, (joint.parent, joint.child))):
@@ -81,26 +83,25 @@ def _edge(joint: JointEntry, contents: Contents, slips: Slips) -> Edge | None:
     else:
         parent, child = contents.body(joint.parent), contents.body(joint.child)
         if parent != child:
-            moves = moves_of(joint, frames, slips)
-            return Edge(joint.path, parent, child, frames.world(joint.path), moves)
+            return joint_of(joint, parent, child, frames, slips)
         cause = f"connects {child or 'the world'!r} to itself"
     cause = f"joint {joint.path!r} {cause}: it is ignored"
     slips.note("joint-not-moved", joint.element, cause)
     return None
 
 
-def _joined(edges: list[Edge], contents: Contents) -> Iterator[Exemption]:
+def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[Exemption]:
     """Not with a model that is not read: its other links are checked."""
     unchecked = {WORLD, *contents.frames.opaque}
-    for edge in edges:
-        if unchecked.isdisjoint((edge.parent, edge.child)):
-            yield Exemption(edge.parent, edge.child, f"SDF: joint {edge.path}")
+    for joint in joints:
+        if unchecked.isdisjoint((joint.parent, joint.child)):
+            yield Exemption(joint.parent, joint.child, f"SDF: joint {joint.name}")
 
 
 def _starts(contents: Contents) -> Iterator[str]:
     """The world, the canonical link of each outermost model, then all links."""
     yield WORLD
-    for model in dict.fromkeys(link.contacts.model for link in contents.links.values()):
+    for model in dict.fromkeys(link.model for link in contents.links.values()):
         yield contents.body(model)
     yield from contents.links
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import re
 
-from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
+from satcheck.scene.robot.elements import turned_by
+from satcheck.scene.robot.kinematics import from_rpy
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 # Not as int() reads it, which takes 1_0 and 0b10.
@@ -23,18 +22,18 @@ def text_of(element: Element, tag: str) -> str:
     return child.text or child.refuse("is empty")
 
 
-def number(element: Element, tag: str) -> float:
-    """Of a required child."""
-    return element.need(tag).text_numbers(1)[0]
-
-
-def vector(element: Element, tag: str, default: Vector | None = None) -> Vector:
+def numbers(
+    element: Element, tag: str, count: int, default: tuple[float, ...] | None = None
+) -> tuple[float, ...]:
     """Of a child, which is required if there is no default."""
     child = element.only(tag)
     if child is None and default is not None:
         return default
-    x, y, z = (child or element.need(tag)).text_numbers(3)
-    return x, y, z
+    return (child or element.need(tag)).text_numbers(count)
+
+
+def number(element: Element, tag: str, default: float) -> float:
+    return numbers(element, tag, 1, (default,))[0]
 
 
 def boolean(element: Element, tag: str, default: bool, instead: Element | None = None) -> bool:
@@ -54,11 +53,11 @@ def flag(element: Element, attribute: str) -> bool:
     return truth(element, element.attributes.get(attribute) or "false")
 
 
-def bits(element: Element, tag: str) -> int | None:
-    """A mask of bits, such as 0x0f; None: there is none."""
+def bits(element: Element, tag: str, default: int) -> int:
+    """A mask of bits, such as 0x0f."""
     child = element.only(tag)
     if child is None:
-        return None
+        return default
     if not _BITS.fullmatch(child.text):
         child.refuse(f'"{child.text}" should be a whole number')
     return int(child.text, 0)
@@ -73,10 +72,8 @@ def pose_of(element: Element | None) -> Transform:
     if form == _QUATERNION:
         if degrees:
             element.refuse("a quaternion has no degrees")
-        x, y, z, a, b, c, d = element.text_numbers(7)
-        if math.hypot(a, b, c, d) == 0.0:
-            element.refuse("a quaternion of length 0")
-        return from_quaternion((x, y, z), (a, b, c, d))
+        x, y, z, *quaternion = element.text_numbers(7)
+        return turned_by(element, (x, y, z), quaternion)
     if form != _EULER:
         element.refuse(f"rotation_format {form!r} is none of {_EULER}, {_QUATERNION}")
     x, y, z, *angles = element.text_numbers(6)

@@ -8,16 +8,14 @@ from satcheck.scene.robot.assembly import (
     RobotBody,
     SceneRobot,
     document_of_robot,
-    pose_of_states,
-    posed,
+    permissions,
     with_srdfs,
 )
-from satcheck.scene.robot.joint_path import JointPath, read_path, with_joint_path
+from satcheck.scene.robot.joint_path import JointPath, with_joint_path
 from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
-from satcheck.scene.robot.permissions import permissions
-from satcheck.scene.robot.pose_batches import RandomPoses
-from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
+from satcheck.scene.robot.poses import Pose, RandomPoses, read_path, read_poses
+from satcheck.scene.robot.postures import Posture, pose_of_states, posed, settle
 from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 

@@ -1,37 +1,31 @@
-"""A robot in a scene: the bodies of its links, the pairs that may touch, and the placements."""
+"""A robot in a scene: the bodies of its links, and the pairs of them that may touch."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations, product
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
-from satcheck.scene.bodies import IDENTITY, Entry, Scene
+from satcheck.scene.bodies import IDENTITY, Entry
 from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.plain_ids import HULL_MARK
-from satcheck.scene.robot.kinematics import link_poses, scaled
-from satcheck.scene.robot.model import (
-    Collision,
-    Link,
-    MeshReference,
-    Robot,
-    State,
-)
+from satcheck.scene.robot.kinematics import scaled
+from satcheck.scene.robot.model import Collision, MeshReference, Robot, State
 from satcheck.scene.robot.packages import FilePlaces
-from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf
-from satcheck.scene.words import listed
+from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.words import listed, meant
 
 UNITS = "m"  # of every URDF, SDFormat and MJCF file
+SAME_LINK = "one rigid link"
 
 
 class RobotBody(Struct, frozen=True):
@@ -58,7 +52,7 @@ class SceneRobot(Struct, frozen=True):
         return (*self.robot.states, *(self.srdf.states if self.srdf else ()))
 
     def bodies_of(self, link: str) -> list[str]:
-        return [body.id for body in self.bodies if body.link == link]
+        return self.by_link().get(link, [])
 
     def by_link(self) -> dict[str, list[str]]:
         """The bodies of each link that has any."""
@@ -70,7 +64,7 @@ class SceneRobot(Struct, frozen=True):
     @property
     def pairs_within_links(self) -> int:
         """The number of pairs of bodies on the same link. They are never checked."""
-        return sum(n * (n - 1) // 2 for n in Counter(body.link for body in self.bodies).values())
+        return sum(len(own) * (len(own) - 1) // 2 for own in self.by_link().values())
 
     def neighbours(self) -> list[tuple[str, str]]:
         """Pairs (parent, child) of links with bodies that are connected by a joint. Links without
@@ -93,62 +87,71 @@ def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue])
     The id of an item is the name of the link; if the link has several, "link/name" or
     "link/number". Items that fail for the same cause share one message, which states their number.
     """
-    collisions = [
-        (link, collision, number, _shape(collision, places.of(collision.file or robot.file)))
-        for link in robot.links.values()
-        for number, collision in enumerate(link.collisions, 1)
-    ]
+    items: list[Item] = []
     lost: dict[tuple[str, str], list[Collision]] = {}
-    for _, collision, _, shape in collisions:
-        if isinstance(shape, Refused):
-            lost.setdefault((shape.code, shape.message), []).append(collision)
-    items = []
-    for link, collision, number, shape in collisions:
-        if isinstance(shape, Refused):
-            shape = _placed(shape, lost[shape.code, shape.message])
-        item = Item(
-            id=_part_id(link, collision, number),
-            link=link.name,
-            transform=_offset(collision),
-            shape=shape,
-            static=link.static,
-            groups=collision.groups,
-            entry=Entry(collision.file or robot.file, line=collision.line),
-        )
-        items.append(item)
+    for link in robot.links.values():
+        for number, collision in enumerate(link.collisions, 1):
+            shape = _shape(collision, places.of(collision.file or robot.file))
+            if isinstance(shape, Refused):
+                lost.setdefault((shape.code, shape.message), []).append(collision)
+            alone = len(link.collisions) == 1
+            item = Item(
+                id=link.name if alone else f"{link.name}/{collision.name or number}",
+                link=link.name,
+                transform=_offset(collision),
+                shape=shape,
+                static=link.static,
+                groups=collision.groups,
+                entry=Entry(collision.file or robot.file, line=collision.line),
+            )
+            items.append(item)
+    causes = {key: _placed(*key, alike) for key, alike in lost.items()}
     return Document(
         path=robot.file,
         name=robot.name,
         kind="robot",
         units=UNITS,
-        items=tuple(items),
-        issues=(*issues, *_bare_links(robot)),
+        items=tuple(
+            replace(item, shape=causes[item.shape.code, item.shape.message])
+            if isinstance(item.shape, Refused)
+            else item
+            for item in items
+        ),
+        issues=tuple(issues),
         robot=robot,
     )
 
 
-def _placed(cause: Refused, lost: Sequence[Collision]) -> Refused:
+def _shape(collision: Collision, places: FilePlaces) -> FilePart | Primitive | Refused:
+    match collision.geometry:
+        case MeshReference(uri, part=part, hull=hull):
+            try:
+                found = places.locate(uri)
+            except Refused as error:
+                return error
+            wanted = f"{part or ''}{HULL_MARK}" if hull else part
+            return FilePart(found.as_posix(), str(found), wanted)
+        case Refusal(code, reason):
+            return Refused(code, reason)
+    return collision.geometry
+
+
+def _offset(collision: Collision) -> Transform:
+    shape = collision.geometry
+    if not isinstance(shape, MeshReference):
+        return collision.origin
+    placing = scaled(collision.origin, shape.scale)
+    return placing if shape.start == IDENTITY else compose(placing, shape.start)
+
+
+def _placed(code: str, message: str, lost: Sequence[Collision]) -> Refused:
     """The cause, with the number of bodies that it affects, and its first place in the file."""
     first, number = lost[0], len(lost)
     place = f"line {first.line}" if first.line else "the file"
     if isinstance(first.geometry, MeshReference):
         place += f": {first.geometry.uri!r}" if number == 1 else f" ({first.geometry.uri})"
     start = place if number == 1 else f"{number} bodies, the first in {place}"
-    return Refused(cause.code, f"{start}: {cause.message}")
-
-
-def _bare_links(robot: Robot) -> list[Issue]:
-    """A note on links that have only geometry of the kind that is not checked."""
-    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
-    if not bare:
-        return []
-    have = "link has" if len(bare) == 1 else "links have"
-    others = "visual" if robot.geometry == "collision" else "collision"
-    message = (
-        f"{len(bare)} {have} {others} geometry and no {robot.geometry} geometry, so no body is "
-        f"checked: {listed(bare)}"
-    )
-    return [issue("no-collision-geometry", message, file=robot.file)]
+    return Refused(code, f"{start}: {message}")
 
 
 def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[SceneRobot]:
@@ -159,9 +162,8 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     """
     matched = list(robots)
     for srdf in srdfs:
-        named = [k for k, robot in enumerate(matched) if robot.robot.name == srdf.robot]
-        if not named and len(matched) == 1:
-            named = [0]
+        alone = len(matched) == 1
+        named = [k for k, robot in enumerate(matched) if alone or robot.robot.name == srdf.robot]
         if not named:
             names = ", ".join(robot.robot.name for robot in matched) or "no URDF is given"
             message = f"about robot {srdf.robot!r}, which is not given ({names})"
@@ -174,84 +176,77 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     return matched
 
 
-def link_frames(scene: Scene, joints: Mapping[str, Any]) -> list[dict[str, Transform]]:
-    """Of each robot: link -> its pose. Its entries are arrays over many poses where those of the
-    joints are."""
-    return [link_poses(robot.robot, joints) for robot in scene.robots]
+def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
+    """(rules for the pairs of its bodies that may touch, issues about them): those within a link,
+    and those that its format or its SRDF names."""
+    srdf, file, bodies = robot.srdf, robot.robot.file, robot.by_link()
+    rules = [
+        _allowed(pair, SAME_LINK, file) for own in bodies.values() for pair in combinations(own, 2)
+    ]
+    rules += _exempted(robot, bodies)
+    if srdf is None:
+        return rules, list(_checked_neighbours(robot))
+    for a, b in combinations(bodies, 2):
+        reason = srdf.permission(a, b)
+        if reason is not None:
+            rules += [_allowed(pair, reason, srdf.file) for pair in product(bodies[a], bodies[b])]
+    return rules, [*_about_srdf(robot, srdf), *_checked_neighbours(robot)]
 
 
-def body_poses(scene: Scene, frames: Sequence[Mapping[str, Transform]]) -> dict[str, Transform]:
-    """The placement of each body of a link. frames: from `link_frames`."""
-    return {
-        body.id: compose(links[body.link], body.offset)
-        for robot, links in zip(scene.robots, frames, strict=True)
-        for body in robot.bodies
-    }
+def _exempted(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> Iterator[Rule]:
+    """The rules of the format. bodies: of each link."""
+    file = robot.robot.file
+    members = Counter(group for body in robot.bodies for group in body.groups)
+    for exempt in robot.robot.exempt or ():
+        a, b = exempt.a, exempt.b
+        if not exempt.of_groups:
+            for pair in product(bodies.get(a, ()), bodies.get(b, ())):
+                yield _allowed(pair, exempt.reason, file)
+        elif members[a] and members[b] and (a != b or members[a] > 1):
+            pair = robot.groups[a], robot.groups[b]
+            rule = _allowed(pair, exempt.reason, file, Selector.exactly_group)
+            yield replace(rule, allowed=not exempt.checked)
 
 
-def posed(scene: Scene, pose: Pose) -> Scene:
-    """The scene with its robots in this pose: new transforms, the same meshes. Bodies that do not
-    move are the same objects.
-
-    pose: joint -> values; `poses.settle` says what happens to other joints, and which values are
-    refused. The result has the complete posture and the issues about it.
-    """
-    posture = settle([robot.robot for robot in scene.robots], pose)
-    transforms = body_poses(scene, link_frames(scene, posture.joints))
-    earlier = scene.posture.issues if scene.posture else ()
-    return replace(
-        scene,
-        bodies=tuple(
-            body
-            if body.id not in transforms or transforms[body.id] == (body.transform or IDENTITY)
-            else replace(body, transform=transforms[body.id])
-            for body in scene.bodies
-        ),
-        issues=(*(remark for remark in scene.issues if remark not in earlier), *posture.issues),
-        posture=posture,
-    )
+def _allowed(
+    pair: tuple[str, str],
+    reason: str,
+    file: str,
+    select: Callable[[str], Selector] = Selector.exactly,
+) -> Rule:
+    a, b = map(select, pair)
+    return Rule(a=a, b=b, allowed=True, reason=reason, where=file, file=file)
 
 
-def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:
-    """The named states combined. Raises SatcheckError if two give a joint different values, or if a
-    state names a joint that the robots do not have."""
-    from satcheck.scene.robot.poses import check_state, state_named
-
-    states = [state for robot in scene.robots for state in robot.states]
-    pose: dict[str, tuple[float, ...]] = {}
-    for name in names:
-        state = state_named(name, states)
-        check_state(state, [robot.robot for robot in scene.robots])
-        for joint, values in state.joints.items():
-            if pose.setdefault(joint, values) != values:
-                raise SatcheckError("bad-pose", f"two states give joint {joint!r} different values")
-    return pose
-
-
-def _part_id(link: Link, collision: Collision, number: int) -> str:
-    if len(link.collisions) == 1:
-        return link.name
-    return f"{link.name}/{collision.name or number}"
-
-
-def _offset(collision: Collision) -> Transform:
-    if isinstance(collision.geometry, MeshReference):
-        placing = scaled(collision.origin, collision.geometry.scale)
-        start = collision.geometry.start
-        return placing if start == IDENTITY else compose(placing, start)
-    return collision.origin
-
-
-def _shape(collision: Collision, places: FilePlaces) -> FilePart | Primitive | Refused:
-    match collision.geometry:
-        case MeshReference(uri, part=part, hull=hull):
-            try:
-                found = places.locate(uri)
-            except Refused as error:
-                return error
-            return FilePart(
-                found.as_posix(), str(found), f"{part or ''}{HULL_MARK}" if hull else part
+def _about_srdf(robot: SceneRobot, srdf: Srdf) -> Iterator[Issue]:
+    """Yield issues about another name of the robot, names that are not read, and links that the
+    robot lacks. A pair that should be checked all the same blocks a pass."""
+    name, links = robot.robot.name, robot.robot.links
+    if srdf.robot != name:
+        message = f"it names robot {srdf.robot!r} and is applied to {name!r}"
+        yield issue("other-robot", message, file=srdf.file)
+    yield from srdf.issues
+    for link in sorted(srdf.links() - links.keys()):
+        message = f"{srdf.file}: link {link!r} is not in the URDF: its entries are ignored"
+        yield issue("unknown-body", message, file=srdf.file)
+    for pair in sorted(map(sorted, srdf.enabled)):
+        for link in sorted({*pair} - links.keys()):
+            message = (
+                f"enable_collisions names link {link!r}, which the robot lacks"
+                f"{meant(link, links)}: the pair of {' and '.join(pair)} is not enabled"
             )
-        case Refusal(code, reason):
-            return Refused(code, reason)
-    return collision.geometry
+            yield issue("unread", message, file=srdf.file)
+
+
+def _checked_neighbours(robot: SceneRobot) -> Iterator[Issue]:
+    if robot.robot.exempt is not None:
+        return
+    permitted = robot.srdf.permission if robot.srdf else lambda *_: None
+    checked = [f"{a} and {b}" for a, b in robot.neighbours() if permitted(a, b) is None]
+    if checked:
+        pairs = "pair" if len(checked) == 1 else "pairs"
+        message = (
+            f"{len(checked)} {pairs} of links with a joint between them are checked like any "
+            f"other, as no SRDF allows them to touch: {listed(checked)}"
+        )
+        yield issue("neighbours-checked", message, file=robot.robot.file)

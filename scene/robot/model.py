@@ -16,15 +16,14 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.raw_mesh import Refusal
-from satcheck.scene.read_options import GeometryKind
 
-UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
-JointKind = UrdfJointKind | Literal["ball", "free"]
+JointKind = Literal[
+    "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "free"
+]
 # The value of a joint: no number for a fixed joint, (x, y, angle) for a planar one, (x, y, z, roll,
 # pitch, yaw) for a floating one, a quaternion (w, x, y, z) for a ball joint, (x, y, z, w, x, y, z)
 # for a free one, an angle or a length for others.
 Values = tuple[float, ...]
-DRAWN_PLANE = "a plane that is drawn ends at its size: give a mesh or a box"
 FREEDOMS: dict[JointKind, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 4, "free": 7}
 
 
@@ -94,10 +93,11 @@ class Joint(Struct, frozen=True):
     """Moves the link `child` relative to the link `parent`.
 
     origin: the pose of the joint's frame in the frame of the parent. axis: unit vector in the
-    joint's frame. limits: None if there are none. child_origin: the pose of the child in the
-    joint's frame. stands_at_zero: without a value it stands at 0, or at `reference`, even if that
-    is beyond its limits, because the file states the pose of the child there. reference: the value
-    at which it does not move the child; (): 0. The value of a free joint is a pose in the world.
+    joint's frame; of a prismatic joint its length is that of a metre in the unit of the poses.
+    limits: None if there are none. child_origin: the pose of the child in the joint's frame.
+    stands_at_zero: without a value it stands at 0, or at `reference`, even if that is beyond its
+    limits, because the file states the pose of the child there. reference: the value at which it
+    does not move the child; (): 0. The value of a free joint is a pose in the world.
     """
 
     name: str
@@ -105,16 +105,16 @@ class Joint(Struct, frozen=True):
     parent: str
     child: str
     origin: Transform
-    axis: Vector
-    limits: Limits | None
-    mimic: Mimic | None
+    axis: Vector = (1.0, 0.0, 0.0)
+    limits: Limits | None = None
+    mimic: Mimic | None = None
     child_origin: Transform = IDENTITY
     stands_at_zero: bool = False
     reference: Values = ()
 
     @property
     def freedoms(self) -> int:
-        """How many numbers its value has."""
+        """Return how many numbers its value has."""
         return FREEDOMS.get(self.kind, 1)
 
     @property
@@ -124,26 +124,19 @@ class Joint(Struct, frozen=True):
 
     @property
     def free(self) -> bool:
-        """Whether a pose sets its value: it moves and mimics no other joint."""
+        """Return whether a pose sets its value: it moves and mimics no other joint."""
         return self.freedoms > 0 and self.mimic is None
 
 
 class Exemption(Struct, frozen=True):
     """Bodies that need no check against each other, as the format says. a, b: two links, or two
-    groups of collisions, which may be the same."""
+    groups of collisions, which may be the same. checked: these are checked nevertheless."""
 
     a: str
     b: str
     reason: str
-
-
-class Exempt(Struct, frozen=True):
-    """The exemptions of a robot: pairs of links, and pairs of groups of collisions. checked: groups
-    that are checked nevertheless."""
-
-    links: tuple[Exemption, ...] = ()
-    groups: tuple[Exemption, ...] = ()
-    checked: tuple[Exemption, ...] = ()
+    of_groups: bool = False
+    checked: bool = False
 
 
 class State(Struct, frozen=True):
@@ -161,9 +154,9 @@ class Robot(Struct, frozen=True):
     """Trees of links, checked. The links of an SDFormat or MJCF file are one robot.
 
     file: its path as given. roots: links that no joint carries -> their pose in the world. joints:
-    each after the joint of its parent link. exempt: pairs that the format does not check; None: the
-    format says nothing about them. geometry: the elements of links that are checked. states: those
-    that the file itself names.
+    each after the joint of its parent link. exempt: pairs that the format does not check, of which
+    a later one counts more; None: the format says nothing about them. states: those that the file
+    itself names.
     """
 
     name: str
@@ -171,9 +164,5 @@ class Robot(Struct, frozen=True):
     roots: dict[str, Transform]
     links: dict[str, Link]
     joints: tuple[Joint, ...]
-    exempt: Exempt | None = None
-    geometry: GeometryKind = "collision"
+    exempt: tuple[Exemption, ...] | None = None
     states: tuple[State, ...] = ()
-
-    def joint(self, name: str) -> Joint | None:
-        return next((joint for joint in self.joints if joint.name == name), None)

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from urllib.parse import unquote
+
+from msgspec.structs import replace
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import read_elements
@@ -61,15 +62,14 @@ class FilePlaces:
         self._permitted = permitted
         self._root = self._package()
         self._own = followed(self._root)
-        self._includer: FilePlaces | None = None
         self._places = {file: self}
 
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            included = FilePlaces(file, self._packages, self._permitted)
-            included._includer = self
-            self._places[file] = included
+            folders = (*self._permitted.folders, str(self._own))
+            permitted = replace(self._permitted, folders=folders)
+            self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
 
     def locate(self, uri: str, *, models: bool = False) -> Path:
@@ -89,67 +89,56 @@ class FilePlaces:
         if scheme in _PACKAGE_SCHEMES:
             # Some write package:///
             return self._in_package(rest.replace("\\", "/").lstrip("/"), models)
-        is_elsewhere = scheme not in ("", "file")
-        if (is_elsewhere or (models and not scheme)) and (named := self._named(rest, models)):
+        is_elsewhere, may_be_model = scheme not in ("", "file"), models and not scheme
+        if (is_elsewhere or may_be_model) and (named := self._named(rest, models)):
             return named
         if is_elsewhere:
             hint = f"--package {rest.partition('/')[0]}=DIR says where the files of this server lie"
             raise Refused("unsupported-feature", f"{scheme}:// is not fetched: {hint}")
-        try:
-            place = self._plain(rest, models, quoted=scheme == "file")
-        except Refused:
-            if models and not scheme and "/" not in rest:
-                return self._in_package(rest, models)  # a bare name of a model
-            raise
-        if _is_from_environment(place):
+        place = self._plain(rest, models, quoted=scheme == "file")
+        if isinstance(place, Path):
+            if not self._may_open(place):
+                hint = "--allow-outside, or with a package.xml in the folder that holds both"
+                raise Refused("outside-path", f"it lies {self._outside()}: allow it with {hint}")
             return place
-        if not self._may_open(place):
-            raise Refused(
-                "outside-path",
-                f"it lies {self._outside()}: allow it with --allow-outside, or with a package.xml "
-                "in the folder that holds both",
-            )
-        return place
+        if may_be_model and "/" not in rest:
+            return self._in_package(rest, models)
+        raise place
 
-    def _plain(self, rest: str, models: bool, *, quoted: bool) -> Path:
+    def _plain(self, rest: str, models: bool, *, quoted: bool) -> Path | Refused:
         """Beside the file, or else in a folder of the environment, or else, of file://, in a folder
         above the file: many write file://models/NAME, from the root of their repository."""
-        try:
-            return _existing(self._folder, rest, models, quoted=quoted)
-        except Refused:
-            above = self._above()[1:] if quoted and not rest.startswith("/") else []
-            for root in (*folders_of_environment(), *above):
-                with suppress(Refused):
-                    return _existing(root, rest, models, quoted=quoted)
-            raise
+        above = self._above()[1:] if quoted and not rest.startswith("/") else []
+        roots = (self._folder, *folders_of_environment(), *above)
+        found = (_existing(root, rest, models, quoted=quoted) for root in roots)
+        first = next(found)
+        if isinstance(first, Path):
+            return first
+        return next((place for place in found if isinstance(place, Path)), first)
 
     def _in_package(self, rest: str, models: bool) -> Path:
         name, _, inner = rest.partition("/")
         if named := self._named(rest, models):
             return named
-        folders = []
-        places = []
-        reasons = []
+        outside: list[Path] = []
+        missing: list[Refused] = []
         for folder in filter(_is_folder, self._folders_of(name)):
-            folders.append(folder)
-            try:
-                place = _existing(folder, inner, models, quoted=True)
-            except Refused as error:
-                reasons.append(error)
-                continue
-            if self._may_open(place) or _is_from_environment(place):
+            place = _existing(folder, inner, models, quoted=True)
+            if isinstance(place, Refused):
+                missing.append(place)
+            elif self._may_open(place):
                 return place
-            places.append(place)
-        if places:
-            message = (
-                f"package {name!r} lies {self._outside()}: allow it: --package {name}={folders[0]}"
-            )
+            else:
+                outside.append(folder)
+        option = f"--package {name}"
+        if outside:
+            message = f"package {name!r} lies {self._outside()}: allow it: {option}={outside[0]}"
             raise Refused("outside-path", message)
-        if reasons:
-            hint = f"--package {name}=DIR names another package"
-            raise Refused(reasons[0].code, f"{reasons[0].message}: {hint}")
+        if missing:
+            message = f"{missing[0].message}: {option}=DIR names another package"
+            raise Refused(missing[0].code, message)
         likely = self._own if _is_file(self._root / inner) else "DIR"
-        message = f"package {name!r} is not found: --package {name}={likely} says where it lies"
+        message = f"package {name!r} is not found: {option}={likely} says where it lies"
         raise Refused("missing-resource", message)
 
     def _named(self, rest: str, models: bool) -> Path | None:
@@ -161,7 +150,10 @@ class FilePlaces:
                 inside = "/".join(parts[length:])
                 if not self._permitted.has(folder / inside, followed(folder)):
                     raise Refused("outside-path", f"the path leaves {folder}: refused")
-                return _existing(folder, inside, models, quoted=True)
+                place = _existing(folder, inside, models, quoted=True)
+                if isinstance(place, Refused):
+                    raise place
+                return place
         return None
 
     def _folders_of(self, name: str) -> Iterator[Path]:
@@ -185,7 +177,7 @@ class FilePlaces:
         """The nearest folder with a manifest. Without one it is the folder around that of the file,
         but never the root of the file system."""
         above = self._above()
-        marked = (folder for folder in above if any(_is_file(folder / each) for each in _MANIFESTS))
+        marked = (folder for folder in above if _holds(folder, _MANIFESTS))
         return next(marked, above[1 if len(above) > 2 else 0])
 
     def _above(self) -> list[Path]:
@@ -194,9 +186,7 @@ class FilePlaces:
         return [_tidy(self._folder.joinpath(*[".."] * steps)) for steps in range(count + 1)]
 
     def _may_open(self, place: Path) -> bool:
-        if self._permitted.has(place, self._own):
-            return True
-        return self._includer is not None and self._includer._may_open(place)
+        return self._permitted.has(place, self._own) or _is_from_environment(place)
 
     def _outside(self) -> str:
         return self._permitted.beyond(f"of {self._own}, where the package of the file is")
@@ -205,9 +195,8 @@ class FilePlaces:
 def _name_in_manifest(folder: Path) -> str | None:
     """The <name> in the package.xml of a folder; None if there is no readable one. Then the name of
     the folder counts."""
-    note(folder / _PACKAGE_XML)
+    place = folder / _PACKAGE_XML
     try:
-        place = folder / _PACKAGE_XML
         root = read_elements(read_whole(str(place), place, _MAX_BYTES))
     except Refused:
         return None
@@ -215,9 +204,9 @@ def _name_in_manifest(folder: Path) -> str | None:
     return name.text or None if name else None
 
 
-def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path:
-    r"""The file at `path` from `folder`. models: or the folder of a model. quoted: %20 may stand
-    for a space.
+def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path | Refused:
+    r"""The file at `path` from `folder`, or why there is none. models: or the folder of a model.
+    quoted: %20 may stand for a space.
 
     Tries the path as written first, then with / for \, because some files are written on Windows.
     """
@@ -225,19 +214,18 @@ def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path:
     spellings += [spelling.replace("\\", "/") for spelling in spellings if "\\" in spelling]
     places = [_tidy(folder / spelling) for spelling in spellings]
     for place in places:
-        if _is_file(place) or (models and _is_model(place)):
+        if _is_file(place) or (models and _holds(place, MODEL_MANIFESTS)):
             return place
     if models and any(map(_is_folder, places)):
-        raise Refused("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
+        return Refused("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
     above = places[-1].parent
     where = f"{above.as_posix().rstrip('/')}/"
     what = f"no such file in {where}" if _is_folder(above) else f"there is no folder {above}"
-    raise Refused("missing-resource", what)
+    return Refused("missing-resource", what)
 
 
-def _is_model(folder: Path) -> bool:
-    """Whether it is the folder of a Gazebo model."""
-    return any(_is_file(folder / manifest) for manifest in MODEL_MANIFESTS)
+def _holds(folder: Path, manifests: Sequence[str]) -> bool:
+    return any(_is_file(folder / manifest) for manifest in manifests)
 
 
 def _folders_in(folder: Path) -> list[Path]:

@@ -1,57 +1,39 @@
-"""Reads poses of robots from JSON, completes them and checks them against the limits.
+"""Reads poses of robots, draws random ones, and combines named states.
 
-    {"joint": value, ...}          one pose; a list of such objects is several
-
-A value is a number (radians; metres for a prismatic joint), or a list of numbers: [x, y, angle] for
-a planar joint, [x, y, z, roll, pitch, yaw] for a floating one. Joints without a value stand at 0.
-If 0 is beyond its limits, a joint of a URDF stands at the nearer limit.
+A JSON file holds {"joint": value, ...}, one pose, or a list of such objects. A value is a number
+(radians; metres for a prismatic joint), or a list of numbers: [x, y, angle] for a planar joint, [x,
+y, z, roll, pitch, yaw] for a floating one. A CSV table has a column for each joint.
 """
 
 from __future__ import annotations
 
+import csv
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+import random
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from msgspec import Struct
+import numpy as np
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.issue import Issue, issue
 from satcheck.scene.opening import read_whole
-from satcheck.scene.robot.model import Joint, Robot, State, Values
-from satcheck.scene.words import meant, why_unreadable
+from satcheck.scene.robot.kinematics import Numbers
+from satcheck.scene.robot.model import Joint, Robot, Values
+from satcheck.scene.words import why_unreadable
 
 Pose = Mapping[str, Values]
-# A given value of a mimic joint may differ from the computed one by this: states are written with
-# few decimals.
-_SAME = 1e-6
 _MAX_BYTES = 256 << 20
-
-
-class Posture(Struct, frozen=True):
-    """A complete pose.
-
-    joints: name of every joint that moves -> its value. issues: about the pose. mimics: the joints
-    whose values follow from other joints.
-    """
-
-    joints: dict[str, Values]
-    mimics: frozenset[str] = frozenset()
-    issues: tuple[Issue, ...] = ()
-
-    def pose(self) -> dict[str, float | list[float]]:
-        """The pose as JSON values. Settling it gives this posture again."""
-        return {
-            name: values[0] if len(values) == 1 else list(values)
-            for name, values in self.joints.items()
-            if name not in self.mimics
-        }
+# Significant digits of a random value. A user can then read and retype a pose; the rounded pose is
+# the one that is checked.
+_DIGITS = 6
+# Poses that are drawn at a time where they are taken one by one.
+_DRAWN = 1024
 
 
 def read_poses(given: str) -> list[Pose] | Pose:
-    """Poses from a JSON file, or from a JSON text that starts with { or [. Returns a list of poses
+    """Return the poses of a JSON file, or of a JSON text that starts with { or [: a list of poses
     or one pose, as in the text.
 
     Raises SatcheckError (`bad-pose`, or a code about the file).
@@ -70,81 +52,17 @@ def read_poses(given: str) -> list[Pose] | Pose:
     return [_pose(pose, f"pose {k}", file) for k, pose in enumerate(document, 1)]
 
 
-def state_named(name: str, states: Iterable[State]) -> State:
-    """The state of that name, "group/name" where groups share it. Raises SatcheckError."""
-    known = list(states)
-    matches = [state for state in known if name in (state.name, f"{state.group}/{state.name}")]
-    if len(matches) == 1:
-        return matches[0]
-    if matches:
-        choices = ", ".join(f"{state.group}/{state.name}" for state in matches)
-        raise SatcheckError("bad-pose", f"several groups have a state {name!r}: {choices}")
-    names = ", ".join(dict.fromkeys(state.name for state in known))
-    none = "no SRDF with a <group_state>, and no MJCF with a <key>, was given"
-    has = f"the states are {names}" if known else none
-    raise SatcheckError("bad-pose", f"no state {name!r}: {has}")
+def read_path(file: str) -> list[Pose]:
+    """Return the poses of a JSON or CSV file, or of a JSON text; `time` is a joint of each.
 
-
-def check_state(state: State, robots: Sequence[Robot]) -> None:
-    """Checks the joints of a state as `settle` does. Errors name the place in the SRDF."""
-    movable = movable_joints(robots)
-    for name, values in state.joints.items():
-        try:
-            _check_named(name, values, robots, movable)
-        except SatcheckError as error:
-            where = f"line {state.lines[name]}: state {state.name!r}"
-            raise SatcheckError(error.code, f"{where}: {error.message}", file=state.file) from None
-
-
-def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
-    """The complete pose of these robots.
-
-    Raises SatcheckError (`bad-pose`) if a joint is unknown, is fixed, exists in two robots, or has
-    a wrong count of numbers. A value beyond the limits is kept, with a warning.
+    Raises SatcheckError (`bad-pose`, or a code about the file).
     """
-    check_names(robots, pose)
-    return posture_of(movable_joints(robots), complete(robots, pose), pose)
-
-
-def posture_of(movable: Mapping[str, Joint], joints: dict[str, Values], pose: Pose) -> Posture:
-    """The posture with these values of all joints that move, of which the pose names some."""
-    unnamed = [joint for name, joint in movable.items() if name not in pose]
-    issues = [
-        *(_not_at_zero(joint, joints[joint.name]) for joint in unnamed if joint.free),
-        *(_mimic_differs(joint, joints, pose) for joint in movable.values() if joint.mimic),
-        *(_beyond(joint, joints[name]) for name, joint in movable.items() if joint.limits),
-    ]
-    return Posture(
-        joints=joints,
-        mimics=frozenset(name for name, joint in movable.items() if joint.mimic),
-        issues=tuple(each for each in issues if each is not None),
-    )
-
-
-def complete(robots: Sequence[Robot], named: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of all joints that move, where these are named. The numbers may be arrays over
-    many poses; those of joints that no pose names are single ones."""
-    movable = movable_joints(robots)
-    joints = {
-        joint.name: named[joint.name] if joint.name in named else _rest(joint)
-        for joint in movable.values()
-        if joint.free
-    }
-    for joint in movable.values():
-        if joint.mimic is not None:
-            joints[joint.name] = (_mimicked(joint, movable, joints),)
-    return {name: joints[name] for name in movable}
-
-
-def check_names(robots: Sequence[Robot], pose: Pose) -> None:
-    """Raises what `settle` raises."""
-    movable = movable_joints(robots)
-    for name, values in pose.items():
-        _check_named(name, values, robots, movable)
-
-
-def movable_joints(robots: Sequence[Robot]) -> dict[str, Joint]:
-    return {joint.name: joint for robot in robots for joint in robot.joints if joint.freedoms}
+    if file.lower().endswith(".csv"):
+        return _read_table(file)
+    poses = read_poses(file)
+    if isinstance(poses, Mapping):
+        raise SatcheckError("bad-pose", "a path is a list of poses: [{...}, {...}]", file=file)
+    return poses
 
 
 def _text(path: str) -> str:
@@ -187,70 +105,104 @@ def _bad(message: str, file: str | None) -> SatcheckError:
     return SatcheckError("bad-pose", message if file else f"--pose: {message}", file=file)
 
 
-def _check_named(
-    name: str, values: Values, robots: Sequence[Robot], movable: Mapping[str, Joint]
-) -> None:
-    owners = [robot.name for robot in robots if robot.joint(name) is not None]
-    if not owners:
-        raise SatcheckError("bad-pose", f"unknown joint {name!r}{meant(name, movable)}")
-    if len(owners) > 1:
-        raise SatcheckError("bad-pose", f"joint {name!r}: robots {' and '.join(owners)} have it")
-    if name not in movable:
-        raise SatcheckError("bad-pose", f"joint {name!r} does not move: it has no value")
-    wanted = movable[name].freedoms
-    if len(values) != wanted:
-        number = "1 number" if wanted == 1 else f"{wanted} numbers"
-        kind = movable[name].kind
-        raise SatcheckError(
-            "bad-pose", f"joint {name!r} ({kind}) takes {number}, not {len(values)}"
-        )
-    if movable[name].kind in ("ball", "free") and not any(values[-4:]):
-        raise SatcheckError("bad-pose", f"joint {name!r}: a quaternion of length 0")
+def _read_table(file: str) -> list[Pose]:
+    text = _text(file)
+    head = text.partition("\n")[0]
+    separator = next((mark for mark in (",", ";", "\t") if mark in head), ",")
+    rows = csv.reader(text.splitlines(), delimiter=separator, skipinitialspace=True)
+    lines = [(number, [cell.strip() for cell in row]) for number, row in enumerate(rows, 1)]
+    filled = [(number, row) for number, row in lines if any(row)]
+    if len(filled) < 3:
+        message = "a path needs a line with the names of joints, and two lines of values below it"
+        raise _bad(message, file)
+    first, names = filled[0]
+    if len(set(names)) < len(names) or not all(names):
+        raise _bad(f"line {first}: a column has no name, or two have one", file)
+    return [_row(names, row, f"line {number}", file) for number, row in filled[1:]]
 
 
-def _rest(joint: Joint) -> Values:
-    if joint.limits is None or joint.stands_at_zero:
-        return joint.neutral
-    return (min(max(0.0, joint.limits.lower), joint.limits.upper),)
+def _row(names: Sequence[str], row: Sequence[str], where: str, file: str) -> Pose:
+    if len(row) != len(names):
+        raise _bad(f"{where}: {len(row)} values for {len(names)} columns", file)
+    pose = {}
+    for name, cell in zip(names, row, strict=True):
+        try:
+            value = float(cell)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise _bad(f"{where}: {name}: {cell!r} is no finite number", file)
+        pose[name] = (value,)
+    return pose
 
 
-def _not_at_zero(joint: Joint, values: Values) -> Issue | None:
-    if joint.limits is None or joint.stands_at_zero or not values[0]:
-        return None
-    message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {values[0]:g}"
-    return issue("not-at-zero", message)
+class RandomPoses(Sequence[Pose]):
+    """`count` random poses, uniform within the limits. A rotating joint without limits is in
+    [-pi, pi].
+
+    Each value is rounded to six significant digits. A longer list starts with the poses of a
+    shorter one. The poses are the same on every machine and version of Python. Joints in `fixed`
+    keep those values. Sliding joints without limits, planar and floating joints stay at 0. Mimics
+    follow their leaders. The poses are drawn again each time they are visited, so that they need
+    no memory.
+    """
+
+    def __init__(
+        self, robots: Sequence[Robot], count: int, seed: int, fixed: Pose | None = None
+    ) -> None:
+        joints = (joint for robot in robots for joint in robot.joints)
+        self._drawn = [joint for joint in joints if joint.free and joint.freedoms == 1]
+        self._count, self._seed = count, seed
+        self.fixed = dict(fixed or {})
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Pose]:
+        for first, values in self.batches(_DRAWN):
+            for row in range(min(_DRAWN, self._count - first)):
+                yield pose_at(values, row)
+
+    def __getitem__(self, number: Any) -> Any:
+        return list(self)[number]
+
+    def batches(self, size: int) -> Iterator[tuple[int, dict[str, Numbers]]]:
+        """Yield (the number of the first pose, from 0; values of the fixed joints and of those that
+        are drawn)."""
+        # Random.random() is the one method whose sequence Python promises to keep. numpy continues
+        # the same generator faster.
+        _, state, _ = random.Random(self._seed).getstate()
+        draw = np.random.RandomState()
+        draw.set_state(("MT19937", np.array(state[:-1], np.uint32), state[-1], 0, 0.0))
+        held = {name: values_of(own) for name, own in self.fixed.items()}
+        for first in range(0, self._count, size):
+            shares = draw.random_sample((min(size, self._count - first), len(self._drawn)))
+            drawn = {
+                joint.name: _between(*_range(joint), share)
+                for joint, share in zip(self._drawn, shares.T, strict=True)
+            }
+            yield first, drawn | held
 
 
-def _mimic_differs(joint: Joint, joints: Mapping[str, Values], pose: Pose) -> Issue | None:
-    value, given = joints[joint.name][0], pose.get(joint.name)
-    if given is None or abs(given[0] - value) <= _SAME:
-        return None
-    leader = joint.mimic.joint if joint.mimic else ""
-    message = (
-        f"joint {joint.name!r} follows {leader!r} and stands at {value:g}, "
-        f"not at {given[0]:g} as the pose says"
-    )
-    return issue("mimic-differs", message)
+def values_of(numbers: Values) -> Numbers:
+    """Return the value of a joint that is the same in all poses."""
+    return np.array(numbers, float).reshape(-1, 1)
 
 
-def _mimicked(joint: Joint, movable: Mapping[str, Joint], joints: Mapping[str, Values]) -> float:
-    mimic = joint.mimic
-    if mimic is None:
-        return joints[joint.name][0]
-    leader = movable.get(mimic.joint)  # None: a fixed joint, which stands at 0
-    led = 0.0 if leader is None else _mimicked(leader, movable, joints)
-    return mimic.multiplier * led + mimic.offset
+def pose_at(values: Mapping[str, Numbers], row: int) -> dict[str, Values]:
+    """Return one of many poses."""
+    return {
+        name: tuple(own[:, row if own.shape[1] > 1 else 0].tolist()) for name, own in values.items()
+    }
 
 
-def _beyond(joint: Joint, values: Values) -> Issue | None:
-    if joint.limits is None:
-        return None
-    low, high = joint.limits.lower, joint.limits.upper
-    excess = max(low - values[0], values[0] - high)
-    if excess <= 0:
-        return None
-    message = (
-        f"joint {joint.name!r}: {values[0]:g} is beyond its limits {low:g} .. {high:g} "
-        f"by {excess:.3g}: checked there all the same"
-    )
-    return issue("beyond-limits", message)
+def _range(joint: Joint) -> tuple[float, float]:
+    if joint.limits is not None:
+        return joint.limits.lower, joint.limits.upper
+    still = joint.neutral[0]
+    return (still, still) if joint.kind == "prismatic" else (-math.pi, math.pi)
+
+
+def _between(low: float, high: float, shares: Numbers) -> Numbers:
+    drawn = [float(f"{value:.{_DIGITS}g}") for value in (low + shares * (high - low)).tolist()]
+    return np.clip([drawn], low, high)

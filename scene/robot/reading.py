@@ -23,7 +23,9 @@ from satcheck.scene.files.xml_tree import (
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.opening import read_whole
 from satcheck.scene.paths import StrPath
+from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Robot
+from satcheck.scene.words import listed
 
 _MAX_BYTES = 64 << 20
 _ERB = b"<%"
@@ -49,10 +51,23 @@ def read_robot(path: str, location: StrPath, file: RobotFile) -> tuple[Robot, tu
     if reader is None:
         _refuse_root(root, robots())
     robot, issues = reader.function()(root, file)
-    if file.geometry == "visual":
+    return robot, (*issues, *_about_geometry(robot, file.geometry))
+
+
+def _about_geometry(robot: Robot, checked: GeometryKind) -> Iterator[Issue]:
+    """Yield issues about what is not checked: the other kind of geometry."""
+    if checked == "visual":
         message = "visual geometry is checked, not collision geometry"
-        issues = (*issues, issue("visual-geometry", message, file=path))
-    return robot, issues
+        yield issue("visual-geometry", message, file=robot.file)
+    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
+    if bare:
+        have = "link has" if len(bare) == 1 else "links have"
+        others = "visual" if checked == "collision" else "collision"
+        message = (
+            f"{len(bare)} {have} {others} geometry and no {checked} geometry, so no body is "
+            f"checked: {listed(bare)}"
+        )
+        yield issue("no-collision-geometry", message, file=robot.file)
 
 
 def read_tree(path: str, location: StrPath, *roots: str) -> Element:

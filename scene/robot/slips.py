@@ -61,7 +61,7 @@ class Slips:
     others: the other kind, which is harmless."""
 
     def __init__(self, geometry: GeometryKind = "collision") -> None:
-        self._bodies = geometry, "include"
+        self.geometry = geometry
         self.others = "visual" if geometry == "collision" else "collision"
         self._lines: dict[tuple[str, str, str], list[int]] = {}
 
@@ -93,7 +93,9 @@ class Slips:
     def _look_for_bodies(self, element: Element, around: Element, part: str = "") -> None:
         """Note each body that is, or is in, an element that usually holds none. A name alone is a
         reference. part: what a body has there; "": anything."""
-        if element.tag in self._bodies and (element.all(part) if part else element.children):
+        if element.tag in (self.geometry, "include") and (
+            element.all(part) if part else element.children
+        ):
             self.note("unread", element, f"<{around.tag}>: the {element.tag} in it is not read")
             return
         for child in element.children:

@@ -31,6 +31,7 @@ _DEVICE = because(
 )
 _WORDS = because(_TEXT, "verbose bullet description author license meta comment")
 _LOOK = because(_DRAWN, "material texture laserRetro laser_retro cast_shadows transparency")
+_COMMON = _SIMULATION | _DEVICE | _WORDS | _LOOK
 
 _VECTOR = Place(attributes=attributes("xyz rpy quat_xyzw"))
 _GEOMETRY = Place(
@@ -49,10 +50,7 @@ _GEOMETRY = Place(
 SHAPE = Place(
     elements(
         "origin geometry",
-        _SIMULATION,
-        _DEVICE,
-        _WORDS,
-        _LOOK,
+        _COMMON,
         because(_FORCES, "contact contact_coefficients limits drake:proximity_properties"),
         because(_DRAWN, "drake:accepting_renderer drake:perception_properties"),
     ),
@@ -67,10 +65,7 @@ SHAPE = Place(
 LINK = Place(
     elements(
         "collision visual",
-        _SIMULATION,
-        _DEVICE,
-        _WORDS,
-        _LOOK,
+        _COMMON,
         because(_FORCES, "inertial contact limits"),
     ),
     attributes(
@@ -119,10 +114,7 @@ JOINT = Place(
 _GAZEBO = Place(
     elements(
         "collision",
-        _SIMULATION,
-        _DEVICE,
-        _WORDS,
-        _LOOK,
+        _COMMON,
         because(_FORCES, "inertial contact"),
         because("what is drawn for a reference", "visual"),
     ),

@@ -21,7 +21,7 @@ from satcheck.report.report import OVERLAPS, Finding
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import RandomPoses, posed
-from satcheck.scene.robot.pose_batches import pose_batches
+from satcheck.scene.robot.postures import pose_batches
 from tests.scene.robot.robots import SAMPLES, joint, link, robot_of
 
 QUICK = Settings(depth=False)
@@ -135,7 +135,7 @@ def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int
     poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
     seen: Counter[tuple[int, str]] = Counter()
     for batch in pose_batches(scene, poses, 10):
-        codes = pairs.sift(batch.matrices(scene))
+        codes = pairs.sift(batch.matrices)
         for row in range(batch.count):
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
@@ -187,14 +187,14 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     bodies = place(scene, settings)
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
     (batch,) = pose_batches(scene, [pose], 1)
-    assert pairs.sift(batch.matrices(scene)).tolist() == [[OPEN]]
+    assert pairs.sift(batch.matrices).tolist() == [[OPEN]]
 
 
 def test_matrices_have_the_bits_of_single_poses() -> None:
     scene = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
     poses = RandomPoses([robot.robot for robot in scene.robots], 30, 1)
     (batch,) = pose_batches(scene, poses, 30)
-    matrices = batch.matrices(scene)
+    matrices = batch.matrices
     for row, pose in enumerate(poses):
         bodies = posed(scene, pose).bodies
         expected = [body.transform or IDENTITY for body in bodies]

@@ -10,9 +10,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene import Issue, Refused, load_scene
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import Robot
-from satcheck.scene.robot.kinematics import link_poses
-from satcheck.scene.robot.poses import settle
-from tests.scene.robot.robots import read_robot
+from tests.scene.robot.robots import link_transforms, read_robot
 
 Point = tuple[float, float, float]
 BOX = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
@@ -86,7 +84,7 @@ def refusal(folder: Path, text: str) -> tuple[str, str]:
 def poses(robot: Robot, pose: dict[str, float] | None = None) -> dict[str, Transform]:
     """Of the links, with these values of joints."""
     values = {name: (value,) for name, value in (pose or {}).items()}
-    return link_poses(robot, settle([robot], values).joints)
+    return link_transforms(robot, values)
 
 
 def origins(robot: Robot, pose: dict[str, float] | None = None) -> dict[str, Point]:

@@ -6,13 +6,24 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.core.transform import Transform
 from satcheck.scene import Issue, Refused
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.read_options import GeometryKind
-from satcheck.scene.robot import Robot
+from satcheck.scene.robot import Pose, Robot, settle
+from satcheck.scene.robot.kinematics import link_poses
+from satcheck.scene.robot.poses import values_of
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+
+
+def link_transforms(robot: Robot, pose: Pose) -> dict[str, Transform]:
+    """The poses of the links of a robot in a pose."""
+    values = {name: values_of(own) for name, own in settle([robot], pose).joints.items()}
+    return {
+        link: (*own.ravel(), 0.0, 0.0, 0.0, 1.0) for link, own in link_poses(robot, values).items()
+    }
 
 
 def link(name: str, inside: str = BOX) -> str:

@@ -6,10 +6,12 @@ import math
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Refused, Scene, load_scene
 from satcheck.scene.robot import RandomPoses, pose_of_states, posed
+from satcheck.scene.robot.model import State
 from tests.scene.files import obj
 from tests.scene.robot.robots import BOX, SAMPLES, joint, link, robot_of
 
@@ -216,3 +218,16 @@ def test_without_limits_a_joint_that_slides_stays_and_one_that_turns_is_sampled(
     assert min(turns) < -1.0
     assert max(turns) > 1.0
     assert all(-math.pi <= turn <= math.pi for turn in turns)
+
+
+def test_a_state_of_a_file_without_lines_does_not_suit_two_robots(tmp_path: Path) -> None:
+    """Keyframes of MJCF have no lines."""
+    paths = [tmp_path / "a.urdf", tmp_path / "b.urdf"]
+    for path in paths:
+        path.write_text(robot_of(link("a"), link("b"), joint("j", "a", "b", "continuous")))
+    scene = load_scene(paths)
+    first, second = scene.robots
+    key = State("", "key", {"j": (1.0,)}, "m.xml", {})
+    first = replace(first, robot=replace(first.robot, states=(key,)))
+    with pytest.raises(SatcheckError, match="state 'key': joint 'j': robots r and r have it"):
+        pose_of_states(replace(scene, robots=(first, second)), ["key"])

@@ -9,7 +9,7 @@ import pytest
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.robot import Pose, Posture, Robot, read_poses, settle
 from satcheck.scene.robot.model import State
-from satcheck.scene.robot.poses import state_named
+from satcheck.scene.robot.postures import state_named
 from tests.scene.robot.robots import SAMPLES, joint, link, read, read_robot, robot_of
 
 ARM, _ = read_robot(SAMPLES / "arm.urdf", "arm.urdf")

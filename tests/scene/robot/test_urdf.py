@@ -37,8 +37,7 @@ def test_the_sample() -> None:
         "elbow": "revolute",
         "grip": "prismatic",
     }
-    right = robot.joint("grip_right")
-    assert right is not None
+    (right,) = (j for j in robot.joints if j.name == "grip_right")
     assert right.mimic == Mimic("grip", -1.0, 0.0)
     assert right.limits == Limits(-0.1875, 0.0)
     assert [one.name for one in robot.links["fore"].collisions] == ["beam", "palm"]
