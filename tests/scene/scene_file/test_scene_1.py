@@ -226,7 +226,7 @@ WRONG = {
     "null": (
         lambda document: document["bodies"][1].update(euler=None),
         "bodies[1].euler",
-        "a list expected, not null",
+        "null is no value",
         "bad-scene",
     ),
     "$schema": (changed(**{"$schema": 3}), "'$schema'", "a text", "bad-scene"),
