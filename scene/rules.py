@@ -25,6 +25,8 @@ LENGTHS = ("max_depth", "max_thickness", "clearance", "tolerance")
 # The keys that have an effect. `reason` and `where` only explain a rule.
 KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
 
+PLACE = ("where", "file", "line")  # of a rule: these are no keys of a file
+
 GROUP = "group:"
 # What `Selector.exactly` writes: each special character in brackets of its own.
 # Compiled at their first use: most scenes have no rules.
@@ -43,13 +45,6 @@ class Selectable(Protocol):
 
     @property
     def groups(self) -> Collection[str]: ...
-
-
-class HasSeverity(Protocol):
-    """A rule of pairs or of bodies."""
-
-    @property
-    def severity(self) -> Severity | None: ...
 
 
 B = TypeVar("B", bound=Selectable)
@@ -139,7 +134,7 @@ Selected = Annotated[Selector, Meta(extra_json_schema=SELECTED)]
 Length = Annotated[NotNegative, Meta(extra_json_schema={"pattern": LENGTH_PATTERN})]
 
 
-class RuleKeys(Table, frozen=True):
+class RuleKeys(Table, frozen=True, kw_only=True):
     """What is asked of the pairs with one body in a and the other in b. A selector is a glob of
     ids, or of groups after "group:"; an id or group that is exactly the text comes first.
 
@@ -166,7 +161,7 @@ class RuleKeys(Table, frozen=True):
     reason: Text = ""
 
 
-class Rule(RuleKeys, frozen=True):
+class Rule(RuleKeys, frozen=True, kw_only=True):
     """Limits for the pairs with one body in each selector, in units of the scene.
 
     None: the rule does not set the key. `allowed` False revokes an earlier permission. `clearance`
@@ -229,7 +224,7 @@ class Members:
         return self._chosen[text]
 
 
-def require_effect(rule: HasSeverity, keys: Sequence[str]) -> None:
+def require_effect(rule: Any, keys: Sequence[str]) -> None:
     """Raises SatcheckError `bad-rule` if the severity is unknown, or if none of the keys, which
     are those with an effect, is set."""
     if rule.severity not in (None, *SEVERITIES):

@@ -42,7 +42,7 @@ _DOWN_Y: Vector = (0.0, -1.0, 0.0)
 FRICTION = 0.5  # an assumption, for scenes that state none; reports show it
 
 
-class BodyRuleKeys(Table, frozen=True):
+class BodyRuleKeys(Table, frozen=True, kw_only=True):
     """What is asked of single bodies, and stated about them.
 
     supported: Contacts within the tolerance must be able to carry them.
@@ -68,7 +68,7 @@ class BodyRuleKeys(Table, frozen=True):
     reason: Text = ""
 
 
-class BodyRule(BodyRuleKeys, frozen=True):
+class BodyRule(BodyRuleKeys, frozen=True, kw_only=True):
     """Questions about single bodies, and facts for their answers. None: the rule does not set the
     key.
 
@@ -117,7 +117,7 @@ class BodyRule(BodyRuleKeys, frozen=True):
         return self.where or self.bodies.text
 
 
-class StaticsTerms(Table, frozen=True):
+class StaticsTerms(Table, frozen=True, kw_only=True):
     """What rules about the support of bodies assume.
 
     gravity: The direction in which things fall; its length does not count.
@@ -199,18 +199,11 @@ def up_axes(scene: Scene) -> set[str | None]:
     return {None if reader is None else reader.up for reader in readers}
 
 
-def terms_values(scene: Scene) -> dict[str, Any]:
-    """The terms as a scene file states them. Gravity is stated in any case: in a scene file, the
-    format of a mesh does not say where down is."""
+def stated_terms(scene: Scene) -> StaticsTerms:
+    """The terms as a scene file states them, with gravity in any case: in a scene file, the format
+    of a mesh does not say where down is."""
     stated = scene.statics or StaticsTerms()
-    gravity = stated.gravity or down_of(scene)
-    return {"gravity": list(gravity), **stated_keys(stated, ("friction", "tolerance"))}
-
-
-def body_rule_values(rule: BodyRule) -> dict[str, Any]:
-    """The rule as a scene file states it."""
-    entry = {"bodies": rule.bodies.text} | stated_keys(rule, KEYS)
-    return entry | {"reason": rule.reason} if rule.reason else entry
+    return replace(stated, gravity=stated.gravity or down_of(scene))
 
 
 def _refused(message: str) -> SatcheckError:

@@ -32,7 +32,7 @@ class Wrong(ValueError):
         self.code = code
 
 
-class Table(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Table(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
     """A table of a scene file. A key that is left out is None; null is no value in a file.
 
     one_of: exactly one of these keys is required. excludes: keys that may not stand beside a key.

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from msgspec import Meta, field
 
@@ -23,10 +23,7 @@ from satcheck.scene.rules import SELECTED, Length, Selector
 from satcheck.scene.statics import StaticsTerms
 from satcheck.scene.table import Direction, Number, Positive, Table, Text, Texts, Wrong
 
-SCENE_1 = "satcheck.scene/1"
-_OF_RULES = "schema $schema name description units rules statics accept"
-RULES_FILE_KEYS = tuple(_OF_RULES.split())  # of a file of rules
-
+SCENE_1: Final = "satcheck.scene/1"
 # A matrix counts as singular if its determinant is smaller than this share of the product of its
 # row lengths. Such a determinant may come from the rounding of the entries alone.
 _SINGULAR = 2.0**-40
@@ -271,7 +268,20 @@ class Reading(Table, frozen=True):
     angular_tolerance: Positive | None = None
 
 
-class Scene(Table, frozen=True):
+class RulesFile(Table, frozen=True, kw_only=True):
+    """A file of rules, without bodies."""
+
+    rules: tuple[AnyRule, ...]
+    schema: Literal["satcheck.scene/1"] | None = None
+    editor: Text | None = field(default=None, name="$schema")
+    name: Text | None = None
+    description: Text | None = None
+    units: Text | None = None
+    statics: StaticsTerms | None = None
+    accept: Texts = ()
+
+
+class Scene(RulesFile, frozen=True, kw_only=True):
     """A scene to check for collisions, written in TOML or JSON. World frame, right-handed; lengths
     in the units of the scene. Beyond this schema: ids are unique, the edges of an outline do not
     meet, a text as a length needs declared units that are known, a body is moved once and not when
@@ -287,16 +297,9 @@ class Scene(Table, frozen=True):
     accept: Issues that may stay, each as CODE or CODE:NAME, as with --accept.
     """
 
-    schema: Literal["satcheck.scene/1"]
     bodies: tuple[Body, ...]
-    editor: Text | None = field(default=None, name="$schema")
-    name: Text | None = None
-    description: Text | None = None
-    units: Text | None = None
     rules: tuple[AnyRule, ...] = ()
-    statics: StaticsTerms | None = None
     check_static: bool = False
     ignore_within_groups: Texts = ()
-    accept: Texts = ()
     motion: tuple[Motion, ...] = ()
     reading: Reading | None = None

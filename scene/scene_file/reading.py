@@ -25,7 +25,7 @@ from satcheck.scene.motion import Motion
 from satcheck.scene.paths import NOTHING_ELSE, Permitted, followed, is_file
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
-from satcheck.scene.scene_file.document import RULES_FILE_KEYS, SCENE_1
+from satcheck.scene.scene_file.document import SCENE_1
 from satcheck.scene.scene_file.form import converted, shown
 from satcheck.scene.scene_file.joined import SceneFile
 from satcheck.scene.scene_file.text import SceneText
@@ -35,6 +35,7 @@ from satcheck.scene.units import MICROMETRES, is_unit, unit_of
 from satcheck.scene.words import meant
 
 SIMPLE = "satcheck-scene-1"
+_OF_RULES = {*document.RulesFile.__struct_encode_fields__}
 # The tables, and lists of tables, in a scene.
 _INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
@@ -47,16 +48,16 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     """
     text = SceneText(path, location)
     values, schema = text.document, _schema_of(text)
-    is_ours = schema in (None, SCENE_1) and isinstance(values, dict)
-    if is_ours and "rules" in values and values.keys() <= {*RULES_FILE_KEYS}:
-        return _read_rules(text)
-    if schema == SCENE_1:
-        return _read(text, permitted)
     if schema == SIMPLE and not text.is_toml:
         from satcheck.scene.scene_file.simple import read_scene
 
         return read_scene(text)
-    raise _not_a_scene(path, schema)
+    is_ours = isinstance(values, dict) and schema in (None, SCENE_1)
+    if is_ours and "rules" in values and values.keys() <= _OF_RULES:
+        return _read(text, permitted, document.RulesFile)
+    if schema != SCENE_1:
+        raise _not_a_scene(path, schema)
+    return _read(text, permitted, document.Scene)
 
 
 def read_rules_file(path: str, location: Path) -> SceneFile:
@@ -66,7 +67,9 @@ def read_rules_file(path: str, location: Path) -> SceneFile:
     schema = _schema_of(text)
     if not isinstance(text.document, dict) or schema not in (None, SCENE_1):
         raise _not_a_scene(path, schema)
-    return _read_rules(text)
+    if text.document.pop("bodies", None):
+        text.keep(Wrong("a file of rules has no bodies", "bodies"))
+    return _read(text, NOTHING_ELSE, document.RulesFile)
 
 
 def _schema_of(text: SceneText) -> object:
@@ -79,22 +82,7 @@ def _not_a_scene(path: str, schema: object) -> Refused:
     return Refused("bad-scene", message, file=path)
 
 
-def _read_rules(text: SceneText) -> SceneFile:
-    """A file of rules: a scene without bodies, which may leave out `schema` and `bodies`."""
-    values = text.document
-    for key in values.keys() - {*RULES_FILE_KEYS, "bodies"}:
-        hint = meant(key, set(RULES_FILE_KEYS) - values.keys())
-        text.keep(Wrong(f"unknown key{hint}", key))
-    if values.get("bodies"):
-        text.keep(Wrong("a file of rules has no bodies", "bodies"))
-    if "rules" not in values:
-        text.keep(Wrong('"rules" is missing'))
-    stated = {key: values[key] for key in ("units", "rules", "statics", "accept") if key in values}
-    text.document = stated | {"schema": SCENE_1, "bodies": []}
-    return _read(text, NOTHING_ELSE)
-
-
-def _read(text: SceneText, permitted: Permitted) -> SceneFile:
+def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile]) -> SceneFile:
     """The inner tables are read one by one, so that an error in one does not hide those of others.
     Raises Refused with all errors."""
     if nulls := list(text.nulls()):
@@ -103,10 +91,10 @@ def _read(text: SceneText, permitted: Permitted) -> SceneFile:
         text.raise_any()
     values, path = text.document, text.path
     units = values.get("units") if isinstance(values.get("units"), str) else None
-    inner = {key for key, kind in _INNER.items() if isinstance(values.get(key), kind)}
+    inner = {key for key, form in _INNER.items() if isinstance(values.get(key), form)}
     outer = {key: _INNER[key]() if key in inner else value for key, value in values.items()}
     with text.at():
-        top = converted(outer, document.Scene)
+        top = converted(outer, kind)
     places = MeshPlaces(path, text.location, permitted)
     ids: set[str] = set()
     moved: dict[str, int] = {}
@@ -137,10 +125,13 @@ def _read(text: SceneText, permitted: Permitted) -> SceneFile:
         if "reading" in inner:
             reading = converted(values["reading"], document.Reading)
     text.raise_any()
+    scene = top if isinstance(top, document.Scene) else None
     return scene_file(
         text,
         top,
         bodies,
+        ignored=frozenset(scene.ignore_within_groups if scene else ()),
+        check_static=scene is not None and scene.check_static,
         rules=tuple(rule for rule in rules if isinstance(rule, Rule)),
         body_rules=tuple(rule for rule in rules if isinstance(rule, BodyRule)),
         statics=terms,
@@ -151,11 +142,15 @@ def _read(text: SceneText, permitted: Permitted) -> SceneFile:
 
 
 def scene_file(
-    text: SceneText, top: Any, bodies: Sequence[Item], issues: Sequence[Issue] = (), **more: Any
+    text: SceneText,
+    top: Any,
+    bodies: Sequence[Item],
+    ignored: frozenset[str],
+    issues: Sequence[Issue] = (),
+    **more: Any,
 ) -> SceneFile:
     """Return what a file of either form states. top: its table, with the keys that both forms have.
     issues, more: of its form."""
-    ignored = frozenset(top.ignore_within_groups)
     return SceneFile(
         path=text.path,
         name=top.name or text.location.stem,
@@ -163,7 +158,6 @@ def scene_file(
         units=top.units,
         items=tuple(bodies),
         ignore_within_groups=ignored,
-        check_static=top.check_static,
         issues=(*issues, *_useless(top.units, ignored, bodies, text.path)),
         **more,
     )

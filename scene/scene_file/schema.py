@@ -9,7 +9,7 @@ from typing import Any
 from msgspec.json import schema_components
 
 from satcheck.scene.rules import KEYS, RuleKeys
-from satcheck.scene.scene_file.document import RULES_FILE_KEYS, Scene
+from satcheck.scene.scene_file.document import RulesFile, Scene
 from satcheck.scene.statics import KEYS as BODY_KEYS
 from satcheck.scene.statics import BodyRuleKeys
 from satcheck.scene.table import LARGEST, Table
@@ -35,7 +35,8 @@ def schema() -> dict[str, Any]:
     }
     scene = _plain(tables.pop("Scene"))
     del scene["required"]
-    rules_file = {"required": ["rules"], "propertyNames": {"enum": list(RULES_FILE_KEYS)}}
+    of_rules = RulesFile.__struct_encode_fields__
+    rules_file = {"required": ["rules"], "propertyNames": {"enum": list(of_rules)}}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:satcheck:scene:1",

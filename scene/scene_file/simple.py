@@ -49,10 +49,6 @@ class Scene(Table, frozen=True, forbid_unknown_fields=False):
     ignore_within_groups: Texts = ()
     allowed_pairs: tuple[Any, ...] = ()
 
-    @property
-    def check_static(self) -> bool:
-        return True
-
 
 def read_scene(text: SceneText) -> SceneFile:
     """Raises Refused with all errors of the file."""
@@ -105,4 +101,12 @@ def read_scene(text: SceneText) -> SceneFile:
         for key in values
         if key not in known | _INFORMATION
     ]
-    return scene_file(text, top, bodies, [*strange, *issues], rules=tuple(filter(None, rules)))
+    return scene_file(
+        text,
+        top,
+        bodies,
+        ignored=frozenset(top.ignore_within_groups),
+        check_static=True,
+        issues=[*strange, *issues],
+        rules=tuple(filter(None, rules)),
+    )
