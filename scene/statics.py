@@ -26,7 +26,7 @@ from satcheck.scene.rules import (
     require_effect,
     stated_keys,
 )
-from satcheck.scene.table import Direction, NotNegative, Positive, Table, Text
+from satcheck.scene.table import Direction, NotNegative, Positive, Table, Text, Wrong
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Scene
@@ -130,6 +130,10 @@ class StaticsTerms(Table, frozen=True, kw_only=True):
     gravity: Direction | None = None
     friction: NotNegative | None = None
     tolerance: Length | None = None
+
+    def __post_init__(self) -> None:
+        if self.gravity is not None and not any(self.gravity):
+            raise Wrong("a direction other than 0 expected", "gravity")
 
     def scaled(self, scale: float) -> StaticsTerms:
         """The same in another unit of length."""

@@ -119,8 +119,6 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     with text.at("statics"):
         if "statics" in inner:
             terms = converted(values["statics"], StaticsTerms, units)
-            if terms.gravity and not any(terms.gravity):
-                raise Wrong("a direction other than 0 expected", "gravity")
     with text.at("reading"):
         if "reading" in inner:
             reading = converted(values["reading"], document.Reading)
