@@ -104,6 +104,8 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
     if is_number and isinstance(value, float | int) and not -LARGEST <= value <= LARGEST:
         message = f"a finite number expected, not {shown(value)}"
         return Wrong(message, *keys, code="non-finite")
+    if keys[-1:] and keys[-1] in getattr(kind, "lengths", ()):
+        what = what.replace("| null", "| str")
     choices = _CHOICES.get(name, ())
     hint = meant(value, choices) if isinstance(value, str) else ""
     return Wrong(f"{_wanted(what, choices)} expected, not {shown(value)}{hint}", *keys)

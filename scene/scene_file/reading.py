@@ -8,7 +8,8 @@ is an error, because it may be important.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,8 @@ from satcheck.scene.statics import BodyRule, BodyRuleKeys, StaticsTerms
 from satcheck.scene.table import Wrong
 from satcheck.scene.units import MICROMETRES, is_unit, unit_of
 from satcheck.scene.words import meant
+
+Places = Callable[[str, str | None], FilePart]  # of the keys `mesh` and `part` of a body
 
 SIMPLE = "satcheck-scene-1"
 _OF_RULES = {*document.RulesFile.__struct_encode_fields__}
@@ -87,7 +90,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     Raises Refused with all errors."""
     if nulls := list(text.nulls()):
         for keys in nulls:
-            text.keep(Wrong("null is no value: leave the key out", *keys))
+            text.keep(Wrong("null is no value: leave it out", *keys))
         text.raise_any()
     values, path = text.document, text.path
     units = values.get("units") if isinstance(values.get("units"), str) else None
@@ -95,7 +98,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     outer = {key: _INNER[key]() if key in inner else value for key, value in values.items()}
     with text.at():
         top = converted(outer, kind)
-    places = MeshPlaces(path, text.location, permitted)
+    places = mesh_places(path, text.location, permitted)
     ids: set[str] = set()
     moved: dict[str, int] = {}
     count = len(values["rules"]) if "rules" in inner else 0
@@ -174,7 +177,7 @@ def _useless(
         yield issue("unknown-group", message, file=path)
 
 
-def _body(body: document.Body, entry: Entry, places: MeshPlaces, ids: set[str]) -> Item:
+def _body(body: document.Body, entry: Entry, places: Places, ids: set[str]) -> Item:
     """ids: of the bodies before; this call adds to them."""
     add_id(body.id, ids)
     units = None if body.units is None else unit_of(body.units)
@@ -183,7 +186,7 @@ def _body(body: document.Body, entry: Entry, places: MeshPlaces, ids: set[str]) 
     shape = HalfSpace() if isinstance(body.shape, document.HalfSpace) else body.shape
     return Item(
         id=body.id,
-        shape=shape or places.find(body.mesh or "", body.part),
+        shape=shape or places(body.mesh or "", body.part),
         transform=body.placement(),
         groups=body.groups,
         static=body.static,
@@ -201,46 +204,40 @@ def add_id(id_: str, ids: set[str]) -> None:
     ids.add(id_)
 
 
-class MeshPlaces:
-    """Finds the mesh files of one scene file.
+def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
+    """Return what finds the mesh files of one scene file, and raises Wrong for one that is missing
+    or may not be opened. Each is checked once, even if many bodies use it.
 
-    Each is checked once, even if many bodies use it. path: of the scene file, for messages;
-    location: on disk. permitted: where meshes may lie beside its folder.
+    path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
+    its folder.
     """
+    folder = location.parent
+    own = followed(folder)
 
-    def __init__(self, path: str, location: Path, permitted: Permitted) -> None:
-        self._above = Path(path).parent
-        self._folder = location.parent
-        self._own = followed(self._folder)
-        self._permitted = permitted
-        self._known: dict[str, FilePart] = {}
-
-    def find(self, mesh: str, part: str | None = None) -> FilePart:
-        """The mesh file that a body names. Raises Wrong if it is missing or may not be opened."""
-        if mesh not in self._known:
-            self._known[mesh] = self._judged(mesh)
-        found = self._known[mesh]
-        return found if part is None else replace(found, part=part)
-
-    def _judged(self, mesh: str) -> FilePart:
+    @cache
+    def found(mesh: str, part: str | None) -> FilePart:
+        if part is not None:
+            return replace(found(mesh, None), part=part)
         if "\0" in mesh:
             raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
-        location = self._folder / mesh
-        if mesh_reader(location.suffix) is None:
+        place = folder / mesh
+        if mesh_reader(place.suffix) is None:
             known = ", ".join(sorted(filter(mesh_reader, readers())))
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
-        note(location)
-        if not self._permitted.has(location, self._own):
-            where = self._permitted.beyond("of the scene's folder")
+        note(place)
+        if not permitted.has(place, own):
+            where = permitted.beyond("of the scene's folder")
             message = (
                 f"mesh file {shown(mesh)} lies {where}: refused (allow it with --allow-outside)"
             )
             raise Wrong(message, "mesh", code="outside-path")
-        if not is_file(location):
+        if not is_file(place):
             raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
-        path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
-        return FilePart(path, str(location))
+        name = os.path.normpath(Path(path).parent / mesh).replace(os.sep, "/")
+        return FilePart(name, str(place))
+
+    return found
 
 
 def _rule(table: Any, units: str | None, file: str, line: int) -> Rule | BodyRule:

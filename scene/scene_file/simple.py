@@ -22,7 +22,7 @@ from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.document import Matrix, affine
 from satcheck.scene.scene_file.form import converted
 from satcheck.scene.scene_file.joined import SceneFile
-from satcheck.scene.scene_file.reading import MeshPlaces, add_id, scene_file
+from satcheck.scene.scene_file.reading import add_id, mesh_places, scene_file
 from satcheck.scene.scene_file.text import SceneText
 from satcheck.scene.table import Table, Text, Texts, Wrong
 from satcheck.scene.words import meant
@@ -53,7 +53,7 @@ class Scene(Table, frozen=True, forbid_unknown_fields=False):
 def read_scene(text: SceneText) -> SceneFile:
     """Raises Refused with all errors of the file."""
     values, known = text.document, frozenset(Scene.__struct_fields__)
-    places = MeshPlaces(text.path, text.location, ANYWHERE)
+    places = mesh_places(text.path, text.location, ANYWHERE)
     ids: set[str] = set()
     issues: list[Issue] = []
 
@@ -62,7 +62,7 @@ def read_scene(text: SceneText) -> SceneFile:
         add_id(own.id, ids)
         return Item(
             id=own.id,
-            shape=places.find(own.mesh),
+            shape=places(own.mesh, None),
             transform=None if own.transform is None else affine(own.transform, "transform"),
             groups=() if own.group is None else (own.group,),
             static=own.static,
