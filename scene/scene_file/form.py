@@ -136,6 +136,8 @@ def shown(value: Any) -> str:
         return repr(value if len(value) <= _MOST_SHOWN else value[:_MOST_SHOWN] + "...")
     if isinstance(value, bool):
         return "true" if value else "false"
+    if value is None:
+        return "null"
     if isinstance(value, int | float):
         return "a number as large as that" if abs(value) >= 1e300 else f"{value:.6g}"
     if isinstance(value, list):
