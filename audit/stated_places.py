@@ -37,8 +37,7 @@ def with_stated_places(report: Report, scene: Scene) -> Report:
 
 def _lines(path: str, numbers: Iterable[int]) -> dict[int, int]:
     """The lines of the bodies with these numbers in a scene file."""
-    from satcheck.scene.scene_file.lines import lines_of
-    from satcheck.scene.scene_file.text import is_toml, read_text
+    from satcheck.scene.scene_file.text import is_toml, lines_of, read_text
 
     keys = {number: ("bodies", number) for number in numbers}
     try:

@@ -63,7 +63,7 @@ class ConfigFile(Struct, frozen=True):
 
     def where(self, key: str) -> str:
         """`satcheck.toml:3`."""
-        from satcheck.scene.scene_file.lines import innermost, lines_of
+        from satcheck.scene.scene_file.text import innermost, lines_of
 
         keys = (*self.keys, key)
         return f"{self.path}:{innermost(lines_of(self.text, [keys], toml=True), keys)}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_reader, robots_of
 from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
@@ -172,15 +172,13 @@ def _is_asset(path: Path) -> bool:
 
 def _lacks_schema(path: Path) -> bool:
     """Return whether a file has bodies as a scene does, whose reader then asks for the schema."""
-    content = content_of(path) or b""
-    if b"bodies" not in content:
+    if b"bodies" not in (content_of(path) or b""):
         return False
-    import tomllib
+    from satcheck.scene.scene_file.text import SceneText
 
     try:
-        text = content.decode("utf-8-sig")
-        tree = tomllib.loads(text) if path.suffix.lower() == ".toml" else json.loads(text)
-    except (ValueError, RecursionError):
+        tree = SceneText(str(path), path).document
+    except Refused:
         return False
     bodies = tree.get("bodies") if isinstance(tree, dict) else None
     return isinstance(bodies, list) and any(

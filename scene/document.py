@@ -1,7 +1,7 @@
 """What an input states, whatever its format: bodies, and what is said about them.
 
 Every reader leads to a `Document`. A robot is a document with joints; a scene file is one whose
-items name other files (`format.entries.SceneFile`).
+items name other files (`scene_file.joined.SceneFile`).
 """
 
 from __future__ import annotations

@@ -37,7 +37,7 @@ _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTI
 if TYPE_CHECKING:
     from satcheck.scene.mesh_files import KnownMeshes
     from satcheck.scene.robot import Srdf
-    from satcheck.scene.scene_file.entries import SceneFile
+    from satcheck.scene.scene_file.joined import SceneFile
 
 
 class LoadOptions(Struct, frozen=True, kw_only=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -19,16 +19,18 @@ from satcheck.scene.common_units import scaled_mesh, scaled_world
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.motion import Motion, PosePath, Rotation
+from satcheck.scene.motion import Motion, PosePath, Rotation, Waypoint
 from satcheck.scene.paths import followed, is_file
-from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
+from satcheck.scene.rules import PLACE, Rule, Selector
+from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
 from satcheck.scene.scene_file.text import is_toml
+from satcheck.scene.statics import BodyRule, stated_terms
 from satcheck.scene.units import ratio, stated_unit, unit_in
 
 Vector = tuple[float, float, float]
-Entries = list[dict[str, Any]]
 _ORIGIN = (0.0, 0.0, 0.0)
+_LISTS = ("bodies", "rules", "motion")  # whose tables have lines, or headers, of their own
 
 
 def new_scene_file(
@@ -45,36 +47,36 @@ def new_scene_file(
     entry if its file may become readable, else it is left out (`left_out_of`).
     """
     unplaced = _without_placements(scene, files)
-    entries: Entries = []
+    entries = []
     for body in scene.in_order():
         if isinstance(body, Body):
             by = translations.get(body.id, _ORIGIN)
             entries.append(_entry(output, body, unplaced[body.id], by))
         elif _has_file(body):
-            entries.append(_named(output, body.id, body.file, body.path) | _common(body))
-    head: dict[str, Any] = {"schema": SCENE_1}
-    if scene.units:
-        head["units"] = scene.units
-    if reading := scene.reading.changed(options_of({body.file.format for body in scene.bodies})):
-        head["reading"] = to_builtins(reading)
-    if scene.check_static and any(body.static for body in scene.in_order()):
-        head["check_static"] = True
-    if scene.ignore_within_groups:
-        head["ignore_within_groups"] = sorted(scene.ignore_within_groups)
-    if accepted := [each.text for each in scene.accept if each.about is None]:
-        head["accept"] = accepted
-    rules = list(map(_rule, scene.rules))
-    if scene.body_rules or scene.statics:
-        from satcheck.scene.statics import body_rule_values, terms_values
-
-        head["statics"] = terms_values(scene)
-        rules += map(body_rule_values, scene.body_rules)
-    lists = {
-        "bodies": entries,
-        "rules": rules,
-        "motion": list(map(_motion, scene.motions)),
-    }
-    return (_toml if is_toml(output) else _json)(head, lists)
+            entries.append(
+                document.Body(
+                    id=body.id,
+                    mesh=path_from(output, Path(body.file)),
+                    part=body.path,
+                    groups=body.groups,
+                    static=body.static,
+                )
+            )
+    of_formats = options_of({body.file.format for body in scene.bodies})
+    reading = document.Reading(**scene.reading.changed(of_formats))
+    stated = document.Scene(
+        schema=SCENE_1,
+        units=scene.units or None,
+        reading=reading if reading.stated() else None,
+        check_static=scene.check_static and any(body.static for body in scene.in_order()),
+        ignore_within_groups=tuple(sorted(scene.ignore_within_groups)),
+        accept=tuple(each.text for each in scene.accept if each.about is None),
+        statics=stated_terms(scene) if scene.body_rules or scene.statics else None,
+        bodies=tuple(entries),
+        rules=(*map(_rule, scene.rules), *map(_rule, scene.body_rules)),
+        motion=tuple(map(_motion, scene.motions)),
+    )
+    return (_toml if is_toml(output) else _json)(to_builtins(stated, enc_hook=_plain))
 
 
 def left_out_of(scene: Scene) -> list[str]:
@@ -128,38 +130,23 @@ def _stated_units(body: Body) -> str | None:
     return None
 
 
-def _entry(output: Path, body: Body, unplaced: Transform, by: Vector) -> dict[str, Any]:
+def _entry(output: Path, body: Body, unplaced: Transform, by: Vector) -> document.Body:
     """unplaced: as of `_without_placements`. by: its translation."""
-    if body.shape is None:
-        entry = _named(output, body.id, body.file.path, body.path)
-    else:
-        entry = {"id": body.id, "shape": to_builtins(body.shape)}
-        if isinstance(body.shape, HalfSpace):
-            del entry["shape"]["reach"]  # of its block, which follows from the scene
-    if units := _stated_units(body):
-        entry["units"] = units
-    placement = body.transform or IDENTITY
-    entry |= _placement(_after(placement, unplaced), by)
-    entry |= _common(body)
-    if body.pinned:
-        entry["pinned"] = True
-    if body.surface_tolerance is not None:
-        entry["surface_tolerance"] = body.surface_tolerance
-    return entry
-
-
-def _named(output: Path, id_: str, file: str, part: str | None) -> dict[str, Any]:
-    entry = {"id": id_, "mesh": path_from(output, Path(file))}
-    return entry if part is None else entry | {"part": part}
-
-
-def _common(body: Body | Unreadable) -> dict[str, Any]:
-    entry: dict[str, Any] = {}
-    if body.groups:
-        entry["groups"] = list(body.groups)
-    if body.static:
-        entry["static"] = True
-    return entry
+    is_mesh = body.shape is None
+    # The block of a half space follows from the scene.
+    shape = document.HalfSpace() if isinstance(body.shape, HalfSpace) else body.shape
+    return document.Body(
+        id=body.id,
+        mesh=path_from(output, Path(body.file.path)) if is_mesh else None,
+        part=body.path if is_mesh else None,
+        shape=shape,
+        units=_stated_units(body),
+        **_placement(_after(body.transform or IDENTITY, unplaced), by),
+        groups=body.groups,
+        static=body.static,
+        pinned=body.pinned,
+        surface_tolerance=body.surface_tolerance,
+    )
 
 
 def _after(placement: Transform, first: Transform) -> Transform:
@@ -184,49 +171,55 @@ def _placement(transform: Transform, by: Vector) -> dict[str, Any]:
     return {"position": position} if any(position) else {}
 
 
-def _rule(rule: Rule) -> dict[str, Any]:
-    entry = {"a": rule.a.text, "b": rule.b.text} | stated_keys(rule, KEYS)
-    reason = rule.reason or (f"allowed by {rule.name}" if rule.allowed else "")
-    return entry | {"reason": reason} if reason else entry
+def _rule(rule: Rule | BodyRule) -> dict[str, Any]:
+    values = {key: value for key, value in rule.stated().items() if key not in PLACE}
+    if not rule.reason and values.get("allowed"):
+        values["reason"] = f"allowed by {rule.name}"
+    elif not rule.reason:
+        del values["reason"]
+    return values
 
 
-def _motion(motion: Motion) -> dict[str, Any]:
-    entry: dict[str, Any] = {"bodies": [Selector.exactly(body).text for body in motion.bodies]}
-    if motion.clear:
-        entry["clear"] = True
-    path = motion.path
-    if isinstance(path, PosePath):
-        points = [
-            {"time": p.time, "position": list(p.position), "quaternion": _w_first(p.orientation)}
-            for p in path.waypoints
-        ]
-        return entry | {"path": points}
-    if isinstance(path, Rotation):
-        turn = {"axis": list(path.axis), "point": list(path.point), "degrees": path.degrees}
-        return entry | {"rotation": turn}
-    return entry | {"translation": list(path.vector)}
+def _motion(motion: Motion) -> document.Motion:
+    way: dict[str, Any] = {}
+    match motion.path:
+        case PosePath(waypoints):
+            way["path"] = tuple(
+                document.Waypoint(time=p.time, position=p.position, quaternion=_w_first(p))
+                for p in waypoints
+            )
+        case Rotation(point, axis, degrees):
+            way["rotation"] = document.Rotation(axis=axis, point=point, degrees=degrees)
+        case path:
+            way["translation"] = path.vector
+    bodies = document.Choices(map(Selector.exactly, motion.bodies))
+    return document.Motion(bodies=bodies, clear=motion.clear, **way)
 
 
-def _w_first(quaternion: Sequence[float]) -> list[float]:
-    x, y, z, w = quaternion
-    return [w, x, y, z]
+def _w_first(pose: Waypoint) -> document.Row:
+    x, y, z, w = pose.orientation
+    return w, x, y, z
 
 
-def _json(head: Mapping[str, Any], lists: Mapping[str, Entries]) -> str:
-    lines = [
-        f"  {_value(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in head.items()
-    ]
-    for name, entries in lists.items():
-        if entries or name == "bodies":
-            rows = ",".join(f"\n    {json.dumps(entry, ensure_ascii=False)}" for entry in entries)
-            lines.append(f"  {_value(name)}: [{rows}\n  ]")
+def _plain(selectors: Any) -> str | list[str]:
+    return str(selectors) if isinstance(selectors, str) else list(selectors)
+
+
+def _json(scene: Mapping[str, Any]) -> str:
+    lines = []
+    for name, value in scene.items():
+        text = json.dumps(value, ensure_ascii=False)
+        if name in _LISTS:
+            rows = ",".join(f"\n    {json.dumps(entry, ensure_ascii=False)}" for entry in value)
+            text = f"[{rows}\n  ]"
+        lines.append(f"  {_value(name)}: {text}")
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _toml(head: Mapping[str, Any], lists: Mapping[str, Entries]) -> str:
-    tables = [_lines(head)]
-    for name, entries in lists.items():
-        tables += [f"[[{name}]]\n{_lines(entry)}" for entry in entries]
+def _toml(scene: Mapping[str, Any]) -> str:
+    tables = [_lines({key: value for key, value in scene.items() if key not in _LISTS})]
+    for name in _LISTS:
+        tables += [f"[[{name}]]\n{_lines(entry)}" for entry in scene.get(name, ())]
     return "\n".join(tables)
 
 
@@ -239,6 +232,6 @@ def _value(value: object) -> str:
     forbids."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{key} = {_value(inner)}" for key, inner in value.items()) + " }"
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

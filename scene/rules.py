@@ -9,19 +9,23 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterator, Sequence
-from typing import Any, Literal, Protocol, TypeVar, get_args
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, get_args
 
-from msgspec import Struct
+from msgspec import Meta
 from msgspec.structs import replace
 
 from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.table import NotNegative, Table, Text
+from satcheck.scene.units import LENGTH_PATTERN
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 LENGTHS = ("max_depth", "max_thickness", "clearance", "tolerance")
 # The keys that have an effect. `reason` and `where` only explain a rule.
 KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
+
+PLACE = ("where", "file", "line")  # of a rule: these are no keys of a file
 
 GROUP = "group:"
 # What `Selector.exactly` writes: each special character in brackets of its own.
@@ -43,17 +47,10 @@ class Selectable(Protocol):
     def groups(self) -> Collection[str]: ...
 
 
-class HasSeverity(Protocol):
-    """A rule of pairs or of bodies."""
-
-    @property
-    def severity(self) -> Severity | None: ...
-
-
 B = TypeVar("B", bound=Selectable)
 
 
-class Selector(Struct, frozen=True):
+class Selector(str):
     """Selects bodies by a glob of their ids, "arm/*", or of their groups, "group:links*".
 
     `*` matches any text, `?` one character, `[abc]` one of these, `[!abc]` any other; case counts.
@@ -62,11 +59,15 @@ class Selector(Struct, frozen=True):
     `bad-rule` for an empty glob.
     """
 
-    text: str
+    __slots__ = ()
 
-    def __post_init__(self) -> None:
+    def __init__(self, text: str) -> None:
         if not self.glob:
-            raise _refused(f"the selector {self.text!r} is empty: give a glob of ids or groups")
+            raise _refused(f"the selector {text!r} is empty: give a glob of ids or groups")
+
+    @property
+    def text(self) -> str:
+        return str(self)
 
     @classmethod
     def exactly(cls, body: str) -> Selector:
@@ -92,11 +93,11 @@ class Selector(Struct, frozen=True):
 
     @property
     def of_groups(self) -> bool:
-        return self.text.startswith(GROUP)
+        return self.startswith(GROUP)
 
     @property
     def glob(self) -> str:
-        return self.text.removeprefix(GROUP)
+        return self.removeprefix(GROUP)
 
     def choose(self, names: Collection[str]) -> Collection[str]:
         """The selected ones of these ids, or of these groups."""
@@ -127,35 +128,50 @@ class Selector(Struct, frozen=True):
         return [body for body in bodies if body.id in ids]
 
 
-class Rule(Struct, frozen=True, kw_only=True):
-    """Limits for the pairs with one body in each selector.
+# In a scene file: a glob, and a number in the units of the scene or a text with a unit, "2mm".
+SELECTED = {"type": "string", "minLength": 1, "not": {"const": GROUP}}
+Selected = Annotated[Selector, Meta(extra_json_schema=SELECTED)]
+Length = Annotated[NotNegative, Meta(extra_json_schema={"pattern": LENGTH_PATTERN})]
 
-    None: the rule does not set the key. Lengths and volumes are in units of the scene.
 
-    allowed: they may overlap, and nothing is computed; False revokes an earlier permission.
-    max_depth: an overlap up to this depth is within the limit; the depth is computed.
-    max_thickness: an overlap is within the limit if no ball in both bodies is thicker than this;
-    the thickness is computed.
-    max_volume: an overlap up to this common volume is within the limit; the volume is computed.
-    clearance: the required gap; overrides the global one; 0.0: none.
-    tolerance: half width of the touch band; overrides the global one.
-    severity: of findings about them; an undecided pair is at least a warning.
-    reason: a text. where: such as "file:line"; names the rule in a report.
-    file, line: its place, if known.
+class RuleKeys(Table, frozen=True, kw_only=True):
+    """What is asked of the pairs with one body in a and the other in b. A selector is a glob of
+    ids, or of groups after "group:"; an id or group that is exactly the text comes first.
+
+    allowed: They may overlap; nothing is computed. Needs a reason, and no other key.
+    max_depth: An overlap no deeper than this is within budget.
+    max_thickness: So is one without a ball in both bodies thicker than this.
+    max_volume: So is one that shares no more than this.
+    clearance: The gap that they must keep.
+    tolerance: Half the width of the touch band.
+    reason: Why, in words.
+    """
+
+    lengths: ClassVar = LENGTHS
+
+    a: Selected
+    b: Selected
+    allowed: bool | None = None
+    max_depth: Length | None = None
+    max_thickness: Length | None = None
+    max_volume: NotNegative | None = None
+    clearance: Length | None = None
+    tolerance: Length | None = None
+    severity: Severity | None = None
+    reason: Text = ""
+
+
+class Rule(RuleKeys, frozen=True, kw_only=True):
+    """Limits for the pairs with one body in each selector, in units of the scene.
+
+    None: the rule does not set the key. `allowed` False revokes an earlier permission. `clearance`
+    and `tolerance` override the global ones; 0.0: none. An undecided pair is at least a warning.
+
+    where: such as "file:line"; names the rule in a report. file, line: its place, if known.
 
     Raises SatcheckError `bad-rule`: a key is out of range, or no key has an effect.
     """
 
-    a: Selector
-    b: Selector
-    allowed: bool | None = None
-    max_depth: float | None = None
-    max_thickness: float | None = None
-    max_volume: float | None = None
-    clearance: float | None = None
-    tolerance: float | None = None
-    severity: Severity | None = None
-    reason: str = ""
     where: str = ""
     file: str | None = None
     line: int | None = None
@@ -208,7 +224,7 @@ class Members:
         return self._chosen[text]
 
 
-def require_effect(rule: HasSeverity, keys: Sequence[str]) -> None:
+def require_effect(rule: Any, keys: Sequence[str]) -> None:
     """Raises SatcheckError `bad-rule` if the severity is unknown, or if none of the keys, which
     are those with an effect, is set."""
     if rule.severity not in (None, *SEVERITIES):

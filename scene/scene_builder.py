@@ -28,8 +28,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import suffix_of
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
-from satcheck.scene.scene_file.entries import SceneFile
-from satcheck.scene.scene_file.joined import JoinedScenes
+from satcheck.scene.scene_file.joined import Joined, SceneFile, joined
 from satcheck.scene.units import RESCALED, ratio, stated_unit
 
 if TYPE_CHECKING:
@@ -231,13 +230,17 @@ class SceneBuilder:
             composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        stated = JoinedScenes()
-        for each in self._added:
-            if isinstance(each.document, SceneFile):
-                stated.add(each.document, each.ids, each.groups)
-        if stated.are_none:
-            return scene
-        return _as_stated(scene, stated, common.scales, alone=len(inputs) == 1)
+        files = [
+            Joined(file, dict(_ids_of(each)), each.groups, common.scales.get(file.path, 1.0))
+            for each in self._added
+            if isinstance(file := each.document, SceneFile)
+        ]
+        return joined(scene, files, alone=len(inputs) == 1)
+
+
+def _ids_of(added: Added) -> Iterator[tuple[str, str]]:
+    """Ids in the document, and in the check."""
+    return zip((item.id for item in added.document.items), added.ids, strict=True)
 
 
 def _robot(added: Added, bodies: Mapping[str, Body]) -> SceneRobot:
@@ -277,26 +280,6 @@ def _rules(added: Added) -> Iterator[Rule]:
                 where=f"{path}: {rule.reason}",
                 file=path,
             )
-
-
-def _as_stated(
-    scene: Scene, stated: JoinedScenes, scales: Mapping[str, float], *, alone: bool
-) -> Scene:
-    """The scene with what its scene files state of all bodies. alone: they are one input."""
-    everybody: list[Body | Unreadable] = [*scene.bodies, *scene.unreadable]
-    body_rules = stated.body_rules(everybody, scales)
-    spaces = (rule.permission for rule in body_rules if rule.region)
-    return replace(
-        scene,
-        ignore_within_groups=frozenset(stated.ignored),
-        # Those of documents and of regions first, so that a rule of a scene can override them.
-        rules=(*scene.rules, *spaces, *stated.rules(everybody, scales)),
-        body_rules=body_rules,
-        statics=stated.statics(scales),
-        check_static=stated.check_static,
-        accept=stated.accepted(alone=alone),
-        motions=stated.motions(scales),
-    )
 
 
 def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[Issue]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -16,7 +16,17 @@ from msgspec.structs import replace
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import reader_named
-from satcheck.scene.rules import Rule, Selectable, Selector, Severity, require_effect, stated_keys
+from satcheck.scene.rules import (
+    Length,
+    Rule,
+    Selectable,
+    Selected,
+    Selector,
+    Severity,
+    require_effect,
+    stated_keys,
+)
+from satcheck.scene.table import Direction, NotNegative, Positive, Table, Text, Wrong
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Scene
@@ -32,33 +42,43 @@ _DOWN_Y: Vector = (0.0, -1.0, 0.0)
 FRICTION = 0.5  # an assumption, for scenes that state none; reports show it
 
 
-class BodyRule(Struct, frozen=True, kw_only=True):
+class BodyRuleKeys(Table, frozen=True, kw_only=True):
+    """What is asked of single bodies, and stated about them.
+
+    supported: Contacts within the tolerance must be able to carry them.
+    stable: So must their nearest contacts alone.
+    mounted: They hold like static bodies and need not stand.
+    inside: The id of the body in which they must lie.
+    region: They bound space and have no material: they collide with nothing and hold nothing.
+    mass: Of each of them; overrides the density.
+    friction: Of two bodies the smaller one counts.
+    reason: Why, in words.
+    """
+
+    bodies: Selected
+    supported: bool | None = None
+    stable: bool | None = None
+    mounted: bool | None = None
+    inside: Text | None = None
+    region: bool | None = None
+    density: Positive | None = None
+    mass: Positive | None = None
+    friction: NotNegative | None = None
+    severity: Severity | None = None
+    reason: Text = ""
+
+
+class BodyRule(BodyRuleKeys, frozen=True, kw_only=True):
     """Questions about single bodies, and facts for their answers. None: the rule does not set the
     key.
 
-    supported: contacts within the tolerance must be able to carry the body. stable: so must its
-    nearest contacts alone. False revokes an earlier question. mounted: fixed to something, as a
-    lamp to its ceiling; holds like a static body and is never asked to stand. inside: the id of a
-    body in which these bodies must lie. region: they bound space, as a room or a drawer does, and
-    have no material: they collide with nothing and hold nothing. density: mass by
-    cubed unit of the scene. mass: of each of these bodies; overrides the density. friction: of its
-    contacts; of two bodies the smaller one counts. severity: of a failed question.
-    reason, where, file, line: as for a `Rule`.
+    `supported` and `stable` False revoke an earlier question. A mounted body is fixed to something,
+    as a lamp to its ceiling. A region is a room or a drawer. `density` is mass by cubed unit of the
+    scene. `severity` is that of a failed question. where, file, line: as for a `Rule`.
 
     Raises SatcheckError `bad-rule`: a key is out of range, or no key has an effect.
     """
 
-    bodies: Selector
-    supported: bool | None = None
-    stable: bool | None = None
-    mounted: bool | None = None
-    inside: str | None = None
-    region: bool | None = None
-    density: float | None = None
-    mass: float | None = None
-    friction: float | None = None
-    severity: Severity | None = None
-    reason: str = ""
     where: str = ""
     file: str | None = None
     line: int | None = None
@@ -97,16 +117,23 @@ class BodyRule(Struct, frozen=True, kw_only=True):
         return self.where or self.bodies.text
 
 
-class StaticsTerms(Struct, frozen=True, kw_only=True):
-    """What a scene states for all its bodies. None: not stated.
+class StaticsTerms(Table, frozen=True, kw_only=True):
+    """What rules about the support of bodies assume.
 
-    gravity: the direction in which things fall, not 0; its length does not count. friction: the
-    Coulomb coefficient. tolerance: a gap, or an overlap, up to this is a contact.
+    gravity: The direction in which things fall; its length does not count.
+    friction: The Coulomb coefficient of all contacts.
+    tolerance: A gap, or an overlap, up to this is a contact.
     """
 
-    gravity: Vector | None = None
-    friction: float | None = None
-    tolerance: float | None = None
+    lengths: ClassVar = ("tolerance",)
+
+    gravity: Direction | None = None
+    friction: NotNegative | None = None
+    tolerance: Length | None = None
+
+    def __post_init__(self) -> None:
+        if self.gravity is not None and not any(self.gravity):
+            raise Wrong("a direction other than 0 expected", "gravity")
 
     def scaled(self, scale: float) -> StaticsTerms:
         """The same in another unit of length."""
@@ -176,18 +203,11 @@ def up_axes(scene: Scene) -> set[str | None]:
     return {None if reader is None else reader.up for reader in readers}
 
 
-def terms_values(scene: Scene) -> dict[str, Any]:
-    """The terms as a scene file states them. Gravity is stated in any case: in a scene file, the
-    format of a mesh does not say where down is."""
+def stated_terms(scene: Scene) -> StaticsTerms:
+    """The terms as a scene file states them, with gravity in any case: in a scene file, the format
+    of a mesh does not say where down is."""
     stated = scene.statics or StaticsTerms()
-    gravity = stated.gravity or down_of(scene)
-    return {"gravity": list(gravity), **stated_keys(stated, ("friction", "tolerance"))}
-
-
-def body_rule_values(rule: BodyRule) -> dict[str, Any]:
-    """The rule as a scene file states it."""
-    entry = {"bodies": rule.bodies.text} | stated_keys(rule, KEYS)
-    return entry | {"reason": rule.reason} if rule.reason else entry
+    return replace(stated, gravity=stated.gravity or down_of(scene))
 
 
 def _refused(message: str) -> SatcheckError:

@@ -21,6 +21,7 @@ from satcheck.scene.files.flatten import concatenate
 from satcheck.scene.files.raw_mesh import NO_SURFACE, RawMesh, Refusal
 from satcheck.scene.read_options import ReadOptions
 
+UNITS = "m"  # the kernel converts all lengths
 _METRES = 1e-3  # of a millimetre
 _LIBRARY = "opencascade"
 # More threads need more address space, which is limited. Their number changes no shape.
@@ -28,57 +29,34 @@ _MOST_THREADS = 4
 _DEFAULT_PRECISION = 1e-5  # metres, of contexts that state none
 # The beginnings of types of representations without a surface.
 _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
+_Made = tuple[bytes, bytes, Sequence[float]]  # vertices, triangles, matrix
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Shape(Struct, frozen=True):
-    """The mesh of a body as the kernel makes it.
+    """The mesh of a body as the kernel makes it, and its placement in the world; None: identity."""
 
-    vertices, triangles, decimals: as in RawMesh, in metres. matrix: the placement in the world;
-    None: identity. tolerance: how far its facets may be off its surfaces, metres. warnings: (code,
-    message).
-    """
-
-    vertices: bytes
-    triangles: bytes
+    mesh: RawMesh
     matrix: Transform | None
-    decimals: int
-    tolerance: float = 0.0
-    warnings: tuple[tuple[str, str], ...] = ()
-
-    def mesh(self, units: str) -> RawMesh:
-        return RawMesh(
-            vertices=self.vertices,
-            triangles=self.triangles,
-            number_format="written-digits",
-            decimals=self.decimals,
-            units=units,
-            warnings=self.warnings,
-            surface_tolerance=self.tolerance,
-        )
-
-    @property
-    def key(self) -> tuple[object, ...]:
-        """The same for bodies that share a mesh."""
-        return self.vertices, self.triangles, self.tolerance
 
 
 def shapes_of(
     model: Any, bodies: Sequence[Any], options: ReadOptions
 ) -> dict[int, Shape | Refusal]:
     """The number of each instance -> its shape, or why it has none."""
-    shapes: dict[int, list[Shape]] = {body.id(): [] for body in bodies}
+    made: dict[int, list[_Made]] = {body.id(): [] for body in bodies}
     ranks = {body.id(): rank_of(material_of(body)[0].RepresentationIdentifier) for body in bodies}
     decimals = _decimals(model)
     for element in _elements(model, bodies, options):
         if rank_of(element.context) == ranks[element.id]:
-            shapes[element.id].append(_shape(element, decimals))
-    failures = failures_in(model, logged(), shapes)
+            geometry, matrix = element.geometry, element.transformation.matrix
+            made[element.id].append((geometry.verts_buffer, geometry.faces_buffer, matrix))
+    failures = failures_in(model, logged(), made)
     curved = curved_bodies(model, bodies)
     chord = options.chord(CHORD) * _METRES
     return {
-        body.id(): _whole(body, shapes[body.id()], failures, chord if body.id() in curved else 0.0)
-        for body in bodies
+        number: _whole(body, made[number], failures, decimals, chord if number in curved else 0.0)
+        for number, body in ((body.id(), body) for body in bodies)
     }
 
 
@@ -101,16 +79,6 @@ def _elements(model: Any, bodies: Sequence[Any], options: ReadOptions) -> Iterat
         more = shapes.next()
 
 
-def _shape(element: Any, decimals: int) -> Shape:
-    geometry = element.geometry
-    return Shape(
-        vertices=geometry.verts_buffer,
-        triangles=geometry.faces_buffer,
-        matrix=_matrix(element.transformation.matrix),
-        decimals=decimals,
-    )
-
-
 def _matrix(columns: Sequence[float]) -> Transform | None:
     """From the 16 numbers of the kernel, column by column."""
     rows = tuple(columns[4 * column + row] for row in range(4) for column in range(4))
@@ -118,13 +86,14 @@ def _matrix(columns: Sequence[float]) -> Transform | None:
 
 
 def _whole(
-    body: Any, shapes: Sequence[Shape], failures: Failures, tolerance: float
+    body: Any, made: Sequence[_Made], failures: Failures, decimals: int, tolerance: float
 ) -> Shape | Refusal:
-    """The shapes of all representations of a body as one, or why it has none."""
+    """The shapes of all representations of a body as one, or why it has none. tolerance: how far
+    its facets may be off its surfaces, metres."""
     wanted = material_of(body)
     if failure := failures.fatal.get(body.id()):
         return Refusal("reader-failed", f"the kernel makes no whole shape: {failure.line}")
-    if len(shapes) < len(wanted) or not all(shape.triangles for shape in shapes):
+    if len(made) < len(wanted) or not all(triangles for _, triangles, _ in made):
         kinds = [each.RepresentationType or "" for each in wanted]
         if all(kind.startswith(_CURVES) for kind in kinds):
             return Refusal(NO_SURFACE, f"it has only lines or points ({', '.join(kinds)})")
@@ -133,11 +102,17 @@ def _whole(
     faces = failures.faces.get(body.id(), 0)
     message = f"the kernel left out faces or their edges: {faces} messages"
     warnings = (("ignored-geometry", message),) if faces else ()
-    first = shapes[0]
-    vertices, triangles = concatenate([(s.vertices, s.triangles, None) for s in shapes])
-    return Shape(
-        bytes(vertices), bytes(triangles), first.matrix, first.decimals, tolerance, warnings
+    vertices, triangles = concatenate([(*each[:2], None) for each in made])
+    mesh = RawMesh(
+        bytes(vertices),
+        bytes(triangles),
+        "written-digits",
+        decimals,
+        units=UNITS,
+        warnings=warnings,
+        surface_tolerance=tolerance,
     )
+    return Shape(mesh, _matrix(made[0][2]))
 
 
 def _decimals(model: Any) -> int:

@@ -6,6 +6,7 @@ The parser goes on without what it cannot read. A placement that is lost moves a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from msgspec import Struct
@@ -16,7 +17,6 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
 from satcheck.scene.files.zip_guard import open_part, opened_zip
 
-UNITS = "m"  # the kernel converts all lengths
 _ZIP = b"PK\x03\x04"
 _FIRST = b"ISO-10303-21"
 _LAST = b"END-ISO-10303-21"
@@ -148,21 +148,15 @@ def _refuse_without_unit(model: Any) -> None:
 def _refuse_cycles(model: Any) -> None:
     """The kernel ends its process over a placement that is relative to itself."""
     above = {
-        each.id(): each.PlacementRelTo.id()
+        each.id(): [each.PlacementRelTo.id()]
         for each in model.by_type("IfcLocalPlacement")
         if each.PlacementRelTo is not None
     }
-    fine: set[int] = set()
-    for number in above:
-        chain: dict[int, None] = {}
-        place: int | None = number
-        while place is not None and place not in fine:
-            if place in chain:
-                message = f"placement #{place} is relative to itself: a cycle"
-                raise Refused("reference-cycle", message)
-            chain[place] = None
-            place = above.get(place)
-        fine.update(chain)
+    try:
+        TopologicalSorter(above).prepare()
+    except CycleError as error:
+        message = f"placement #{error.args[1][0]} is relative to itself: a cycle"
+        raise Refused("reference-cycle", message) from None
 
 
 class _Attribute(Struct, frozen=True):
@@ -179,12 +173,10 @@ class _Attribute(Struct, frozen=True):
             return value is None or isinstance(value, str)
         if value is None:
             return self.is_optional
-        if not self.is_list:
-            return self._is_one(value)
-        return isinstance(value, tuple) and all(map(self._is_one, value))
-
-    def _is_one(self, value: Any) -> bool:
-        return hasattr(value, "is_a") and any(map(value.is_a, self.classes))
+        values = value if self.is_list else (value,)
+        return isinstance(values, tuple) and all(
+            hasattr(each, "is_a") and any(map(each.is_a, self.classes)) for each in values
+        )
 
 
 def refuse_other_kinds(model: Any) -> None:

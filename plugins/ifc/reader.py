@@ -8,17 +8,17 @@ crash. ISO 16739 defines the entities and their relations.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from satcheck.plugins.ifc.elements import Elements, elements_of, groups_of, instances_of, path_names
-from satcheck.plugins.ifc.kernel import Shape, shapes_of
-from satcheck.plugins.ifc.model import UNITS, open_model
+from satcheck.plugins.ifc.kernel import UNITS, Shape, shapes_of
+from satcheck.plugins.ifc.model import open_model
 from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.relations import relations_of
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
@@ -37,45 +37,24 @@ def read_ifc(file: File) -> RawScene:
     read = [body for body in bodies if body.id() not in elements.unread]
     shapes = {**shapes_of(model, read, file.options), **elements.unread}
     paths = path_names(bodies)
-    relations = relations_of(model, bodies, paths, shapes)
+    rules, named = relations_of(model, bodies, paths, shapes)
     groups = groups_of(model, bodies)
-    parts, places = _parts(bodies, shapes, paths)
-    nodes = (
-        RawNode(
-            path=paths[body.id()],
-            part=places[body.id()],
-            matrix=getattr(shapes[body.id()], "matrix", None),
-            title=_title(body),
-            groups=(*groups[body.id()], *relations.groups.get(body.id(), ())),
-        )
-        for body in bodies
-    )
-    return RawScene(
-        parts,
-        tuple(nodes),
-        tuple(remarks_on(model, elements, shapes, file.options)),
-        UNITS,
-        relations.rules,
-    )
-
-
-def _parts(
-    bodies: Sequence[Any], shapes: Mapping[int, Shape | Refusal], paths: Mapping[int, str]
-) -> tuple[tuple[RawPart, ...], dict[int, int]]:
-    """(the parts, the number of the part of each body). Bodies with the same mesh share a part,
-    which has the path of the first of them."""
     parts: list[RawPart] = []
-    known: dict[object, int] = {}
-    places = {}
+    nodes: list[RawNode] = []
+    places: dict[RawMesh, int] = {}  # bodies with the same mesh share a part
     for body in bodies:
-        shape = shapes[body.id()]
-        key = shape if isinstance(shape, Refusal) else shape.key
-        if isinstance(shape, Refusal) or key not in known:
-            known[key] = len(parts)
-            mesh = shape if isinstance(shape, Refusal) else shape.mesh(UNITS)
-            parts.append(RawPart(paths[body.id()], mesh))
-        places[body.id()] = known[key]
-    return tuple(parts), places
+        number, shape, matrix = body.id(), shapes[body.id()], None
+        if isinstance(shape, Refusal):
+            part = len(parts)
+            parts.append(RawPart(paths[number], shape))
+        else:
+            part, matrix = places.setdefault(shape.mesh, len(parts)), shape.matrix
+            if part == len(parts):
+                parts.append(RawPart(paths[number], shape.mesh))
+        of_body = (*groups[number], *named.get(number, ()))
+        nodes.append(RawNode(paths[number], part, matrix, _title(body), of_body))
+    said = remarks_on(model, elements, shapes, file.options)
+    return RawScene(tuple(parts), tuple(nodes), tuple(said), UNITS, rules)
 
 
 def _title(body: Any) -> str:
@@ -98,7 +77,9 @@ def remarks_on(
         yield "no-shape", f"{len(names)} elements without a shape are not checked: {listed(names)}"
     if instances_of(model, "IfcMapConversion"):
         yield "left-out", "IfcMapConversion is not applied: coordinates are those of the project"
-    count = sum(isinstance(shape, Shape) and shape.tolerance > 0 for shape in shapes.values())
+    count = sum(
+        isinstance(shape, Shape) and shape.mesh.surface_tolerance > 0 for shape in shapes.values()
+    )
     if count:
         yield (
             "faceted",

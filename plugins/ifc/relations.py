@@ -35,13 +35,6 @@ _HOSTS = (
 _MOST_SHARED = 0.5
 
 
-class Relations(Struct, frozen=True):
-    """groups: the number of a body -> the groups that rules name."""
-
-    rules: tuple[RawRule, ...]
-    groups: Mapping[int, tuple[str, ...]]
-
-
 class _Pair(Struct, frozen=True):
     a: Any
     b: Any
@@ -55,8 +48,9 @@ def relations_of(
     bodies: Sequence[Any],
     paths: Mapping[int, str],
     shapes: Mapping[int, Shape | Refusal],
-) -> Relations:
-    """paths, shapes: of each body, by its number."""
+) -> tuple[tuple[RawRule, ...], Mapping[int, list[str]]]:
+    """(rules, the number of a body -> the groups that they name). paths, shapes: of each body, by
+    its number."""
     groups: dict[int, list[str]] = {}
     rules = [*_reinforcement(bodies, groups), *_assemblies(model, paths, groups)]
     rules += _wholes(bodies, paths)
@@ -64,9 +58,7 @@ def relations_of(
         for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
             if a != b and not (pair.is_corner and _may_coincide(shapes[a], shapes[b])):
                 rules.append(RawRule(paths[a], paths[b], pair.reason, severity=pair.severity))
-    return Relations(
-        tuple(dict.fromkeys(rules)), {body: tuple(names) for body, names in groups.items()}
-    )
+    return tuple(dict.fromkeys(rules)), groups
 
 
 def _reinforcement(bodies: Sequence[Any], groups: dict[int, list[str]]) -> Iterator[RawRule]:
@@ -180,7 +172,7 @@ def meet_in_a_corner(a: Shape, b: Shape) -> bool:
 def _box(shape: Shape) -> Any:
     from manifold3d import Manifold
 
-    points = np.frombuffer(shape.vertices, "<f8").reshape(-1, 3)
+    points = np.frombuffer(shape.mesh.vertices, "<f8").reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
     return Manifold.cube(high - low).translate(low)
 

@@ -12,10 +12,10 @@ from collections.abc import Iterable
 from typing import Any, Literal
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from pxr import Gf, UsdGeom, UsdPhysics
 
-from satcheck.core.transform import Transform
 from satcheck.plugins.usd.physics import body_at
 from satcheck.plugins.usd.stage import Remarks, Stage
 from satcheck.scene.files.raw_mesh import RawJoint
@@ -27,10 +27,9 @@ _AXES = {"X": 0, "Y": 1, "Z": 2}
 # their bodies, do not meet: files store them as float32, and programs write few digits.
 _APART = 1e-3
 _STAYS = "it is not moved, its bodies stay as the file places them"
-_KINDS: dict[str, Literal["revolute", "prismatic", "fixed"]] = {
+_KINDS: dict[str, Literal["revolute", "prismatic"]] = {
     "PhysicsRevoluteJoint": "revolute",
     "PhysicsPrismaticJoint": "prismatic",
-    "PhysicsFixedJoint": "fixed",
 }
 # These hold no body in a place.
 _LOOSE = frozenset(("PhysicsDistanceJoint",))
@@ -49,14 +48,12 @@ class Joints:
         return tuple(joint for prim in prims if (joint := self._joint(prim)) is not None)
 
     def _joint(self, prim: Any) -> RawJoint | None:
-        joint, kind = UsdPhysics.Joint(prim), str(prim.GetTypeName())
+        joint, kind, name = UsdPhysics.Joint(prim), str(prim.GetTypeName()), str(prim.GetPath())
         ends = [joint.GetBody0Rel(), joint.GetBody1Rel()]
-        bodies = [body_at(self._stage.stage, end, self._time) for end in ends]
+        parent, child = (body_at(self._stage.stage, end, self._time) for end in ends)
         is_on = joint.GetJointEnabledAttr().Get(self._time)
-        if not is_on or bodies[0] == bodies[1] or kind in _LOOSE:
+        if not is_on or parent == child or kind in _LOOSE:
             return None
-        parent, child = bodies
-        name = str(prim.GetPath())
         if any(map(self._is_lost, ends)):
             self._said.add("joint-not-moved", "a body that it names is missing: ignored", name)
             return None
@@ -64,45 +61,36 @@ class Joints:
         if not np.isfinite(frames).all():
             self._said.add("joint-not-moved", "its frames are not finite: ignored", name)
             return None
-        frame = _pose(frames[0])
+        frame = tuple(frames[0].ravel().tolist())
         still = RawJoint(name, "fixed", parent, child, frame, (0.0, 0.0, 1.0), None, 0.0)
-        if kind not in _KINDS:
-            self._said.add("joint-not-moved", f"a joint of type {kind}: {_STAYS}", still.name)
+        found = still if kind == "PhysicsFixedJoint" else self._moving(prim, frames, still)
+        if isinstance(found, str):
+            self._said.add("joint-not-moved", f"{found}: {_STAYS}", name)
             return still
-        if kind == "PhysicsFixedJoint":
-            return still
-        return self._moving(prim, _KINDS[kind], frames, still)
+        return found
 
-    def _moving(
-        self,
-        prim: Any,
-        kind: Literal["revolute", "prismatic", "fixed"],
-        frames: list[Floats],
-        still: RawJoint,
-    ) -> RawJoint:
-        axis = _AXES[str(prim.GetAttribute("physics:axis").Get())]
+    def _moving(self, prim: Any, frames: list[Floats], still: RawJoint) -> RawJoint | str:
+        """The joint with its axis and limits, or why it is not moved."""
+        name = str(prim.GetTypeName())
+        if name not in _KINDS:
+            return f"a joint of type {name}"
+        kind, axis = _KINDS[name], _AXES[str(prim.GetAttribute("physics:axis").Get())]
         rest = _along(kind, axis, *frames)
         if rest is None:
-            self._said.add("joint-not-moved", f"its frames do not meet: {_STAYS}", still.name)
-            return still
+            return "its frames do not meet"
         unit = math.radians(1) if kind == "revolute" else self._stage.scale * self._metres
         low, high = (
             float(prim.GetAttribute(f"physics:{end}Limit").Get()) * unit
             for end in ("lower", "upper")
         )
         if low > high:
-            self._said.add("joint-not-moved", f"its limits leave no value: {_STAYS}", still.name)
-            return still
-        has_limits = math.isfinite(low) and math.isfinite(high)
+            return "its limits leave no value"
         x, y, z = np.eye(3)[axis].tolist()
-        return RawJoint(
-            name=still.name,
+        return replace(
+            still,
             kind=kind,
-            parent=still.parent,
-            child=still.child,
-            frame=still.frame,
             axis=(x, y, z),
-            limits=(low, high) if has_limits else None,
+            limits=(low, high) if math.isfinite(low) and math.isfinite(high) else None,
             rest=rest if kind == "revolute" else rest * self._metres,
         )
 
@@ -125,10 +113,6 @@ class Joints:
             left, _, right = np.linalg.svd(frame[:3, :3])
             frame[:3, :3] = left @ right
         return frame
-
-
-def _pose(frame: Floats) -> Transform:
-    return tuple(frame.ravel().tolist())
 
 
 def _along(kind: str, axis: int, first: Floats, second: Floats) -> float | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cache
 
-from pxr import Usd
+from pxr import Usd, UsdGeom
 
 from satcheck.scene.vocabulary import Names
 
@@ -58,13 +58,8 @@ CLIPS = Names(
     )
 )
 OP = "xformOp:"
-# Kinds of ops, of UsdGeomXformOp.
-OPS = Names(
-    named(
-        """translate translateX translateY translateZ scale scaleX scaleY scaleZ orient transform
-        rotateX rotateY rotateZ rotateXYZ rotateXZY rotateYXZ rotateYZX rotateZXY rotateZYX"""
-    )
-)
+_KINDS = map(UsdGeom.XformOp.GetOpTypeToken, UsdGeom.XformOp.Type.allValues)
+OPS = Names(frozenset(filter(None, map(str, _KINDS))))
 # Without a name space.
 PROPERTIES = {
     "boundaryInterpolation": "an old name about subdivision; the control cage is checked",

@@ -58,7 +58,7 @@ class _Reading:
         for placed in Walk(self._stage.stage, self._choice.time).prims():
             self._take(placed)
         for name, reason in self._lost.items():
-            self._add(PlacedPrim(name, None, WORLD), reason, None)
+            self._add(PlacedPrim(name, None, WORLD), reason)
         warnings = (
             *self._stage.warnings,
             *self._of_time(),
@@ -104,11 +104,11 @@ class _Reading:
         elif (reason := self._choice.why_not(placed, lost=refusal is not None)) is not None:
             self._said.add("not-a-body", reason, name)
         elif refusal is not None:
-            self._add(placed, refusal, None)
+            self._add(placed, refusal)
         elif (words := without_extent(prim, self._choice)) is not None:
             self._said.add("ignored-geometry", words, name)
         elif (unread := not_read(prim, self._choice)) is not None:
-            self._add(placed, unread, None)
+            self._add(placed, unread)
         else:
             self._place(placed)
 
@@ -117,7 +117,7 @@ class _Reading:
         prim, name = placed.prim, placed.name
         if (reason := hidden_geometry(prim, self._choice)) is not None:
             if self._choice.why_not(placed, lost=True) is None:
-                self._add(placed, reason, None)
+                self._add(placed, reason)
         elif prim.GetTypeName() and not type_of(prim) and not TYPES.knows(prim.GetTypeName()):
             self._said.add("unread", f"prims of the type {prim.GetTypeName()} are not known", name)
         elif self._choice.collides(prim):
@@ -133,7 +133,7 @@ class _Reading:
         number, turn = self._read[key]
         content = self._parts[number].mesh
         if isinstance(content, Refusal):
-            self._node(placed, number, None)
+            self._node(placed, number)
             return
         matrix = self._stage.matrix(turn * placed.matrix)
         if not isinstance(content, RawMesh | HalfSpace):
@@ -205,10 +205,10 @@ class _Reading:
             self._parts.append(RawPart(name, content))
         return self._places[key]
 
-    def _add(self, placed: PlacedPrim, content: Content, matrix: Transform | None) -> None:
-        self._parts.append(RawPart(placed.name, content))
-        self._node(placed, len(self._parts) - 1, matrix)
+    def _add(self, placed: PlacedPrim, reason: Refusal) -> None:
+        self._parts.append(RawPart(placed.name, reason))
+        self._node(placed, len(self._parts) - 1)
 
-    def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None) -> None:
+    def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None = None) -> None:
         self._nodes.append(RawNode(placed.name, part, matrix))
         self._placed.append(placed)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct, ValidationError, convert
@@ -11,12 +10,12 @@ from msgspec.structs import force_setattr
 from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
+from satcheck.scene.table import Number
 
 if TYPE_CHECKING:
     from satcheck.scene.planar.region import Floats, Indices
 
-Coordinate = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
-Point = tuple[Coordinate, Coordinate]
+Point = tuple[Number, Number]
 Points = Annotated[tuple[Point, ...], Meta(min_length=3, extra_json_schema={"uniqueItems": True})]
 
 

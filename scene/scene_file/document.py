@@ -1,60 +1,51 @@
 """The keys of a scene file satcheck.scene/1, in TOML or JSON; docs/scenes.md explains them.
 
-`satcheck schema scene` prints them as a JSON Schema, with these docstrings.
+`satcheck schema scene` prints them as a JSON Schema, with these docstrings. A placement, by
+position, rotation and scale or as a matrix, becomes one transform.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Literal
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, Final, Literal
 
-from msgspec import UNSET, Meta, UnsetType, field
+from msgspec import Meta, field
 
-from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.core import transform
+from satcheck.core.shapes import Box, Curved
+from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, quaternion_matrix
+from satcheck.scene import motion
 from satcheck.scene.planar.outline import Outline
 from satcheck.scene.read_options import GeometryKind, Purpose
-from satcheck.scene.rules import Severity
-from satcheck.scene.scene_file.form import LARGEST, Table
-from satcheck.scene.units import LENGTH_PATTERN
+from satcheck.scene.rules import SELECTED, Length, Selector
+from satcheck.scene.statics import StaticsTerms
+from satcheck.scene.table import Direction, Number, Positive, Table, Text, Texts, Wrong
 
-SCENE_1 = "satcheck.scene/1"
-RULES_FILE_KEYS = (
-    "schema",
-    "$schema",
-    "name",
-    "description",
-    "units",
-    "rules",
-    "statics",
-    "accept",
-)
+SCENE_1: Final = "satcheck.scene/1"
+# A matrix counts as singular if its determinant is smaller than this share of the product of its
+# row lengths. Such a determinant may come from the rounding of the entries alone.
+_SINGULAR = 2.0**-40
+_UNTURNED: transform.Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_ORIGIN = (0.0, 0.0, 0.0)
+_HALF_TURN = 180.0
 
-
-Flag = bool | UnsetType
-Text = Annotated[str, Meta(min_length=1)]
-Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
-NotNegative = Annotated[float, Meta(ge=0, le=LARGEST)]
-Positive = Annotated[float, Meta(gt=0, le=LARGEST)]
-Texts = tuple[Text, ...]
 Vector = tuple[Number, Number, Number]
 Row = tuple[Number, Number, Number, Number]
-_NOT_ZERO = Meta(extra_json_schema={"not": {"items": {"const": 0}}})
-Direction = Annotated[Vector, _NOT_ZERO]
-Quaternion = Annotated[Row, _NOT_ZERO]
+Quaternion = Annotated[Row, Meta(extra_json_schema={"not": {"items": {"const": 0}}})]
 Factor = Annotated[Number, Meta(extra_json_schema={"not": {"const": 0}})]
 # Three by their length: msgspec 0.22 crashes for a number with limits beside a tuple of three.
 Factors = Annotated[tuple[Factor, ...], Meta(min_length=3, max_length=3)]
 LastRow = Annotated[Row, Meta(extra_json_schema={"const": [0, 0, 0, 1]})]
 Matrix = tuple[Row, Row, Row, LastRow]
-LengthText = Annotated[str, Meta(extra_json_schema={"pattern": LENGTH_PATTERN})]
-Length = NotNegative | LengthText
-Selector = Annotated[str, Meta(extra_json_schema={"minLength": 1, "not": {"const": "group:"}})]
 
 
 class HalfSpace(Table, frozen=True, tag_field="type", tag="half-space"):
     """All points with z <= 0."""
 
 
-Shape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid | HalfSpace | Outline
+Shape = Box | Curved | HalfSpace | Outline
 
 
 class Body(Table, frozen=True):
@@ -75,6 +66,7 @@ class Body(Table, frozen=True):
     """
 
     one_of = ("mesh", "shape")
+    lengths = ("surface_tolerance",)
     excludes: ClassVar = {
         "shape": ("part", "units"),
         "quaternion": ("euler",),
@@ -82,70 +74,86 @@ class Body(Table, frozen=True):
     }
 
     id: Text
-    mesh: Text | UnsetType = UNSET
-    part: Text | UnsetType = UNSET
-    units: Text | UnsetType = UNSET
-    shape: Shape | UnsetType = UNSET
-    position: Vector | UnsetType = UNSET
-    quaternion: Quaternion | UnsetType = UNSET
-    euler: Vector | UnsetType = UNSET
-    scale: Factor | Factors | UnsetType = UNSET
-    matrix: Matrix | UnsetType = UNSET
+    mesh: Text | None = None
+    part: Text | None = None
+    units: Text | None = None
+    shape: Shape | None = None
+    position: Vector | None = None
+    quaternion: Quaternion | None = None
+    euler: Vector | None = None
+    scale: Factor | Factors | None = None
+    matrix: Matrix | None = None
     groups: Texts = ()
     static: bool = False
     pinned: bool = False
-    surface_tolerance: Length | UnsetType = UNSET
+    surface_tolerance: Length | None = None
+
+    def placement(self) -> Transform | None:
+        """Scales first, then rotates, then translates; None if the body states none of it. Raises
+        Wrong."""
+        if self.matrix is not None:
+            return affine(self.matrix, "matrix")
+        if (self.position, self.quaternion, self.euler, self.scale) == (None,) * 4:
+            return None
+        turn = _UNTURNED
+        if self.quaternion is not None:
+            turn = quaternion_matrix(*_w_last(self.quaternion))
+        elif self.euler is not None:
+            turn = euler_matrix(self.euler)
+        position = self.position or _ORIGIN
+        if self.scale is None:
+            return transform.placed(turn, position)
+        scale = self.scale if isinstance(self.scale, tuple) else (self.scale,) * 3
+        if 0.0 in scale:
+            raise Wrong("a scale must not be 0", "scale", code="singular-transform")
+        scaled = [entry * scale[k % 3] for k, entry in enumerate(turn)]
+        return _regular(transform.placed(scaled, position), "scale")
 
 
-class Rule(Table, frozen=True):
-    """What is asked of the pairs with one body in a and the other in b. A selector is a glob of
-    ids, or of groups after "group:"; an id or group that is exactly the text comes first.
-
-    allowed: They may overlap; nothing is computed. Needs a reason, and no other key.
-    max_depth: An overlap no deeper than this is within budget.
-    max_thickness: So is one without a ball in both bodies thicker than this.
-    max_volume: So is one that shares no more than this.
-    clearance: The gap that they must keep.
-    tolerance: Half the width of the touch band.
-    reason: Why, in words.
-    """
-
-    a: Selector
-    b: Selector
-    allowed: Flag = UNSET
-    max_depth: Length | UnsetType = UNSET
-    max_thickness: Length | UnsetType = UNSET
-    max_volume: NotNegative | UnsetType = UNSET
-    clearance: Length | UnsetType = UNSET
-    tolerance: Length | UnsetType = UNSET
-    severity: Severity | UnsetType = UNSET
-    reason: Text | UnsetType = UNSET
+def affine(rows: Matrix, key: str) -> Transform:
+    """The matrix that a key states. Raises Wrong if it cannot place a body."""
+    if rows[3] != (0.0, 0.0, 0.0, 1.0):
+        raise Wrong("the last row should be 0 0 0 1", key, code="singular-transform")
+    return _regular(tuple(entry for row in rows for entry in row), key)
 
 
-class BodyRule(Table, frozen=True):
-    """What is asked of single bodies, and stated about them.
+def _regular(placement: Transform, key: str) -> Transform:
+    """The same. Raises Wrong if it flattens space. key: that states it."""
+    rows = [placement[0:3], placement[4:7], placement[8:11]]
+    lengths = [math.hypot(*row) for row in rows]
+    if 0.0 in lengths:
+        raise Wrong("singular transform: it scales by 0", key, code="singular-transform")
+    (a, b, c), (d, e, f), (g, h, i) = (
+        [entry / length for entry in row] for row, length in zip(rows, lengths, strict=True)
+    )
+    if abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < _SINGULAR:
+        raise Wrong("singular transform: it flattens space", key, code="singular-transform")
+    return placement
 
-    supported: Contacts within the tolerance must be able to carry them.
-    stable: So must their nearest contacts alone.
-    mounted: They hold like static bodies and need not stand.
-    inside: The id of the body in which they must lie.
-    region: They bound space and have no material: they collide with nothing and hold nothing.
-    mass: Of each of them; overrides the density.
-    friction: Of two bodies the smaller one counts.
-    reason: Why, in words.
-    """
 
-    bodies: Selector
-    supported: Flag = UNSET
-    stable: Flag = UNSET
-    mounted: Flag = UNSET
-    inside: Text | UnsetType = UNSET
-    region: Flag = UNSET
-    density: Positive | UnsetType = UNSET
-    mass: Positive | UnsetType = UNSET
-    friction: NotNegative | UnsetType = UNSET
-    severity: Severity | UnsetType = UNSET
-    reason: Text | UnsetType = UNSET
+def _w_last(quaternion: Row) -> transform.Quaternion:
+    """From the order of scene files. Raises Wrong."""
+    w, x, y, z = quaternion
+    if not any(quaternion):
+        raise Wrong("a quaternion must not be zero", "quaternion")
+    return x, y, z, w
+
+
+def euler_matrix(degrees: Sequence[float]) -> transform.Rotation:
+    """The rotation about the fixed axes x, then y, then z. Quarter turns are exact."""
+    x, y, z = map(cos_sin, degrees)
+    return about_fixed_axes(x, y, z)
+
+
+def quaternion_of_euler(degrees: Sequence[float]) -> transform.Quaternion:
+    """The same rotation as a unit quaternion (x, y, z, w)."""
+    (cx, sx), (cy, sy), (cz, sz) = (cos_sin(angle / 2.0) for angle in degrees)
+    return (
+        sx * cy * cz - cx * sy * sz,
+        cx * sy * cz + sx * cy * sz,
+        cx * cy * sz - sx * sy * cz,
+        cx * cy * cz + sx * sy * sz,
+    )
 
 
 # Rules have no tag: the key `bodies` tells what they are about.
@@ -154,24 +162,11 @@ AnyRule = Annotated[
     Meta(
         extra_json_schema={
             "if": {"required": ["bodies"]},
-            "then": {"$ref": "#/$defs/BodyRule"},
-            "else": {"$ref": "#/$defs/Rule"},
+            "then": {"$ref": "#/$defs/BodyRuleKeys"},
+            "else": {"$ref": "#/$defs/RuleKeys"},
         }
     ),
 ]
-
-
-class Statics(Table, frozen=True):
-    """What rules about the support of bodies assume.
-
-    gravity: The direction in which things fall; its length does not count.
-    friction: The Coulomb coefficient of all contacts.
-    tolerance: A gap, or an overlap, up to this is a contact.
-    """
-
-    gravity: Direction | UnsetType = UNSET
-    friction: NotNegative | UnsetType = UNSET
-    tolerance: Length | UnsetType = UNSET
 
 
 class Waypoint(Table, frozen=True):
@@ -185,8 +180,27 @@ class Waypoint(Table, frozen=True):
 
     time: Annotated[float, Meta(ge=0, le=1)]
     position: Vector
-    quaternion: Quaternion | UnsetType = UNSET
-    euler: Vector | UnsetType = UNSET
+    quaternion: Quaternion | None = None
+    euler: Vector | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.quaternion is not None:
+            _w_last(self.quaternion)
+
+    def pose(self) -> motion.Waypoint:
+        turn = motion.NO_TURN if self.euler is None else quaternion_of_euler(self.euler)
+        if self.quaternion is not None:
+            turn = _w_last(self.quaternion)
+        return motion.Waypoint(self.time, self.position, turn)
+
+    def turns_far(self, before: Waypoint) -> bool:
+        """Whether an angle changes by more than half a turn: a body takes the shortest turn, which
+        may differ from what the angles mean."""
+        if before.quaternion is not None or self.quaternion is not None:
+            return False
+        angles = zip(before.euler or _ORIGIN, self.euler or _ORIGIN, strict=True)
+        return any(abs(end - start) > _HALF_TURN for start, end in angles)
 
 
 class Rotation(Table, frozen=True):
@@ -201,6 +215,13 @@ class Rotation(Table, frozen=True):
     point: Vector = (0.0, 0.0, 0.0)
 
 
+class Choices(tuple[Selector, ...]):
+    """Selectors: in the file one, or a list."""
+
+
+_CHOICES = {"anyOf": [SELECTED, {"type": "array", "minItems": 1, "items": SELECTED}]}
+
+
 class Motion(Table, frozen=True):
     """Bodies that move together, rigidly.
 
@@ -209,11 +230,24 @@ class Motion(Table, frozen=True):
 
     one_of = ("translation", "rotation", "path")
 
-    bodies: Selector | Annotated[tuple[Selector, ...], Meta(min_length=1)]
+    bodies: Annotated[Choices, Meta(extra_json_schema=_CHOICES)]
     clear: bool = False
-    translation: Vector | UnsetType = UNSET
-    rotation: Rotation | UnsetType = UNSET
-    path: Annotated[tuple[Waypoint, ...], Meta(min_length=2)] | UnsetType = UNSET
+    translation: Vector | None = None
+    rotation: Rotation | None = None
+    path: Annotated[tuple[Waypoint, ...], Meta(min_length=2)] | None = None
+
+    def way(self) -> motion.Path:
+        """Raises Wrong and SatcheckError."""
+        if self.translation is not None:
+            return motion.Translation(self.translation)
+        if (turn := self.rotation) is not None:
+            return motion.Rotation(turn.point, turn.axis, turn.degrees)
+        points = self.path or ()
+        for k, (before, after) in enumerate(pairwise(points), 1):
+            if after.turns_far(before):
+                message = "more than half a turn from the pose before: give a pose between"
+                raise Wrong(message, "path", k, "euler")
+        return motion.PosePath(tuple(point.pose() for point in points))
 
 
 class Reading(Table, frozen=True):
@@ -227,14 +261,27 @@ class Reading(Table, frozen=True):
     angular_tolerance: Radians.
     """
 
-    time: Number | UnsetType = UNSET
-    geometry: GeometryKind | UnsetType = UNSET
-    purpose: Annotated[tuple[Purpose, ...], Meta(min_length=1)] | UnsetType = UNSET
-    chord_tolerance: Positive | UnsetType = UNSET
-    angular_tolerance: Positive | UnsetType = UNSET
+    time: Number | None = None
+    geometry: GeometryKind | None = None
+    purpose: Annotated[tuple[Purpose, ...], Meta(min_length=1)] | None = None
+    chord_tolerance: Positive | None = None
+    angular_tolerance: Positive | None = None
 
 
-class Scene(Table, frozen=True):
+class RulesFile(Table, frozen=True, kw_only=True):
+    """A file of rules, without bodies."""
+
+    rules: tuple[AnyRule, ...]
+    schema: Literal["satcheck.scene/1"] | None = None
+    editor: Text | None = field(default=None, name="$schema")
+    name: Text | None = None
+    description: Text | None = None
+    units: Text | None = None
+    statics: StaticsTerms | None = None
+    accept: Texts = ()
+
+
+class Scene(RulesFile, frozen=True, kw_only=True):
     """A scene to check for collisions, written in TOML or JSON. World frame, right-handed; lengths
     in the units of the scene. Beyond this schema: ids are unique, the edges of an outline do not
     meet, a text as a length needs declared units that are known, a body is moved once and not when
@@ -250,16 +297,9 @@ class Scene(Table, frozen=True):
     accept: Issues that may stay, each as CODE or CODE:NAME, as with --accept.
     """
 
-    schema: Literal["satcheck.scene/1"]
     bodies: tuple[Body, ...]
-    editor: Text | UnsetType = field(default=UNSET, name="$schema")
-    name: Text | UnsetType = UNSET
-    description: Text | UnsetType = UNSET
-    units: Text | UnsetType = UNSET
     rules: tuple[AnyRule, ...] = ()
-    statics: Statics | UnsetType = UNSET
     check_static: bool = False
     ignore_within_groups: Texts = ()
-    accept: Texts = ()
     motion: tuple[Motion, ...] = ()
-    reading: Reading | UnsetType = UNSET
+    reading: Reading | None = None

@@ -1,4 +1,5 @@
-"""Reads and checks any scene file, by the schema that it names.
+"""Reads and checks any scene file, by the schema that it names. The mesh files that it names are
+not read yet.
 
 A scene with errors is refused as a whole, because a part of a scene has no meaning. An unknown key
 is an error, because it may be important.
@@ -6,35 +7,38 @@ is an error, because it may be important.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import Entry
-from satcheck.scene.document import Item
+from satcheck.scene.document import FilePart, Item
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.readers import mesh_reader, readers
+from satcheck.scene.files_read import note
+from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.paths import NOTHING_ELSE, Permitted
-from satcheck.scene.rules import LENGTHS, Rule
-from satcheck.scene.scene_file import document, simple
-from satcheck.scene.scene_file.document import RULES_FILE_KEYS, SCENE_1
-from satcheck.scene.scene_file.entries import (
-    MeshPlaces,
-    SceneFile,
-    add_id,
-    unknown_groups,
-    unknown_units,
-)
-from satcheck.scene.scene_file.form import Problems, Wrong, converted, shown
-from satcheck.scene.scene_file.placement import motion_of, placement, selector
-from satcheck.scene.scene_file.text import Parsed, is_toml, parse
-from satcheck.scene.statics import BodyRule, StaticsTerms
-from satcheck.scene.units import MICROMETRES, parse_length, unit_of
+from satcheck.scene.paths import NOTHING_ELSE, Permitted, followed, is_file
+from satcheck.scene.rules import Rule, RuleKeys
+from satcheck.scene.scene_file import document
+from satcheck.scene.scene_file.document import SCENE_1
+from satcheck.scene.scene_file.form import converted, shown
+from satcheck.scene.scene_file.joined import SceneFile
+from satcheck.scene.scene_file.text import SceneText
+from satcheck.scene.statics import BodyRule, BodyRuleKeys, StaticsTerms
+from satcheck.scene.table import Wrong
+from satcheck.scene.units import MICROMETRES, is_unit, unit_of
 from satcheck.scene.words import meant
 
+Places = Callable[[str, str | None], FilePart]  # of the keys `mesh` and `part` of a body
+
+SIMPLE = "satcheck-scene-1"
+_OF_RULES = {*document.RulesFile.__struct_encode_fields__}
 # The tables, and lists of tables, in a scene.
 _INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
@@ -45,29 +49,34 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     path: for messages; location: where it lies. permitted: where the meshes of a scene of the form
     satcheck.scene/1 may lie. Raises Refused.
     """
-    parsed = parse(path, location)
-    schema = _schema_of(parsed)
-    if schema in (None, SCENE_1) and _has_only_rules(parsed.document):
-        return _read_rules(parsed)
-    if schema == SCENE_1:
-        return _read(parsed, parsed.document, Problems(parsed), permitted)
-    if schema == simple.SIMPLE and not is_toml(location):
-        return simple.read_scene(parsed)
-    raise _not_a_scene(path, schema)
+    text = SceneText(path, location)
+    values, schema = text.document, _schema_of(text)
+    if schema == SIMPLE and not text.is_toml:
+        from satcheck.scene.scene_file.simple import read_scene
+
+        return read_scene(text)
+    is_ours = isinstance(values, dict) and schema in (None, SCENE_1)
+    if is_ours and "rules" in values and values.keys() <= _OF_RULES:
+        return _read(text, permitted, document.RulesFile)
+    if schema != SCENE_1:
+        raise _not_a_scene(path, schema)
+    return _read(text, permitted, document.Scene)
 
 
 def read_rules_file(path: str, location: Path) -> SceneFile:
     """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
     bodies; `schema` may be left out. path, location: as above. Raises Refused."""
-    parsed = parse(path, location)
-    schema = _schema_of(parsed)
-    if not isinstance(parsed.document, dict) or schema not in (None, SCENE_1):
+    text = SceneText(path, location)
+    schema = _schema_of(text)
+    if not isinstance(text.document, dict) or schema not in (None, SCENE_1):
         raise _not_a_scene(path, schema)
-    return _read_rules(parsed)
+    if text.document.pop("bodies", None):
+        text.keep(Wrong("a file of rules has no bodies", "bodies"))
+    return _read(text, NOTHING_ELSE, document.RulesFile)
 
 
-def _schema_of(parsed: Parsed) -> object:
-    return parsed.document.get("schema") if isinstance(parsed.document, dict) else None
+def _schema_of(text: SceneText) -> object:
+    return text.document.get("schema") if isinstance(text.document, dict) else None
 
 
 def _not_a_scene(path: str, schema: object) -> Refused:
@@ -76,143 +85,195 @@ def _not_a_scene(path: str, schema: object) -> Refused:
     return Refused("bad-scene", message, file=path)
 
 
-def _has_only_rules(values: Any) -> bool:
-    """Whether it has rules, and no key that only a scene with bodies has."""
-    return isinstance(values, dict) and "rules" in values and values.keys() <= {*RULES_FILE_KEYS}
-
-
-def _read_rules(parsed: Parsed) -> SceneFile:
-    """A file of rules: a scene without bodies, which may leave out `schema` and `bodies`."""
-    values, problems = parsed.document, Problems(parsed)
-    for key in values.keys() - {*RULES_FILE_KEYS, "bodies"}:
-        hint = meant(key, set(RULES_FILE_KEYS) - values.keys())
-        problems.add(Wrong(f"unknown key{hint}", key))
-    if values.get("bodies"):
-        problems.add(Wrong("a file of rules has no bodies", "bodies"))
-    if "rules" not in values:
-        problems.add(Wrong('"rules" is missing'))
-    stated = {key: values[key] for key in ("units", "rules", "statics", "accept") if key in values}
-    return _read(parsed, stated | {"schema": SCENE_1, "bodies": []}, problems, NOTHING_ELSE)
-
-
-def _read(
-    parsed: Parsed, values: dict[str, Any], problems: Problems, permitted: Permitted
-) -> SceneFile:
+def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile]) -> SceneFile:
     """The inner tables are read one by one, so that an error in one does not hide those of others.
-
-    values: of the document. Raises Refused with all errors.
-    """
-    path, units = parsed.path, values.get("units")
-    units = units if isinstance(units, str) else None
-    inner = {key: values[key] for key in _INNER if isinstance(values.get(key), _INNER[key])}
+    Raises Refused with all errors."""
+    if nulls := list(text.nulls()):
+        for keys in nulls:
+            text.keep(Wrong("null is no value: leave it out", *keys))
+        text.raise_any()
+    values, path = text.document, text.path
+    units = values.get("units") if isinstance(values.get("units"), str) else None
+    inner = {key for key, form in _INNER.items() if isinstance(values.get(key), form)}
     outer = {key: _INNER[key]() if key in inner else value for key, value in values.items()}
-    with problems.at():
-        top = converted(outer, document.Scene)
-
-    places = MeshPlaces(path, parsed.location, permitted)
-    bodies: list[Item] = []
+    with text.at():
+        top = converted(outer, kind)
+    places = mesh_places(path, text.location, permitted)
     ids: set[str] = set()
-    for k, table in enumerate(inner.get("bodies", ())):
-        with problems.at("bodies", k):
-            body = _body(converted(table, document.Body), units, places, ids)
-            bodies.append(replace(body, entry=Entry(path, number=k)))
-    are_sound = not problems
-
-    rules: list[Rule | BodyRule] = []
-    tables = inner.get("rules", ())
-    lines = parsed.lines([("rules", k) for k, _ in enumerate(tables)])
-    for k, (table, line) in enumerate(zip(tables, lines, strict=True)):
-        with problems.at("rules", k):
-            of_bodies = isinstance(table, dict) and "bodies" in table
-            kind: Any = document.BodyRule if of_bodies else document.Rule
-            rules.append(_rule(converted(table, kind), units, path, line))
-
-    motions: list[Motion] = []
     moved: dict[str, int] = {}
-    for k, table in enumerate(inner.get("motion", ())):
-        with problems.at("motion", k):
-            motion = converted(table, document.Motion)
-            motions += motion_of(motion, k, bodies if are_sound else None, moved)
+    count = len(values["rules"]) if "rules" in inner else 0
+    lines = text.lines([("rules", k) for k in range(count)])
 
-    terms = None
-    if "statics" in inner:
-        with problems.at("statics"):
-            terms = _terms(converted(inner["statics"], document.Statics), units)
-    with problems.at("reading"):
-        reading = converted(inner.get("reading", {}), document.Reading)
-    problems.raise_any()
-    ignored = frozenset(top.ignore_within_groups)
-    return SceneFile(
-        path=path,
-        name=top.name or parsed.location.stem,
-        kind="scene" if bodies else "rules",
-        units=units,
-        items=tuple(bodies),
-        ignore_within_groups=ignored,
-        check_static=top.check_static,
+    def body(table: Any, number: int) -> Item:
+        entry = Entry(path, number=number)
+        return _body(converted(table, document.Body, units), entry, places, ids)
+
+    def rule(table: Any, number: int) -> Rule | BodyRule:
+        return _rule(table, units, path, lines[number])
+
+    def motion(table: Any, number: int) -> Motion | None:
+        return _motion(converted(table, document.Motion), number, known, moved)
+
+    bodies = text.each("bodies", body)
+    known = bodies if text.is_right else None
+    rules = text.each("rules", rule)
+    motions = text.each("motion", motion)
+    terms, reading = None, document.Reading()
+    with text.at("statics"):
+        if "statics" in inner:
+            terms = converted(values["statics"], StaticsTerms, units)
+    with text.at("reading"):
+        if "reading" in inner:
+            reading = converted(values["reading"], document.Reading)
+    text.raise_any()
+    scene = top if isinstance(top, document.Scene) else None
+    return scene_file(
+        text,
+        top,
+        bodies,
+        ignored=frozenset(scene.ignore_within_groups if scene else ()),
+        check_static=scene is not None and scene.check_static,
         rules=tuple(rule for rule in rules if isinstance(rule, Rule)),
         body_rules=tuple(rule for rule in rules if isinstance(rule, BodyRule)),
         statics=terms,
-        motions=tuple(motions),
+        motions=tuple(filter(None, motions)),
         reading=reading.stated(),
         accept=top.accept,
-        issues=(*unknown_units(units, path), *unknown_groups(ignored, bodies, path)),
     )
 
 
-def _body(body: document.Body, units: str | None, places: MeshPlaces, ids: set[str]) -> Item:
-    """units: of the scene. ids: of the bodies before; this call adds to them."""
+def scene_file(
+    text: SceneText,
+    top: Any,
+    bodies: Sequence[Item],
+    ignored: frozenset[str],
+    issues: Sequence[Issue] = (),
+    **more: Any,
+) -> SceneFile:
+    """Return what a file of either form states. top: its table, with the keys that both forms have.
+    issues, more: of its form."""
+    return SceneFile(
+        path=text.path,
+        name=top.name or text.location.stem,
+        kind="scene" if bodies else "rules",
+        units=top.units,
+        items=tuple(bodies),
+        ignore_within_groups=ignored,
+        issues=(*issues, *_useless(top.units, ignored, bodies, text.path)),
+        **more,
+    )
+
+
+def _useless(
+    units: str | None, ignored: frozenset[str], bodies: Sequence[Item], path: str
+) -> Iterator[Issue]:
+    """Warnings about unknown units, and about groups in ignore_within_groups without a body."""
+    if units is not None and not is_unit(units):
+        message = f"unknown units {units!r}: lengths are plain numbers"
+        yield issue("unknown-units", message, file=path)
+    groups = {group for body in bodies for group in body.groups}
+    for group in sorted(ignored - groups):
+        message = f"no body is in group {group!r} of ignore_within_groups{meant(group, groups)}"
+        yield issue("unknown-group", message, file=path)
+
+
+def _body(body: document.Body, entry: Entry, places: Places, ids: set[str]) -> Item:
+    """ids: of the bodies before; this call adds to them."""
     add_id(body.id, ids)
-    own_units = None if body.units is UNSET else unit_of(body.units)
-    if own_units is None and body.units is not UNSET:
+    units = None if body.units is None else unit_of(body.units)
+    if units is None and body.units is not None:
         raise Wrong(f"one of {', '.join(MICROMETRES)} expected, not {shown(body.units)}", "units")
     shape = HalfSpace() if isinstance(body.shape, document.HalfSpace) else body.shape
     return Item(
         id=body.id,
-        shape=shape or places.find(body.mesh or "", body.part or None),
-        transform=placement(body),
+        shape=shape or places(body.mesh or "", body.part),
+        transform=body.placement(),
         groups=body.groups,
         static=body.static,
         pinned=body.pinned,
-        units=own_units,
-        surface_tolerance=_length(body.surface_tolerance, units, "surface_tolerance"),
+        units=units,
+        surface_tolerance=body.surface_tolerance,
+        entry=entry,
     )
 
 
-def _rule(
-    table: document.Rule | document.BodyRule, units: str | None, file: str, line: int
-) -> Rule | BodyRule:
-    values: dict[str, Any] = table.stated()
-    for key in ("a", "b", "bodies"):
-        if key in values:
-            values[key] = selector(values[key], key)
+def add_id(id_: str, ids: set[str]) -> None:
+    """Raises Wrong if a body before has this id."""
+    if id_ in ids:
+        raise Wrong(f"a second body {shown(id_)}", "id", code="duplicate-id")
+    ids.add(id_)
+
+
+def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
+    """Return what finds the mesh files of one scene file, and raises Wrong for one that is missing
+    or may not be opened. Each is checked once, even if many bodies use it.
+
+    path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
+    its folder.
+    """
+    folder = location.parent
+    own = followed(folder)
+
+    @cache
+    def found(mesh: str, part: str | None) -> FilePart:
+        if part is not None:
+            return replace(found(mesh, None), part=part)
+        if "\0" in mesh:
+            raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
+        place = folder / mesh
+        if mesh_reader(place.suffix) is None:
+            known = ", ".join(sorted(filter(mesh_reader, readers())))
+            message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
+            raise Wrong(message, "mesh", code="unsupported-format")
+        note(place)
+        if not permitted.has(place, own):
+            where = permitted.beyond("of the scene's folder")
+            message = (
+                f"mesh file {shown(mesh)} lies {where}: refused (allow it with --allow-outside)"
+            )
+            raise Wrong(message, "mesh", code="outside-path")
+        if not is_file(place):
+            raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
+        name = os.path.normpath(Path(path).parent / mesh).replace(os.sep, "/")
+        return FilePart(name, str(place))
+
+    return found
+
+
+def _rule(table: Any, units: str | None, file: str, line: int) -> Rule | BodyRule:
     place: dict[str, Any] = {"where": f"{file}:{line}", "file": file, "line": line}
-    if isinstance(table, document.BodyRule):
-        return BodyRule(**values, **place)
-    if table.allowed is True and table.reason is UNSET:
+    if isinstance(table, dict) and "bodies" in table:
+        return BodyRule(**converted(table, BodyRuleKeys).stated(), **place)
+    keys = converted(table, RuleKeys, units)
+    if keys.allowed and not keys.reason:
         raise Wrong('"reason" is missing: why may these pairs overlap?')
-    lengths = {key: _length(values.get(key, UNSET), units, key) for key in LENGTHS}
-    return Rule(**values | lengths | place)
+    return Rule(**keys.stated(), **place)
 
 
-def _terms(table: document.Statics, units: str | None) -> StaticsTerms:
-    if table.gravity and not any(table.gravity):
-        raise Wrong("a direction other than 0 expected", "gravity")
-    values = table.stated()
-    return StaticsTerms(**values | {"tolerance": _length(table.tolerance, units, "tolerance")})
+def _motion(
+    table: document.Motion, number: int, bodies: Sequence[Item] | None, moved: dict[str, int]
+) -> Motion | None:
+    """The motion, if the bodies of the scene are known. Raises Wrong and SatcheckError.
 
-
-def _length(value: float | str | UnsetType, units: str | None, key: str) -> float | None:
-    """A length such as 0.5; also "2mm" if the scene declares units. Raises Wrong."""
-    if value is UNSET:
+    moved: id of each moving body -> number of its motion; this call adds to it.
+    """
+    way = table.way()
+    if bodies is None:
         return None
-    if not isinstance(value, str):
-        return value
-    try:
-        length = parse_length(value)
-    except ValueError as error:
-        raise Wrong(str(error), key) from None
-    try:
-        return length.in_units_of(units)
-    except ValueError as error:
-        raise Wrong(f"{error}, or declare `units` in this file", key) from None
+    ids: dict[str, None] = {}
+    for choice in table.bodies:
+        chosen = choice.select(bodies)
+        if not chosen:
+            raise _immovable(f"no body matches {shown(choice.text)}")
+        for body in chosen:
+            if body.static:
+                raise _immovable(f"body {shown(body.id)} is static")
+            ids[body.id] = None
+    for id_ in ids:
+        if (other := moved.setdefault(id_, number)) != number:
+            raise _immovable(f"body {shown(id_)} is moved by motion[{other}] already")
+    return Motion(tuple(ids), way, table.clear)
+
+
+def _immovable(message: str) -> Wrong:
+    return Wrong(message, "bodies", code="bad-motion")

@@ -8,24 +8,25 @@ from typing import Any
 
 from msgspec.json import schema_components
 
-from satcheck.scene.rules import KEYS
-from satcheck.scene.scene_file.document import RULES_FILE_KEYS, BodyRule, Rule, Scene
-from satcheck.scene.scene_file.form import LARGEST, Table
+from satcheck.scene.rules import KEYS, RuleKeys
+from satcheck.scene.scene_file.document import RulesFile, Scene
 from satcheck.scene.statics import KEYS as BODY_KEYS
+from satcheck.scene.statics import BodyRuleKeys
+from satcheck.scene.table import LARGEST, Table
 
 _ABOUT_KEY = re.compile(r"^([$\w]+): (.*(?:\n    .*)*)$", re.MULTILINE)
 
 
 def schema() -> dict[str, Any]:
-    _, tables = schema_components((Scene, Rule, BodyRule), ref_template="#/$defs/{name}")
+    _, tables = schema_components((Scene, RuleKeys, BodyRuleKeys), ref_template="#/$defs/{name}")
     for table in tables.values():
         _describe(table)
     for kind in Table.__subclasses__():
         if kind.__name__ in tables:
             tables[kind.__name__] |= _conditions(kind)
-    _require_effect(tables["Rule"], KEYS)
-    _require_effect(tables["BodyRule"], BODY_KEYS)
-    tables["Rule"] |= {
+    _require_effect(tables["RuleKeys"], KEYS)
+    _require_effect(tables["BodyRuleKeys"], BODY_KEYS)
+    tables["RuleKeys"] |= {
         "if": {"properties": {"allowed": {"const": True}}, "required": ["allowed"]},
         "then": {
             "required": ["reason"],
@@ -34,7 +35,8 @@ def schema() -> dict[str, Any]:
     }
     scene = _plain(tables.pop("Scene"))
     del scene["required"]
-    rules_file = {"required": ["rules"], "propertyNames": {"enum": list(RULES_FILE_KEYS)}}
+    of_rules = RulesFile.__struct_encode_fields__
+    rules_file = {"required": ["rules"], "propertyNames": {"enum": list(of_rules)}}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:satcheck:scene:1",
@@ -74,13 +76,18 @@ def _require_effect(table: dict[str, Any], keys: tuple[str, ...]) -> None:
 
 
 def _plain(part: Any) -> Any:
-    """The same without limits that only keep infinity out, and with lists of equal items in the
-    short form that more editors know."""
+    """The same without limits that only keep infinity out and without null, with texts for lengths,
+    and with lists of equal items in the short form that more editors know."""
     if isinstance(part, list):
         return [_plain(inner) for inner in part]
     if not isinstance(part, dict):
         return part
-    part = {k: _plain(v) for k, v in part.items() if v not in (LARGEST, -LARGEST)}
+    part = {k: _plain(v) for k, v in part.items() if v not in (LARGEST, -LARGEST, None, "")}
+    if {"type": "null"} in part.get("anyOf", ()):
+        *kinds, _ = part.pop("anyOf")
+        part |= kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
+    if part.get("type") == "number" and "pattern" in part:
+        part["type"] = ["number", "string"]
     items = part.get("prefixItems", ())
     if part.get("items") is False and all(item == items[0] for item in items):
         del part["prefixItems"]

@@ -1,4 +1,8 @@
-"""Reads and parses a scene file: TOML if its suffix says so, else JSON."""
+"""Reads a scene file, TOML by its suffix, else JSON, and finds what is wrong in it by its lines.
+
+The lines of keys and entries take one scan of texts, brackets and keys: no value is read, and only
+the lines of wanted keys are kept.
+"""
 
 from __future__ import annotations
 
@@ -7,45 +11,143 @@ import math
 import re
 import tomllib
 from codecs import BOM_UTF8
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from msgspec import Struct
-
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
 from satcheck.scene.opening import read_whole
-from satcheck.scene.scene_file.lines import Keys, innermost, lines_of
+from satcheck.scene.table import Keys, Wrong
 from satcheck.scene.words import why_unreadable
 
-TOML_SUFFIX = ".toml"
+T = TypeVar("T")
 
+MOST = 20  # errors told about one file
 _MAX_BYTES = 512 << 20  # a million bodies, each with a matrix
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
-
-
-_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
+_MARK = r"""\[[^][{}"'#]*+\]|[][{},]"""  # a list of numbers is one token
+_JSON = re.compile(rf"(?P<key>{_TEXT})\s*+:|{_TEXT}|{_MARK}")
+_PART = rf"(?:(?<![\w-])[\w-]++|{_TEXT}|'[^'\n]*+')"
+_NAME = rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+"
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MAX_DEPTH}}}")
+_TOML = re.compile(
+    r'"""(?:[^"\\]|\\.|"(?!""))*+"{3,5}'
+    rf"|'''(?:[^']|'(?!''))*+'{{3,5}}|#[^\n]*+"
+    rf"|^[ \t]*+\[\[[ \t]*+(?P<item>{_NAME})[ \t]*+\]\]"
+    rf"|^[ \t]*+\[[ \t]*+(?P<table>{_NAME})[ \t]*+\]"
+    rf"|(?P<key>{_NAME})[ \t]*+=|{_TEXT}|'[^'\n]*+'|[\w.:+-]++|{_MARK}",
+    re.MULTILINE | re.DOTALL,
+)
 
 
-class Parsed(Struct, frozen=True):
-    """path: for messages. has_repeated_keys: a JSON object has a key twice."""
+class SceneText:
+    """A scene file that is well-formed, and what is wrong in it.
 
-    path: str
-    location: Path
-    text: str
-    document: Any
-    has_repeated_keys: bool
+    path: for messages. location: where it lies. document: its values. Raises Refused.
+    """
+
+    def __init__(self, path: str, location: Path) -> None:
+        self.path = path
+        self.location = location
+        self.is_toml = is_toml(location)
+        self._text = read_text(path, location)
+        self._wrong: list[Wrong] = []
+        if self.is_toml:
+            self.document: Any = _toml(path, self._text)
+            return
+        self.document, has_repeated_keys = _json(path, self._text)
+        if has_repeated_keys:
+            keys = repeated_keys(self._text)
+            self._wrong = [Wrong("a second value for this key", *each) for each in keys]
+
+    @property
+    def is_right(self) -> bool:
+        return not self._wrong
 
     def lines(self, wanted: Sequence[Keys]) -> list[int]:
         """The line of each of these keys, or of the innermost table or list around it."""
-        lines = lines_of(self.text, wanted, toml=is_toml(self.location))
+        if not wanted:
+            return []
+        lines = lines_of(self._text, wanted, toml=self.is_toml)
         return [innermost(lines, keys) for keys in wanted]
+
+    def nulls(self) -> Iterator[Keys]:
+        """The keys whose value is null, which is no value of a scene file."""
+        waiting: list[tuple[Keys, Any]] = [((), self.document)] if "null" in self._text else []
+        while waiting:
+            keys, value = waiting.pop()
+            if value is None:
+                yield keys
+            elif isinstance(value, dict):
+                waiting += (((*keys, key), inner) for key, inner in value.items())
+            elif isinstance(value, list):
+                waiting += (((*keys, key), inner) for key, inner in enumerate(value))
+
+    def keep(self, error: Wrong | SatcheckError, *around: str | int) -> None:
+        """Keeps an error for `raise_any`. around: the path to where its own keys begin."""
+        keys = error.keys if isinstance(error, Wrong) else ()
+        self._wrong.append(Wrong(error.message, *around, *keys, code=error.code))
+
+    @contextmanager
+    def at(self, *keys: str | int) -> Iterator[None]:
+        """Keeps the error that is raised within. keys: the path to what is read there."""
+        try:
+            yield
+        except (Wrong, SatcheckError) as error:
+            self.keep(error, *keys)
+
+    def each(self, key: str, read: Callable[[Any, int], T]) -> list[T]:
+        """What `read` makes of the tables in a list, with their numbers. An error in one does not
+        hide those of others."""
+        found: list[T] = []
+        tables = self.document.get(key)
+        for number, table in enumerate(tables if isinstance(tables, list) else ()):
+            try:
+                found.append(read(table, number))
+            except (Wrong, SatcheckError) as error:
+                self.keep(error, key, number)
+        return found
+
+    def raise_any(self) -> None:
+        """Raises Refused if there are errors: the first in the file, with the rest as `others`."""
+        if not self._wrong:
+            return
+        shown = self._wrong[:MOST]
+        lines = self.lines([wrong.keys for wrong in shown])
+        errors = [
+            Refused(
+                wrong.code,
+                f"{dotted(wrong.keys)}: {wrong.message}" if wrong.keys else wrong.message,
+                file=self.path,
+                line=line,
+            )
+            for wrong, line in zip(shown, lines, strict=True)
+        ]
+        errors.sort(key=lambda error: error.line or 0)
+        if left := len(self._wrong[MOST:]):
+            errors.append(Refused("bad-scene", f"{left} more errors", file=self.path))
+        raise Refused.combined(errors)
+
+
+def dotted(keys: Keys) -> str:
+    """`bodies[2].position`, counted from 0."""
+    text = ""
+    for key in keys:
+        if isinstance(key, int):
+            text += f"[{key}]"
+        else:
+            plain = key.replace("_", "").replace("-", "").isalnum()
+            text += f".{key if plain else repr(key)}"
+    return text.removeprefix(".")
 
 
 def is_toml(location: Path) -> bool:
-    return location.suffix.lower() == TOML_SUFFIX
+    return location.suffix.lower() == ".toml"
 
 
 def read_text(path: str, location: Path) -> str:
@@ -55,14 +157,6 @@ def read_text(path: str, location: Path) -> str:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
         raise Refused("bad-encoding", "the scene file is not UTF-8", file=path) from None
-
-
-def parse(path: str, location: Path) -> Parsed:
-    """Raises Refused if the file is not well-formed TOML or JSON."""
-    text = read_text(path, location)
-    if is_toml(location):
-        return Parsed(path, location, text, _toml(path, text), False)
-    return Parsed(path, location, text, *_json(path, text))
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -98,7 +192,7 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
         return members
 
     def refuse(_: str) -> float:
-        return math.nan  # reported later, with the name of the body
+        return math.nan  # told later, with the name of the body
 
     try:
         document = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
@@ -109,3 +203,84 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
         message = f"not readable JSON: {why_unreadable(error)}"
         raise Refused("bad-scene", message, file=path) from None
     return document, repeated
+
+
+def lines_of(text: str, wanted: Iterable[Keys], *, toml: bool) -> Mapping[Keys, int]:
+    """The lines, from 1, of these keys and of all around them, as far as the text states them.
+
+    Raises ValueError or IndexError for a text that is no such document.
+    """
+    around = {keys[:count] for keys in wanted for count in range(len(keys) + 1)}
+    lines: dict[Keys, int] = {(): 1}
+    line, counted = 1, 0
+    for keys, at in _places(text, toml):
+        if keys in around and not (toml and keys in lines):  # in JSON the last of equal keys counts
+            line, counted = line + text.count("\n", counted, at), at
+            lines[keys] = line
+            if toml and len(lines) == len(around):
+                break
+    return lines
+
+
+def innermost(lines: Mapping[Keys, int], keys: Keys) -> int:
+    """The line of the keys, or of the innermost table or list around them that has one."""
+    return next(lines[keys[:n]] for n in range(len(keys), -1, -1) if keys[:n] in lines)
+
+
+def repeated_keys(text: str) -> Iterator[Keys]:
+    """The keys that occur twice in an object of a JSON text, without those in their values."""
+    seen: set[Keys] = set()
+    last: Keys | None = None
+    for keys, _ in _places(text, toml=False):
+        if keys in seen and (last is None or keys[: len(last)] != last):
+            last = keys
+            yield keys
+        seen.add(keys)
+
+
+def _places(text: str, toml: bool) -> Iterator[tuple[Keys, int]]:
+    """(keys, offset) of each key, header, and table in a list, in the order of the text."""
+    table: Keys = ()  # of the last header
+    value: Keys = ()  # of the last key
+    open_: list[Keys] = []  # the lists and tables around
+    number: dict[Keys, int] = {}  # of the current item of a list
+    for token in (_TOML if toml else _JSON).finditer(text):
+        owner = open_[-1] if open_ else table
+        kind, mark = token.lastgroup, token[0]
+        if kind == "key":
+            value = owner
+            for name in _names(token["key"], toml):
+                value = (*value, name)
+                yield value, token.start()
+        elif kind and not open_:  # within a list it is a list of one value, and no header
+            table = ()
+            for name in _names(token[kind], toml):
+                table = (*table, number[table], name) if table in number else (*table, name)
+                if table not in number:
+                    yield table, token.start()
+            if kind == "item":
+                number[table] = number.get(table, -1) + 1
+                table = (*table, number[table])
+                yield table, token.start()
+        elif mark in "[{":
+            if owner in number:
+                value = (*owner, number[owner])
+                yield value, token.start()
+            if mark == "[":
+                number[value] = 0
+            open_.append(value)
+        elif mark == "," and owner in number:
+            number[owner] += 1
+        elif mark in "]}":
+            number.pop(open_.pop(), None)
+
+
+@lru_cache
+def _names(key: str, toml: bool) -> Keys:
+    """The parts of a dotted key."""
+    names: list[str] = []
+    value: Any = tomllib.loads(f"{key} = 0") if toml else {json.loads(key): 0}
+    while isinstance(value, dict):
+        ((name, value),) = value.items()
+        names.append(name)
+    return (*names,)

@@ -9,6 +9,7 @@ import pytest
 
 from satcheck.plugins.ifc.kernel import Shape
 from satcheck.plugins.ifc.relations import meet_in_a_corner
+from satcheck.scene.files.raw_mesh import RawMesh
 
 TRIANGLE = np.array([0, 1, 2], "<u4").tobytes()
 
@@ -19,7 +20,8 @@ def wall(degrees: float = 0.0, at: tuple[float, float, float] = (0, 0, 0)) -> Sh
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     x, y, z = at
     matrix = (c, -s, 0.0, x, s, c, 0.0, y, 0.0, 0.0, 1.0, z, 0.0, 0.0, 0.0, 1.0)
-    return Shape(np.array(corners).astype("<f8").tobytes(), TRIANGLE, matrix, 5)
+    vertices = np.array(corners).astype("<f8").tobytes()
+    return Shape(RawMesh(vertices, TRIANGLE, "written-digits"), matrix)
 
 
 @pytest.mark.parametrize(

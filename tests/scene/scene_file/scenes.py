@@ -9,7 +9,7 @@ from typing import Any
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
-from satcheck.scene.scene_file.entries import SceneFile
+from satcheck.scene.scene_file.joined import SceneFile
 from satcheck.scene.scene_file.reading import read_scene_file
 from tests.scene import files
 

@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from satcheck.scene.scene_file.lines import Keys, innermost, lines_of, repeated_keys
+from satcheck.scene.scene_file.text import innermost, lines_of, repeated_keys
+from satcheck.scene.table import Keys
 
 TOML = '''# comment [[not.a.header]]
 schema = "one"   # = "two"

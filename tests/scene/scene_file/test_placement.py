@@ -7,9 +7,9 @@ import math
 import pytest
 
 from satcheck.core.transform import quaternion_matrix
-from satcheck.scene.scene_file.document import Body
-from satcheck.scene.scene_file.form import Wrong, converted
-from satcheck.scene.scene_file.placement import euler_matrix, placement, quaternion_of_euler
+from satcheck.scene.scene_file.document import Body, euler_matrix, quaternion_of_euler
+from satcheck.scene.scene_file.form import converted
+from satcheck.scene.table import Wrong
 
 HALF = math.sqrt(0.5)
 # A product of three cosines and sines, each within an ulp of its value.
@@ -17,7 +17,7 @@ ROUNDING = 8 * 2.0**-53
 
 
 def placed(**keys):
-    return placement(converted({"id": "a", "mesh": "a.obj", **keys}, Body))
+    return converted({"id": "a", "mesh": "a.obj", **keys}, Body).placement()
 
 
 def apply(transform, point):

@@ -226,7 +226,7 @@ WRONG = {
     "null": (
         lambda document: document["bodies"][1].update(euler=None),
         "bodies[1].euler",
-        "a list expected, not null",
+        "null is no value",
         "bad-scene",
     ),
     "$schema": (changed(**{"$schema": 3}), "'$schema'", "a text", "bad-scene"),
@@ -282,6 +282,30 @@ WRONG = {
         "bad-scene",
     ),
     "length": (changed("rules", 1, clearance="1mile"), "rules[1].clearance", "length", "bad-scene"),
+    "no length": (
+        changed("rules", 1, clearance=[1]),
+        "rules[1].clearance",
+        "a number or a text expected, not a list of 1",
+        "bad-scene",
+    ),
+    "no selectors": (
+        changed("motion", 0, bodies=[]),
+        "motion[0].bodies",
+        "a selector or a list of selectors expected",
+        "bad-scene",
+    ),
+    "second selector": (
+        changed("motion", 2, bodies=["tool", "group:"]),
+        "motion[2].bodies[1]",
+        "is empty",
+        "bad-rule",
+    ),
+    "null in a list": (
+        lambda document: document["bodies"][1]["euler"].append(None),
+        "bodies[1].euler[3]",
+        "null is no value",
+        "bad-scene",
+    ),
     "severity": (
         changed("rules", 1, severity="warn"),
         "rules[1].severity",
@@ -349,7 +373,7 @@ WRONG = {
 @pytest.mark.parametrize("name", WRONG)
 def test_refused_at_its_key_and_line(tmp_path, name, form):
     change, where, said, code = WRONG[name]
-    if form == "toml" and name in ("null", "$schema"):
+    if form == "toml" and name in ("null", "null in a list", "$schema"):
         pytest.skip("not written in TOML here")
     document = full()
     change(document)

@@ -125,6 +125,11 @@ def test_a_typo_in_a_body_is_refused_with_the_key_meant(folder):
         load(folder, {"schema": "satcheck-scene-1", "bodys": []})
 
 
+def test_null_is_named_as_such(folder):
+    with pytest.raises(Refused, match=r"bodies\[0\].id: a text expected, not null"):
+        load(folder, scene_of({"id": None, "mesh": "../meshes/cube.obj"}))
+
+
 SINGULAR = [[1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 ZERO = [[0, 0, 0, 3], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]]
 NOT_A_NUMBER = [*SHIFT[:2], [0, 0, float("nan"), 0], SHIFT[3]]
