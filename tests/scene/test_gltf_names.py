@@ -12,7 +12,8 @@ import pytest
 from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.gltf_nodes import parse_document
+from satcheck.scene.files.gltf_document import read_document
+from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.read_options import GeometryKind
 from tests.scene import files
 from tests.scene.loading import refusal
@@ -250,7 +251,7 @@ def test_a_key_given_twice_is_refused() -> None:
         '"mesh": 0, "tr', '"translation": [0, 0, 0], "mesh": 0, "tr'
     )
     with pytest.raises(Refused, match="'translation' occurs twice") as error:
-        parse_document(memoryview(made.encode()))
+        read_document(memoryview(made.encode()), UnknownNames())
     assert error.value.code == "bad-record"
 
 
@@ -258,7 +259,7 @@ def test_many_keys_before_one_given_twice_take_no_time_of_their_own() -> None:
     """They are counted in one pass: looking back from each key would take hours."""
     keys = ", ".join(f'"{number}": 0' for number in [*range(300_000), 299_999])
     with pytest.raises(Refused, match="'299999' occurs twice"):
-        parse_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()))
+        read_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()), UnknownNames())
 
 
 @pytest.mark.parametrize(
