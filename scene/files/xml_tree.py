@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import math
 import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import IO, NoReturn
+from typing import NoReturn
 from xml.parsers import expat
 
 import numpy as np
@@ -63,10 +62,10 @@ class UnboundPrefix(Refused):
     """A prefix is used but not declared."""
 
 
-def parse_xml(parse: Callable[[], object]) -> None:
-    """Runs a parser and turns an error of expat into a Refused."""
+def parse_xml(parser: expat.XMLParserType, data: bytes | memoryview, *, whole: bool = True) -> None:
+    """Parse a document, or the head of one. Raises Refused instead of errors of expat."""
     try:
-        parse()
+        parser.Parse(data, whole)
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
         if reason == expat.errors.XML_ERROR_UNBOUND_PREFIX:
@@ -78,10 +77,6 @@ def parse_xml(parse: Callable[[], object]) -> None:
         raise Refused("bad-record", f"line {error.lineno}: not well-formed XML: {reason}") from None
     except (LookupError, UnicodeError) as error:
         raise Refused("bad-encoding", f"invalid XML encoding: {error}") from None
-
-
-def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
-    parse_xml(lambda: parser.ParseFile(stream))
 
 
 def split_name(name: str) -> tuple[str, str]:
@@ -246,14 +241,13 @@ class Element:
 
 
 def read_elements(
-    data: bytes | memoryview | IO[bytes],
+    data: bytes | memoryview,
     *,
     encodings: frozenset[str] | None = None,
     file: str | None = None,
 ) -> Element:
     """The outermost element. encodings: as in `guarded_parser`. file: of a robot, whose names keep
     their prefixes. Raises Refused."""
-    stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
     parser = guarded_parser(encodings, namespaces=file is None)
     outermost: list[Element] = []
     around: list[Element] = []
@@ -273,7 +267,7 @@ def read_elements(
     parser.EndElementHandler = lambda _: around.pop()
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
     try:
-        parse_stream(parser, stream)
+        parse_xml(parser, data)
     except Refused as error:
         if not around:
             raise
