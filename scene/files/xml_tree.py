@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NoReturn
 from xml.parsers import expat
@@ -24,6 +23,7 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", r
 _PREFIX = re.compile(r"[<\s]([^\W\d][\w.-]*):[^\W\d]")  # of an element or an attribute
 # The name of the outermost element with all before it, and its attributes.
 _OUTERMOST = re.compile(r"((?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<]++)*+<[^\s/>]+)([^>]*)", re.DOTALL)
+_MOST_DIGITS = 18  # of a count or an index
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE)"
 
@@ -153,14 +153,6 @@ class Element:
         """A required attribute that is not empty."""
         return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
-    def below(self) -> Iterator[Element]:
-        """All elements inside, in the order of the file."""
-        waiting = list(reversed(self.children))
-        while waiting:
-            element = waiting.pop()
-            yield element
-            waiting.extend(reversed(element.children))
-
     def numbers(
         self, attribute: str, count: int, default: tuple[float, ...] | None = None
     ) -> tuple[float, ...]:
@@ -195,26 +187,26 @@ class Element:
             self.refuse(f'{before}"{value}": {EXPAND}', "xacro")
         self.refuse(f'{before}"{value}" {what}')
 
-    def floats(self, words: list[str]) -> list[float]:
-        try:
-            values = [float(word) for word in words]
-        except ValueError as error:
-            self.refuse(str(error))
-        if not all(map(math.isfinite, values)):
-            self.refuse("a number that is not finite", "non-finite")
-        return values
-
     def counted_floats(self) -> NDArray[np.float64]:
         """The numbers in the element. Their count has to equal its `count`."""
         words, count = self.text.split(), self.integer("count")
         if len(words) != count:
             message = f"{self.tag} promises {count} numbers and has {len(words)}"
             self.refuse(message, "count-mismatch")
-        return np.array(self.floats(words), np.float64)
+        try:
+            values = np.array(list(map(float, words)), np.float64)
+        except ValueError as error:
+            self.refuse(str(error))
+        if not np.isfinite(values).all():
+            self.refuse("a number that is not finite", "non-finite")
+        return values
 
     def integers(self) -> list[int]:
         """The whole numbers >= 0 in the element."""
-        values = self._whole(self.text.split())
+        try:
+            values = [int(word) for word in self.text.split()]
+        except ValueError as error:  # no whole number, or one of thousands of digits
+            self.refuse(str(error))
         if values and min(values) < 0:
             self.refuse(f"negative number {min(values)}", "index-out-of-range")
         return values
@@ -222,15 +214,9 @@ class Element:
     def integer(self, name: str) -> int:
         """A required attribute: a whole number >= 0."""
         word = self.attribute(name).strip()
-        if not word.isdecimal():
+        if not (word.isdecimal() and len(word) <= _MOST_DIGITS):
             self.refuse(f"{name}={word!r} is not a number")
-        return self._whole([word])[0]
-
-    def _whole(self, words: list[str]) -> list[int]:
-        try:
-            return [int(word) for word in words]
-        except ValueError as error:  # no whole number, or one of thousands of digits
-            self.refuse(str(error))
+        return int(word)
 
     def refuse(self, message: str, code: str | None = None) -> NoReturn:
         """Raises Refused (`bad-record`), or RefusedElement (`bad-robot`) in a robot."""
