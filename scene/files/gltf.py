@@ -9,7 +9,7 @@ specification.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from functools import cache, cached_property
 
 from msgspec.structs import replace
 
@@ -100,12 +100,11 @@ class _Scene:
         self._meshes = Meshes(document, accessors, work)
         self._copied = 0
         self._matrix = cache(lambda number: placement_of(self._nodes[number], number))
-        self._parents: dict[int, int] | None = None
 
     def read(self) -> RawScene:
         paths = UniqueNames()
         placed = [
-            Instance(self._shape(node.key), matrix, paths.unique(path))
+            Instance(Shape.of(self._nodes[node.key]), matrix, paths.unique(path))
             for node in self._placed(lambda number: self._nodes[number].mesh != NONE)
             for path, matrix in self._copies(node)
         ]
@@ -148,8 +147,7 @@ class _Scene:
                 drawn.add(number)
                 waiting += self._nodes[number].children
         used, lost = set(), []
-        for number in range(len(self._nodes)):
-            node = self._nodes[number]
+        for number, node in enumerate(self._nodes):
             used.add(node.mesh)
             if node.mesh != NONE and number not in drawn:
                 lost.append(f"node {number}")
@@ -179,10 +177,8 @@ class _Scene:
         document = self._document
         if document.scenes:
             return list(document.scenes[max(document.scene, 0)].nodes)
-        every = range(len(self._nodes))
-        children = {child for number in every for child in self._nodes[number].children}
-        roots = [number for number in every if number not in children]
-        if every and not roots:
+        roots = [number for number in range(len(self._nodes)) if number not in self._parents]
+        if self._nodes and not roots:
             raise Refused("reference-cycle", "every node is a child of another: a cycle")
         return roots
 
@@ -205,14 +201,13 @@ class _Scene:
         try:
             if isinstance(shape, Refusal):
                 return shape, matrix
-            if isinstance(shape, int):
-                key = Shape(shape) if collider.node is None else self._shape(collider.node)
-                mesh = self._mesh(key)
+            if isinstance(shape, Shape):
+                mesh = self._mesh(shape)
                 if collider.hull and isinstance(mesh, RawMesh):
                     hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
                     vertices, triangles = hull.to_bytes()
                     mesh = replace(mesh, vertices=vertices, triangles=triangles)
-                return mesh, matrix if key.skin == NONE else None
+                return mesh, matrix if shape.skin == NONE else None
             if not isinstance(shape, Box):
                 matrix = multiply(matrix, UPRIGHT)
                 refuse_skew(shape, matrix)
@@ -221,11 +216,6 @@ class _Scene:
             return Refusal(error.code, error.message), matrix
         except (OverflowError, ValueError) as error:
             return Refusal("bad-record", f"convex hull: {error}"), matrix
-
-    def _shape(self, number: int) -> Shape:
-        node = self._nodes[number]
-        self._document.meshes.name(node.mesh)  # refuses one that is not there
-        return Shape(node.mesh, node.weights, node.skin)
 
     def _mesh(self, shape: Shape) -> RawMesh | Refusal:
         """Returns a Refusal for a mesh that cannot be used, so that its nodes stay in the scene."""
@@ -279,14 +269,12 @@ class _Scene:
             matrix = multiply(self._matrix(parent), matrix)
         return matrix
 
+    @cached_property
+    def _parents(self) -> dict[int, int]:
+        return {child: parent for parent, node in enumerate(self._nodes) for child in node.children}
+
     def _above(self, node: int) -> Iterator[int]:
         """The nodes around a node, from the inside."""
-        if self._parents is None:
-            self._parents = {
-                child: parent
-                for parent in range(len(self._nodes))
-                for child in self._nodes[parent].children
-            }
         seen = {node}
         while (parent := self._parents.get(node)) is not None:
             if parent in seen:

@@ -27,6 +27,7 @@ from satcheck.scene.files.gltf_document import (
     Vector,
     checked,
 )
+from satcheck.scene.files.gltf_meshes import Shape
 from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.vocabulary import Names
@@ -76,12 +77,10 @@ class _Given(Struct, frozen=True, rename="camel"):
 
 
 class Collider(Struct, frozen=True):
-    """shape: an exact shape along z, or the number of a mesh. hull: the convex hull of the mesh is
-    the body. node: the number of the node whose skin and weights the mesh has; None: none."""
+    """shape: an exact shape along z, or a mesh. hull: the convex hull of the mesh is the body."""
 
-    shape: Primitive | int | Refusal
+    shape: Primitive | Shape | Refusal
     hull: bool = False
-    node: int | None = None
 
 
 class Colliders:
@@ -119,10 +118,10 @@ class Colliders:
             geometry = self._read(collider.geometry, "geometry", where)
             if geometry.shape != NONE:
                 return self._shape(KHR_SHAPES, geometry.shape)
+            shape = Shape(geometry.mesh)
             if geometry.node != NONE:
-                mesh = self._document.nodes[geometry.node].mesh
-                return Collider(mesh, geometry.convex_hull, geometry.node)
-            return Collider(geometry.mesh, geometry.convex_hull)
+                shape = Shape.of(self._document.nodes[geometry.node])
+            return Collider(shape, geometry.convex_hull)
         except Refused as error:
             return Collider(Refusal(error.code, error.message))
 
@@ -133,7 +132,7 @@ class Colliders:
 
     def _shape(self, name: str, number: int) -> Collider:
         where = f"shape {number}"
-        shapes = self._document.extensions.get(name, {}).get("shapes", [])
+        shapes = checked(self._document.extensions.get(name, {}).get("shapes", []), list[Any], name)
         if not 0 <= number < len(shapes):
             message = f"{where} does not exist, there are {len(shapes)}"
             raise Refused("index-out-of-range", message)
@@ -151,7 +150,7 @@ class Colliders:
                 case "capsule" | "cylinder":
                     return Collider(_round(kind, sizes))
                 case "convex" | "trimesh":
-                    return Collider(sizes.mesh, kind == "convex")
+                    return Collider(Shape(sizes.mesh), kind == "convex")
         except ValueError as error:
             raise Refused("bad-record", f"{where}: {error}") from None
         raise Refused("unsupported-feature", f"a collider of type {kind!r} is not read")

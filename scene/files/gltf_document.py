@@ -75,9 +75,9 @@ class Table(Generic[Object]):
         return (self[number] for number in range(len(self)))
 
     def __getitem__(self, number: int) -> Object:
+        given = self._object(number)
         if number not in self._made:
-            where = f"{self._kind.what} {number}"
-            self._made[number] = checked(self._object(number), self._kind, where)
+            self._made[number] = checked(given, self._kind, f"{self._kind.what} {number}")
         return self._made[number]
 
     def name(self, number: int) -> object:

@@ -83,7 +83,7 @@ class Unpacked:
         id_ = self._ids.get(name)
         if id_ is None:
             return None
-        attribute = self._mesh.get_attribute_by_unique_id(id_)
+        attribute = self._mesh.get_attribute_by_unique_id(id_) if type(id_) is int else None
         data = None if attribute is None else attribute["data"]
         if data is None or data.ndim != 2 or data.shape[1] != count:
             raise Refused("bad-record", f"Draco data: no attribute {id_!r} for {name}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from msgspec import Struct
 
@@ -13,7 +13,15 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.flatten import concatenate
 from satcheck.scene.files.gltf_buffers import Accessors, Columns, Work
-from satcheck.scene.files.gltf_document import DRACO, NONE, Attributes, Document, Draco, Primitive
+from satcheck.scene.files.gltf_document import (
+    DRACO,
+    NONE,
+    Attributes,
+    Document,
+    Draco,
+    Node,
+    Primitive,
+)
 from satcheck.scene.files.raw_mesh import (
     NO_SURFACE,
     Block,
@@ -40,6 +48,10 @@ class Shape(Struct, frozen=True):
     mesh: int
     weights: tuple[float, ...] = ()
     skin: int = NONE
+
+    @classmethod
+    def of(cls, node: Node) -> Self:
+        return cls(node.mesh, node.weights, node.skin)
 
 
 class Skin(Struct, frozen=True):
@@ -101,8 +113,9 @@ class Meshes:
         attributes = primitive.attributes
         if "POSITION" not in attributes:
             raise Refused("bad-record", f"{where}: a primitive without positions")
-        needed = {attributes["POSITION"], primitive.indices} - {NONE}
-        has_data = all(map(self._accessors.has_data, needed))
+        has_data = self._accessors.has_data(attributes["POSITION"]) and (
+            primitive.indices == NONE or self._accessors.has_data(primitive.indices)
+        )
         packed = primitive.extension(DRACO, Draco, where)
         if packed is not None and (self._requires_draco or not has_data):
             if not self._work.isolated:

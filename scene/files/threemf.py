@@ -58,11 +58,8 @@ class _Package:
         if not root.items:
             raise Refused("empty-mesh", "empty mesh: the build has no items")
         nodes = instances(
-            [((item.part, item.id), item.matrix) for item in root.items],
-            children=lambda key: [
-                ((reference.part, reference.id), reference.matrix)
-                for reference in self._object(*key).references
-            ],
+            root.items,
+            children=lambda key: self._object(*key).references,
             has_mesh=lambda key: self._object(*key).has_mesh,
             name=lambda key: self._object(*key).name,
             kind="object",

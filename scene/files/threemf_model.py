@@ -62,10 +62,14 @@ _DECLARATIONS = (b"<?xml ", BOM_UTF8 + b"<?xml ")
 _TAKEN = "satcheck-rows"  # the processing instruction in place of a run
 
 
+Key = tuple[str, str]  # a part, and the id of an object in it
+Reference = tuple[Key, Transform | None]  # an object, and where it is placed
+
+
 @dataclass(slots=True)
 class Object:
-    """coordinates, corners: of vertices and triangles, as written. refusal: the first thing wrong
-    with its mesh."""
+    """coordinates, corners: of vertices and triangles, as written. references: its components.
+    refusal: the first thing wrong with its mesh."""
 
     name: str
     kind: str
@@ -88,7 +92,7 @@ class Object:
     def leave_out(self, volume: Volume) -> bool:
         """Drop a volume that is no material. False: it is none of this object, or not just one."""
         if volume.triangles is None:
-            parts = [each for each in self.references if each.id == volume.part]
+            parts = [each for each in self.references if each[0][1] == volume.part]
             if len(parts) == 1:
                 self.references.remove(parts[0])
             return len(parts) == 1
@@ -136,15 +140,6 @@ class Object:
             message = f"face index out of range: {max(triangles)} of {vertices} vertices"
             raise Refused("index-out-of-range", message)
         return triangles.tobytes()
-
-
-@dataclass(slots=True)
-class Reference:
-    """A component or a build item: object `id` of `part`, placed by `matrix` (row-major 4x4)."""
-
-    part: str
-    id: str
-    matrix: Transform | None
 
 
 @dataclass(slots=True)
@@ -353,9 +348,10 @@ class _ModelReader:
         return self._object
 
     def _reference(self, attributes: dict[str, str]) -> Reference:
+        """A component or a build item."""
         path = next((text for key, text in attributes.items() if short(key) == "p:path"), None)
         part = part_name(path) if path else self._part
-        return Reference(part, attributes["objectid"], self._matrix(attributes))
+        return (part, attributes["objectid"]), self._matrix(attributes)
 
     def _matrix(self, attributes: dict[str, str]) -> Transform | None:
         """3MF writes 4x3 values for row vectors; here they become a 4x4 for column vectors."""

@@ -221,6 +221,24 @@ def test_a_node_with_a_negative_mesh_is_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, made)[0] == "bad-record"
 
 
+@pytest.mark.parametrize("number", [[0], {}, None, "0", True, 0.0])
+def test_a_number_of_another_type_is_refused(tmp_path: Path, number: Any) -> None:
+    made = document()
+    (whole,) = made["meshes"][0]["primitives"]
+    made["meshes"].append({"primitives": [{**whole, "attributes": {"POSITION": number}}]})
+    made["nodes"][1]["mesh"] = 1
+    (lost,) = read(tmp_path, made).unreadable
+    assert (lost.id, lost.issue.code) == ("b", "bad-record")
+
+
+def test_shapes_that_are_no_list_cannot_be_checked(tmp_path: Path) -> None:
+    made = with_colliders(KHR, 0, 1)
+    made["extensions"]["KHR_implicit_shapes"]["shapes"] = 1
+    assert {lost.issue.code for lost in read(tmp_path, made, "collision").unreadable} == {
+        "bad-record"
+    }
+
+
 def test_a_mesh_without_primitives_cannot_be_checked(tmp_path: Path) -> None:
     made = document()
     made["meshes"].append({"name": "lost"})
