@@ -22,7 +22,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
 from satcheck.scene.files.gltf import placement_of
 from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
-from satcheck.scene.files.gltf_document import NONE, Count, Document, Primitive, checked
+from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive, checked
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
@@ -64,7 +64,7 @@ def read_step(file: File) -> RawScene:
     glb = _tessellated(data, options)
     text, chunk = split_glb(memoryview(glb))
     try:
-        document = checked(json.loads(str(text, "utf-8")), Document, "glTF")
+        document = checked(json.loads(str(text, "utf-8")), GltfDocument, "glTF")
     except ValueError:  # it writes numbers that are not finite as they are
         message = "OpenCascade turns it into coordinates that are infinite or no numbers"
         raise Refused("non-finite", message) from None
@@ -89,7 +89,7 @@ def _tessellated(data: bytes, options: ReadOptions) -> bytes:
 class _Assembly:
     def __init__(
         self,
-        document: Document,
+        document: GltfDocument,
         chunk: memoryview | None,
         exchange: Exchange,
         options: ReadOptions,

@@ -25,7 +25,7 @@ from satcheck.scene.files.gltf_document import (
     ANIMATING,
     INSTANCING,
     NONE,
-    Document,
+    GltfDocument,
     Instancing,
     Node,
     read_document,
@@ -92,7 +92,7 @@ def _without_surface(mesh: RawMesh | Refusal) -> bool:
 class _Scene:
     """The default scene of a document. Its methods raise Refused."""
 
-    def __init__(self, document: Document, accessors: Accessors, work: Work) -> None:
+    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
         self._work = work
         self._document = document
         self._accessors = accessors

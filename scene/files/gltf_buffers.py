@@ -24,7 +24,7 @@ from satcheck.scene.files.gltf_document import (
     Attributes,
     Buffer,
     BufferView,
-    Document,
+    GltfDocument,
     Meshopt,
     Sparse,
     SparseValues,
@@ -112,7 +112,7 @@ class Accessors:
 
     def __init__(
         self,
-        document: Document,
+        document: GltfDocument,
         chunk: memoryview | None,
         directory: str,
         work: Work,

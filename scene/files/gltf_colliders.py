@@ -22,7 +22,7 @@ from satcheck.scene.files.gltf_document import (
     OMI_BODIES,
     OMI_SHAPES,
     Count,
-    Document,
+    GltfDocument,
     Number,
     Vector,
     checked,
@@ -86,7 +86,7 @@ class Collider(Struct, frozen=True):
 class Colliders:
     """The colliders of a document. Raises Refused for a misspelt name of a rigid body."""
 
-    def __init__(self, document: Document, unknown: UnknownNames) -> None:
+    def __init__(self, document: GltfDocument, unknown: UnknownNames) -> None:
         self._document = document
         self._unknown = unknown
         self._bodies = [

@@ -217,7 +217,7 @@ class Buffer(_Object, frozen=True, kw_only=True):
     uri: str | None = None
 
 
-class Document(_Object, frozen=True, kw_only=True):
+class GltfDocument(_Object, frozen=True, kw_only=True):
     asset: Asset
     scene: Count = NONE
     scenes: Table[Scene] = Table([], Scene)
@@ -335,7 +335,7 @@ EXTENSIONS_OF = {
 # What each object is called, and its names.
 PLACES = {
     "file": names_of(
-        Document,
+        GltfDocument,
         **dict.fromkeys(("materials", "textures", "images", "samplers"), "appearance"),
         cameras="no extent",
     ),
@@ -404,7 +404,7 @@ def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
             _look(each, inner, f"{place}{said}", unknown)
 
 
-def read_document(data: memoryview, unknown: UnknownNames) -> Document:
+def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:
     """Return the document of the JSON of a glTF file, and gather the names that nobody knows.
     Raises Refused, also for a misspelt name."""
     tree = _tree(data)
@@ -416,7 +416,7 @@ def read_document(data: memoryview, unknown: UnknownNames) -> Document:
     if asset.min_version != _VERSION:
         message = f"the file needs glTF version {asset.min_version!r}: {_VERSION} is read"
         raise Refused("unsupported-feature", message)
-    document = checked(tree, Document, "glTF")
+    document = checked(tree, GltfDocument, "glTF")
     for name in document.extensions_required:
         if not EXTENSIONS.knows(name):
             raise Refused("unsupported-feature", f"the file requires extension {name!r}")

@@ -17,8 +17,8 @@ from satcheck.scene.files.gltf_document import (
     DRACO,
     NONE,
     Attributes,
-    Document,
     Draco,
+    GltfDocument,
     Node,
     Primitive,
 )
@@ -63,7 +63,7 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    def __init__(self, document: Document, accessors: Accessors, work: Work) -> None:
+    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
         self._meshes = document.meshes
         self._accessors = accessors
         self._work = work
