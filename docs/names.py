@@ -15,7 +15,7 @@ from textwrap import TextWrapper
 from satcheck.plugins.sdf import places as sdf
 from satcheck.plugins.step import exchange as step
 from satcheck.plugins.usd import names as usd
-from satcheck.scene.files import gltf_colliders, gltf_vocabulary, threemf_vocabulary
+from satcheck.scene.files import gltf_colliders, gltf_document, threemf_vocabulary
 from satcheck.scene.robot import srdf, urdf_places
 from satcheck.scene.robot.slips import Place
 from satcheck.scene.vocabulary import Names
@@ -29,11 +29,11 @@ _WRAPPER = TextWrapper(140, subsequent_indent="  ", break_long_words=False, brea
 
 
 def gltf() -> Iterator[str]:
-    extensions = gltf_vocabulary.EXTENSIONS_OF.items()
+    extensions = gltf_document.EXTENSIONS_OF.items()
     read = {f"{place} extensions": names for place, names in extensions}
     yield from _read({**read, **gltf_colliders.PLACES})
-    yield from _harmless("properties", {**gltf_vocabulary.PLACES, **gltf_colliders.PLACES})
-    yield from _harmless("extensions", {"file": gltf_vocabulary.EXTENSIONS})
+    yield from _harmless("properties", {**gltf_document.PLACES, **gltf_colliders.PLACES})
+    yield from _harmless("extensions", {"file": gltf_document.EXTENSIONS})
 
 
 def threemf() -> Iterator[str]:

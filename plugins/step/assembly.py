@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NoReturn
 
 import numpy as np
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
@@ -20,18 +20,10 @@ from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.plugins.step.readers import CHORD
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
-from satcheck.scene.files.gltf_accessors import Accessors
-from satcheck.scene.files.gltf_buffers import (
-    BufferViews,
-    Work,
-    extension,
-    integer,
-    items,
-    member,
-    split_glb,
-)
+from satcheck.scene.files.gltf import placement_of
+from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
+from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive, checked
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
-from satcheck.scene.files.gltf_nodes import placement_of
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.files.readers import File
@@ -43,6 +35,16 @@ _MILLIMETRES = 1000.0  # in the metre of glTF
 _FACES = "TM_brep_faces"  # the extension in which cascadio says what the faces of a solid are
 # Names that programs make up: of SolidWorks, and of OpenCascade.
 _MADE_UP = re.compile(r"NAUO\d+|=>\[[\d:]*\]|")
+
+
+class _Face(Struct, frozen=True):
+    type: str | None = None
+    face_index: Count = NONE
+
+
+class _Faces(Struct, frozen=True):
+    face_indices: Count = field(name="faceIndices")
+    faces: tuple[_Face | None, ...] = ()
 
 
 class _Part(Struct, frozen=True):
@@ -62,7 +64,7 @@ def read_step(file: File) -> RawScene:
     glb = _tessellated(data, options)
     text, chunk = split_glb(memoryview(glb))
     try:
-        document: dict[str, Any] = json.loads(str(text, "utf-8"))
+        document = checked(json.loads(str(text, "utf-8")), GltfDocument, "glTF")
     except ValueError:  # it writes numbers that are not finite as they are
         message = "OpenCascade turns it into coordinates that are infinite or no numbers"
         raise Refused("non-finite", message) from None
@@ -87,28 +89,27 @@ def _tessellated(data: bytes, options: ReadOptions) -> bytes:
 class _Assembly:
     def __init__(
         self,
-        document: dict[str, Any],
+        document: GltfDocument,
         chunk: memoryview | None,
         exchange: Exchange,
         options: ReadOptions,
     ) -> None:
         work = Work(isolated=True)
-        views = BufferViews(document, chunk, "", work, NOTHING_ELSE)
-        self._accessors = Accessors(document, views, work)
+        self._accessors = Accessors(document, chunk, "", work, NOTHING_ELSE)
         self._meshes = Meshes(document, self._accessors, work)
         self._document = document
-        self._nodes = items(document, "nodes")
-        self._primitives = [items(mesh, "primitives") for mesh in items(document, "meshes")]
+        self._nodes = document.nodes
+        self._primitives = [mesh.primitives for mesh in document.meshes]
         self._exchange = exchange
         self._options = options
 
     def read(self) -> RawScene:
-        scenes = items(self._document, "scenes")
-        roots = items(member(scenes, 0, "scene"), "nodes") if scenes else []
+        scenes = self._document.scenes
+        roots = scenes[0].nodes if scenes else ()
         nodes = instances(
             [(root, self._matrix(root)) for root in roots],
             children=self._children,
-            has_mesh=lambda node: "mesh" in self._nodes[node] or not self._children(node),
+            has_mesh=lambda node: self._nodes[node].mesh != NONE or not self._children(node),
             name=self._name,
             kind="product",
         )
@@ -125,11 +126,11 @@ class _Assembly:
         return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
 
     def _children(self, node: int) -> list[tuple[int, Transform | None]]:
-        return [(child, self._matrix(child)) for child in items(self._nodes[node], "children")]
+        return [(child, self._matrix(child)) for child in self._nodes[node].children]
 
     def _matrix(self, node: int) -> Transform | None:
         """The placement in millimetres. Coordinates in the document are of float32."""
-        matrix = placement_of(member(self._nodes, node, "node"), node)
+        matrix = placement_of(self._nodes[node], node)
         if matrix is None:
             return None
         x, y, z = _millimetres(np.array(matrix[3:12:4])).tolist()
@@ -138,25 +139,25 @@ class _Assembly:
     def _name(self, number: int) -> str:
         """The name of the occurrence, else of the product."""
         node = self._nodes[number]
-        name = tidy_name(node.get("name"), "")
+        name = tidy_name(node.name, "")
         if name not in self._exchange.products and not _MADE_UP.fullmatch(name):
             return name
-        named = self._meshes.name(node["mesh"]) if "mesh" in node else None
+        named = None if node.mesh == NONE else self._document.meshes.name(node.mesh)
         return tidy_name(named or self._exchange.products.get(name), name or f"product{number}")
 
     def _is_curves(self, node: int) -> bool:
-        mesh = self._nodes[node].get("mesh")
-        if mesh is None:
+        mesh = self._nodes[node].mesh
+        if mesh == NONE:
             return False
-        return all(primitive.get("mode", 4) in NO_TRIANGLES for primitive in self._primitives[mesh])
+        return all(primitive.mode in NO_TRIANGLES for primitive in self._primitives[mesh])
 
     def _part(self, node: int) -> _Part:
         """Occurrences of one product have meshes of their own, with the same primitives."""
-        mesh = self._nodes[node].get("mesh")
-        if mesh is None:
+        mesh = self._nodes[node].mesh
+        if mesh == NONE:
             return _Part(self._name(node), None)
         return _Part(
-            tidy_name(self._meshes.name(mesh), f"mesh{mesh}"),
+            tidy_name(self._document.meshes.name(mesh), f"mesh{mesh}"),
             self._primitives.index(self._primitives[mesh]),
         )
 
@@ -196,17 +197,15 @@ class _Assembly:
             )
         return Refusal("no-surface", f"the file has no surface for the product {name!r}")
 
-    def _is_flat(self, primitive: dict[str, Any]) -> bool:
+    def _is_flat(self, primitive: Primitive) -> bool:
         """Whether all faces are planes, of which facets are exact."""
-        faces = extension(primitive, _FACES)
+        faces = primitive.extension(_FACES, _Faces, "a primitive")
         if faces is None:
             return False
         planes = {
-            integer(face, "face_index", -1)
-            for face in items(faces, "faces")
-            if isinstance(face, dict) and face.get("type") == "plane"  # others may be null
+            face.face_index for face in faces.faces if face is not None and face.type == "plane"
         }
-        used, _ = self._accessors.indices(integer(faces, "faceIndices", -1))
+        used, _ = self._accessors.indices(faces.face_indices)
         return planes.issuperset(used)
 
     def _warnings(
@@ -239,8 +238,12 @@ class _Assembly:
     def _faces(self, parts: Iterable[_Part]) -> int | None:
         """How many faces the products have; None: cascadio says it only of a part of them."""
         used = {part.mesh for part in parts if part.mesh is not None}
-        faces = [extension(each, _FACES) for mesh in used for each in self._primitives[mesh]]
-        known = [items(each, "faces") for each in faces if each is not None]
+        faces = [
+            each.extension(_FACES, _Faces, "a primitive")
+            for mesh in used
+            for each in self._primitives[mesh]
+        ]
+        known = [each.faces for each in faces if each is not None]
         return sum(map(len, known)) if len(known) == len(faces) else None
 
 

@@ -130,7 +130,7 @@ class _Document:
         unit = asset.find("unit") if asset else None
         if unit is None or "meter" not in unit.attributes:
             return "meters", None
-        (metres,) = unit.floats([unit.attributes["meter"]])
+        metres = unit.number("meter")
         if metres <= 0.0:
             unit.refuse("the unit has no length")
         units = "meters" if metres == 1.0 else f"{metres} * meters"
@@ -241,17 +241,11 @@ def _matrix_of(node: Element) -> Transform:
 
 
 def _move(element: Element) -> Transform:
-    words, wanted = element.text.split(), _MOVES[element.tag]
-    try:
-        values = [float(word) for word in words]
-    except ValueError:
-        values = []
-    if len(values) != wanted or not all(map(math.isfinite, values)):
-        element.refuse(f"should be {wanted} finite numbers")
+    values = element.text_numbers(_MOVES[element.tag])
     if element.tag == "matrix":
-        if values[12:] != [0.0, 0.0, 0.0, 1.0]:
+        if values[12:] != (0.0, 0.0, 0.0, 1.0):
             element.refuse("the last row should be 0 0 0 1")
-        return tuple(values)
+        return values
     x, y, z, *angle = values
     if element.tag == "translate":
         return placed((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (x, y, z))
@@ -276,7 +270,8 @@ def _points(mesh: Element) -> Floats:
     wanted = positions[0].attributes.get("source", "").lstrip("#")
     for source in mesh.all("source"):
         if source.attributes.get("id") == wanted:
-            accessor = next((e for e in source.below() if e.tag == "accessor"), None)
+            technique = source.find("technique_common")
+            accessor = technique.find("accessor") if technique else None
             if accessor is not None and _makes_points(accessor):
                 numbers = source.need("float_array")
                 named = accessor.attributes.get("source", "").lstrip("#")

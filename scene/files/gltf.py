@@ -8,31 +8,30 @@ specification.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, cached_property
 
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
 from satcheck.core.shapes import Box, Primitive
-from satcheck.core.transform import Transform
+from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.gltf_accessors import Accessors
-from satcheck.scene.files.gltf_buffers import (
-    BufferViews,
-    Work,
-    extension,
-    integer,
-    items,
-    member,
-    split_glb,
-)
+from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
 from satcheck.scene.files.gltf_colliders import UPRIGHT, Collider, Colliders, refuse_skew
+from satcheck.scene.files.gltf_document import (
+    ANIMATING,
+    INSTANCING,
+    NONE,
+    GltfDocument,
+    Instancing,
+    Node,
+    read_document,
+)
 from satcheck.scene.files.gltf_meshes import Meshes, Shape, Skin
-from satcheck.scene.files.gltf_nodes import NodeGraph, parse_document, trs_placement
-from satcheck.scene.files.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
-from satcheck.scene.files.placing import Instance, multiply, raw_scene, tidy_name
+from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.files.raw_mesh import (
     NO_SURFACE,
     RawMesh,
@@ -47,10 +46,6 @@ from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.words import listed
 
-# Extensions that move all of the geometry even where they are optional.
-_MOVING = frozenset({"CESIUM_RTC"})
-_ANIMATED = ("time-sampled", "the file is animated; checked as stored")
-
 
 def read_gltf(file: File) -> RawScene:
     """Return the default scene of a glTF or GLB file: its meshes, and the nodes that have one; for
@@ -62,56 +57,32 @@ def read_gltf(file: File) -> RawScene:
     geometry = file.options.geometry
     data = memoryview(file.data)
     text, chunk = split_glb(data) if file.format == "glb" else (data, None)
-    document = parse_document(text)
     unknown = UnknownNames()
-    _check_extensions(document)
-    look_at(document, unknown)
+    document = read_document(text, unknown)
     work = Work(isolated=file.isolated)
-    views = BufferViews(document, chunk, file.directory, work, file.permitted)
-    accessors = Accessors(document, views, work)
-    meshes = Meshes(document, accessors, work)
-    graph = NodeGraph(document, work)
+    accessors = Accessors(document, chunk, file.directory, work, file.permitted)
+    reader = _Scene(document, accessors, work)
     colliders = Colliders(document, unknown)
-    reader = _Scene(document, accessors, meshes, graph, work)
+    warnings: list[tuple[str, str]] = []
     if geometry == "collision":
         scene = reader.colliders(colliders)
     else:
         scene = reader.read()
-        if colliders.any():
+        if any(map(colliders.has, range(len(document.nodes)))):
             message = "meshes are checked, and no colliders (--geometry collision checks them)"
             if geometry is None:
                 unknown.note(("colliders", ""), message)
             else:
-                scene = replace(scene, warnings=(*scene.warnings, ("left-out", message)))
-    if graph.unclear_scene():
-        unknown.note(
-            ("scene", ""), "the file has several scenes and no default: only the first is read"
-        )
-    animated = items(document, "animations") or ANIMATING & set(_names(document, "extensionsUsed"))
-    left_out = graph.left_out()
-    warnings = (
-        *scene.warnings,
-        *unknown.warnings(),
-        *([_ANIMATED] if animated else []),
-        *([("left-out", left_out)] if left_out else []),
-    )
-    return replace(scene, warnings=warnings)
-
-
-def _check_extensions(document: dict[str, Any]) -> None:
-    for name in _names(document, "extensionsRequired"):
-        if not EXTENSIONS.knows(name):
-            raise Refused("unsupported-feature", f"the file requires extension {name!r}")
-    for name in _names(document, "extensionsUsed"):
-        if name in _MOVING:
-            raise Refused("unsupported-feature", f"extension {name!r} is not read")
-
-
-def _names(document: dict[str, Any], key: str) -> list[str]:
-    names = items(document, key)
-    if not all(isinstance(name, str) for name in names):
-        raise Refused("bad-record", f"glTF: {key} should be a list of texts")
-    return names
+                warnings.append(("left-out", message))
+    if document.scene == NONE and len(document.scenes) > 1:
+        message = "the file has several scenes and no default: only the first is read"
+        unknown.note(("scene", ""), message)
+    left_out = reader.left_out(unknown)
+    warnings += unknown.warnings()
+    if document.animations or ANIMATING.intersection(document.extensions_used):
+        warnings.append(("time-sampled", "the file is animated; checked as stored"))
+    warnings += [("left-out", left_out)] if left_out else []
+    return replace(scene, warnings=(*scene.warnings, *warnings))
 
 
 def _without_surface(mesh: RawMesh | Refusal) -> bool:
@@ -119,27 +90,22 @@ def _without_surface(mesh: RawMesh | Refusal) -> bool:
 
 
 class _Scene:
-    def __init__(
-        self,
-        document: dict[str, Any],
-        accessors: Accessors,
-        meshes: Meshes,
-        graph: NodeGraph,
-        work: Work,
-    ) -> None:
+    """The default scene of a document. Its methods raise Refused."""
+
+    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
         self._work = work
         self._document = document
         self._accessors = accessors
-        self._nodes = items(document, "nodes")
-        self._graph = graph
-        self._meshes = meshes
+        self._nodes = document.nodes
+        self._meshes = Meshes(document, accessors, work)
         self._copied = 0
+        self._matrix = cache(lambda number: placement_of(self._nodes[number], number))
 
     def read(self) -> RawScene:
         paths = UniqueNames()
         placed = [
-            Instance(self._shape(node.key), matrix, paths.unique(path))
-            for node in self._graph.drawn()
+            Instance(Shape.of(self._nodes[node.key]), matrix, paths.unique(path))
+            for node in self._placed(lambda number: self._nodes[number].mesh != NONE)
             for path, matrix in self._copies(node)
         ]
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
@@ -155,14 +121,13 @@ class _Scene:
 
     def colliders(self, colliders: Colliders) -> RawScene:
         """The colliders of the nodes. Those of one rigid body may touch each other."""
-        placed = self._graph.placed(colliders.has)
+        placed = self._placed(colliders.has)
         if not placed:
             raise Refused("empty-mesh", "no node of the scene has a collider")
         parts, nodes = [], []
         for number, one in enumerate(placed):
-            collider = colliders.of(one.key)
-            content, matrix = self._content(collider, one.matrix)
-            body = self._graph.nearest(one.key, colliders.moves)
+            content, matrix = self._content(colliders.of(one.key), one.matrix)
+            body = next(filter(colliders.moves, (one.key, *self._above(one.key))), None)
             parts.append(RawPart(f"collider{number}", content))
             groups = () if body is None else (f"rigid body {body}",)
             nodes.append(RawNode(one.path, number, matrix, groups=groups))
@@ -173,6 +138,61 @@ class _Scene:
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
         return RawScene(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
 
+    def left_out(self, unknown: UnknownNames) -> str:
+        """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
+        drawn, waiting = set(), self._roots()
+        while waiting:
+            number = waiting.pop()
+            if number not in drawn:
+                drawn.add(number)
+                waiting += self._nodes[number].children
+        used, lost = set(), []
+        for number, node in enumerate(self._nodes):
+            used.add(node.mesh)
+            if node.mesh != NONE and number not in drawn:
+                lost.append(f"node {number}")
+            if node.mesh == NONE and INSTANCING in node.extensions:
+                message = f"node {number}: {INSTANCING} is not read on a node without a mesh"
+                unknown.note((INSTANCING, "mesh"), message)
+        meshes = range(len(self._document.meshes))
+        unused = [f"mesh {number}" for number in meshes if number not in used]
+        said = [f"{listed(lost)} outside of the scene"] if lost else []
+        said += [f"{listed(unused)} without a node"] if unused else []
+        return "; ".join(said)
+
+    def _placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
+        """The chosen nodes of the scene, by their numbers, with world matrix and path."""
+        return instances(
+            [(root, self._matrix(root)) for root in self._roots()],
+            children=lambda number: [
+                (child, self._matrix(child)) for child in self._nodes[number].children
+            ],
+            has_mesh=chosen,
+            name=self._name,
+            kind="node",
+        )
+
+    def _roots(self) -> list[int]:
+        """Of the default scene; without scenes, the nodes that are no children."""
+        document = self._document
+        if document.scenes:
+            return list(document.scenes[max(document.scene, 0)].nodes)
+        roots = [number for number in range(len(self._nodes)) if number not in self._parents]
+        if self._nodes and not roots:
+            raise Refused("reference-cycle", "every node is a child of another: a cycle")
+        return roots
+
+    def _name(self, number: int) -> str:
+        """The name of a node, else of its mesh, else its number."""
+        node = self._nodes[number]
+        name = tidy_name(node.name, "")
+        if not name and node.mesh != NONE:
+            name = tidy_name(self._document.meshes.name(node.mesh), "")
+        return name or f"node{number}"
+
+    def _mesh_name(self, number: int) -> str:
+        return tidy_name(self._document.meshes.name(number), f"mesh{number}")
+
     def _content(
         self, collider: Collider, matrix: Transform | None
     ) -> tuple[RawMesh | Primitive | Refusal, Transform | None]:
@@ -181,14 +201,13 @@ class _Scene:
         try:
             if isinstance(shape, Refusal):
                 return shape, matrix
-            if isinstance(shape, int):
-                key = Shape(shape) if collider.node is None else self._shape(collider.node)
-                mesh = self._mesh(key)
+            if isinstance(shape, Shape):
+                mesh = self._mesh(shape)
                 if collider.hull and isinstance(mesh, RawMesh):
                     hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
                     vertices, triangles = hull.to_bytes()
                     mesh = replace(mesh, vertices=vertices, triangles=triangles)
-                return mesh, None if key.skin is not None else matrix
+                return mesh, matrix if shape.skin == NONE else None
             if not isinstance(shape, Box):
                 matrix = multiply(matrix, UPRIGHT)
                 refuse_skew(shape, matrix)
@@ -198,59 +217,97 @@ class _Scene:
         except (OverflowError, ValueError) as error:
             return Refusal("bad-record", f"convex hull: {error}"), matrix
 
-    def _shape(self, number: int) -> Shape:
-        node, mesh = self._nodes[number], self._graph.mesh_of(number)
-        skin = integer(node, "skin", -1) if "skin" in node else None
-        return Shape(mesh, self._meshes.weights(mesh, node), skin)
-
     def _mesh(self, shape: Shape) -> RawMesh | Refusal:
         """Returns a Refusal for a mesh that cannot be used, so that its nodes stay in the scene."""
         try:
-            skin = None if shape.skin is None else self._skin(shape.skin)
+            skin = None if shape.skin == NONE else self._skin(shape.skin)
             return self._meshes.read(shape, skin)
         except Refused as error:
             return Refusal(error.code, error.message)
 
-    def _copies(self, node: Instance[int]) -> list[tuple[str, Transform | None]]:
+    def _copies(self, node: Instance[int]) -> Iterator[tuple[str, Transform | None]]:
         """(path, matrix) of a node, or of each GPU instance of the node."""
-        instancing = extension(self._nodes[node.key], INSTANCING)
-        if "skin" in self._nodes[node.key]:  # its joints place it
-            return [(node.path, None)]
+        where = f"node {node.key}"
+        if self._nodes[node.key].skin != NONE:  # its joints place it
+            yield node.path, None
+            return
+        instancing = self._nodes[node.key].extension(INSTANCING, Instancing, where)
         if instancing is None:
-            return [(node.path, node.matrix)]
-        attributes = instancing.get("attributes")
-        if not isinstance(attributes, dict):
-            raise Refused("bad-record", f"node {node.key}: instances without attributes")
-        columns = self._accessors.columns(attributes)
-        translations = columns("TRANSLATION", "VEC3")
-        rotations = columns("ROTATION", "VEC4")
-        scales = columns("SCALE", "VEC3")
-        given = ((translations, 3), (rotations, 4), (scales, 3))
+            yield node.path, node.matrix
+            return
+        columns = self._accessors.columns(instancing.attributes)
+        kinds = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
+        given = [(columns(name, f"VEC{width}"), width) for name, width in kinds.items()]
         counts = {len(rows) // width for rows, width in given if rows is not None}
         if len(counts) != 1 or 0 in counts:
-            raise Refused("count-mismatch", f"node {node.key}: unclear count of instances")
+            raise Refused("count-mismatch", f"{where}: unclear count of instances")
         (count,) = counts
         self._copied += count
         if self._copied > limits.MAX_PLACEMENTS:
             message = f"more than {limits.MAX_PLACEMENTS} instances: split the file"
             raise Refused("too-large", message)
-        copies = []
         for i in range(count):
             parts = (
-                None if rows is None else rows[width * i : width * (i + 1)] for rows, width in given
+                () if rows is None else rows[width * i : width * (i + 1)] for rows, width in given
             )
-            copies.append((f"{node.path}[{i}]", multiply(node.matrix, trs_placement(*parts))))
-        return copies
+            yield f"{node.path}[{i}]", multiply(node.matrix, _trs_placement(*parts))
 
     def _skin(self, number: int) -> Skin:
-        skin = member(items(self._document, "skins"), number, "skin")
-        joints = [self._graph.number(joint) for joint in items(skin, "joints")]
+        skin = self._document.skins[number]
         bound = None
-        if "inverseBindMatrices" in skin:
-            bound = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
-            if len(bound) < 16 * len(joints):
+        if skin.inverse_bind_matrices != NONE:
+            bound = self._accessors.numbers(skin.inverse_bind_matrices, "MAT4")
+            if len(bound) < 16 * len(skin.joints):
                 raise Refused("count-mismatch", f"skin {number}: a joint lacks its matrix")
-        return Skin(tuple(self._graph.world(joint) or IDENTITY for joint in joints), bound)
+        return Skin(tuple(self._world(joint) or IDENTITY for joint in skin.joints), bound)
 
-    def _mesh_name(self, number: int) -> str:
-        return tidy_name(self._meshes.name(number), f"mesh{number}")
+    def _world(self, node: int) -> Transform | None:
+        """The world matrix of a node; None: the identity."""
+        matrix = self._matrix(node)
+        for parent in self._above(node):
+            self._work.spend(8 * len(IDENTITY))
+            matrix = multiply(self._matrix(parent), matrix)
+        return matrix
+
+    @cached_property
+    def _parents(self) -> dict[int, int]:
+        return {child: parent for parent, node in enumerate(self._nodes) for child in node.children}
+
+    def _above(self, node: int) -> Iterator[int]:
+        """The nodes around a node, from the inside."""
+        seen = {node}
+        while (parent := self._parents.get(node)) is not None:
+            if parent in seen:
+                raise Refused("reference-cycle", f"node {parent} contains itself: a cycle")
+            seen.add(parent)
+            yield parent
+            node = parent
+
+
+def placement_of(node: Node, number: int) -> Transform | None:
+    """The placement of a node in its parent; None: the identity."""
+    columns = node.matrix
+    if not columns:
+        return _trs_placement(node.translation, node.rotation, node.scale)
+    if columns[3::4] != (0.0, 0.0, 0.0, 1.0):
+        raise Refused("bad-record", f"node {number}: the matrix is not affine")
+    return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
+
+
+def _trs_placement(
+    translation: Sequence[float], rotation: Sequence[float], scale: Sequence[float]
+) -> Transform | None:
+    """Scales, then rotates by a quaternion x, y, z, w, then translates; empty: it does not."""
+    placement: Transform | None = None
+    if translation:
+        x, y, z = translation
+        placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
+    if rotation:
+        if not any(rotation):
+            raise Refused("bad-record", "a rotation quaternion is zero")
+        turn = quaternion_matrix(*rotation)
+        placement = multiply(placement, placed(turn, (0.0, 0.0, 0.0)))
+    if scale:
+        x, y, z = scale
+        placement = multiply(placement, (x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1))
+    return placement

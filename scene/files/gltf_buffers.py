@@ -1,26 +1,58 @@
-"""The binary half of glTF: GLB chunks, buffers and buffer views, each range checked."""
+"""The numbers of glTF: GLB chunks, buffers, buffer views and accessors, each range checked.
+
+C++ unpacks them: importing numpy takes longer than reading most files.
+"""
 
 from __future__ import annotations
 
+import math
+import struct
+from array import array
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from satcheck._native.readers import ReadError, unpack_meshopt
+from msgspec.structs import replace
+
+from satcheck._native import readers
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.gltf_vocabulary import MESHOPT
+from satcheck.scene.files.gltf_document import (
+    MESHOPT,
+    NONE,
+    Accessor,
+    Attributes,
+    Buffer,
+    BufferView,
+    GltfDocument,
+    Meshopt,
+    Sparse,
+    SparseValues,
+)
 from satcheck.scene.files.readers import NeedsChild
 from satcheck.scene.files_read import note
 from satcheck.scene.paths import Permitted, followed, is_file
 
-_GLB_HEADER = 12  # bytes: magic, version, length of the file
-_CHUNK_HEADER = 8  # length, type
+_GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
+_CHUNK_HEADER = struct.Struct("<II")  # length, type
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
 
-_MODES = ("ATTRIBUTES", "TRIANGLES", "INDICES")
-_FILTERS = ("NONE", "EXPONENTIAL", "QUATERNION")  # the others are for normals and colours
 _BYTES_OF_NUMBER = 8
+_UINT32, _FLOAT32 = 5125, 5126
+# componentType: typecode of an array.
+_CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", _UINT32: "I", _FLOAT32: "f"}
+_UNSIGNED = frozenset("BHI")
+# componentType: the integer that means 1.0 in a normalized accessor.
+_LARGEST = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
+_COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+
+if TYPE_CHECKING:
+    Floats = memoryview[float]
+    Indices = memoryview[int]
+
+# (name, type) -> the vertex attribute row by row; None: it is missing.
+Columns = Callable[[str, str], "Floats | None"]
 
 
 class Work:
@@ -33,215 +65,281 @@ class Work:
         self.isolated = isolated
         self._left = limits.IN_PROCESS_WORK
 
-    def spend(self, numbers: int) -> None:
-        """Raises NeedsChild if that is too much for this process."""
-        self.spend_bytes(numbers * _BYTES_OF_NUMBER)
-
-    def spend_bytes(self, size: int) -> None:
+    def spend(self, size: int) -> None:
+        """Raises NeedsChild if so many bytes are too much for this process."""
         self._left -= size
         if self._left < 0 and not self.isolated:
             raise NeedsChild
 
 
-def items(owner: Any, key: str) -> list[Any]:
-    """The list `owner[key]`; empty where it is missing."""
-    value = owner.get(key, []) if isinstance(owner, dict) else None
-    if not isinstance(value, list):
-        raise Refused("bad-record", f"glTF: {key} should be a list in an object")
-    return value
-
-
-def integer(owner: Any, key: str, default: int) -> int:
-    """The non-negative integer `owner[key]`."""
-    if isinstance(owner, dict) and key not in owner:
-        return default
-    value = owner[key] if isinstance(owner, dict) else None
-    if type(value) is not int or value < 0:
-        raise Refused("bad-record", f"glTF: {key} should be a non-negative integer")
-    return value
-
-
-def member(values: list[Any], index: int, what: str) -> dict[str, Any]:
-    """The object `values[index]`."""
-    if not 0 <= index < len(values):
-        raise Refused(
-            "index-out-of-range", f"glTF: {what} {index} does not exist, there are {len(values)}"
-        )
-    value = values[index]
-    if not isinstance(value, dict):
-        raise Refused("bad-record", f"glTF: {what} {index} is not an object")
-    return value
-
-
 def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
     """(JSON text, binary chunk or None) of a GLB file."""
-    if len(data) < _GLB_HEADER or bytes(data[:4]) != b"glTF":
+    if len(data) < _GLB_HEADER.size or bytes(data[:4]) != b"glTF":
         raise Refused("not-this-format", "not a GLB file: it does not start with glTF")
-    version, length = _two_numbers(data, 4)
+    _, version, length = _GLB_HEADER.unpack_from(data)
     if version != 2:
         raise Refused("unsupported-feature", f"GLB version {version}: 2 is read")
     if length != len(data):
         code = "truncated" if length > len(data) else "trailing-data"
         raise Refused(code, f"the header promises {length} bytes, the file has {len(data)} bytes")
     chunks: list[tuple[int, memoryview]] = []
-    offset = _GLB_HEADER
+    offset = _GLB_HEADER.size
     while offset < length:
-        if length - offset < _CHUNK_HEADER:
+        start = offset + _CHUNK_HEADER.size
+        if start > length:
             raise Refused("truncated", f"byte {offset}: a chunk header is cut off")
-        size, kind = _two_numbers(data, offset)
-        offset += _CHUNK_HEADER
-        if size > length - offset:
-            raise Refused(
-                "truncated",
-                f"byte {offset - _CHUNK_HEADER}: chunk length {size} exceeds the file, "
-                f"which has {length - offset} bytes left",
-            )
-        chunks.append((kind, data[offset : offset + size]))
-        offset += size
+        size, kind = _CHUNK_HEADER.unpack_from(data, offset)
+        if size > length - start:
+            message = f"chunk length {size} exceeds the file, which has {length - start} bytes left"
+            raise Refused("truncated", f"byte {offset}: {message}")
+        offset = start + size
+        chunks.append((kind, data[start:offset]))
     if not chunks or chunks[0][0] != _JSON_CHUNK:
         raise Refused("bad-record", "the first chunk of the GLB file is not JSON")
-    for kind, name in ((_JSON_CHUNK, "JSON"), (_BIN_CHUNK, "binary")):
-        places = [number for number, (each, _) in enumerate(chunks) if each == kind]
+    for kind, name, place in ((_JSON_CHUNK, "JSON", 0), (_BIN_CHUNK, "binary", 1)):
         # Others are harmless: extensions name them (the glTF 2.0 specification, 4.4.3).
-        if places not in ([], [0 if kind == _JSON_CHUNK else 1]):
+        if [number for number, (each, _) in enumerate(chunks) if each == kind] not in ([], [place]):
             raise Refused("bad-record", f"a {name} chunk of the GLB file is out of place")
-    has_binary = len(chunks) > 1 and chunks[1][0] == _BIN_CHUNK
-    return chunks[0][1], chunks[1][1] if has_binary else None
+    return chunks[0][1], dict(chunks).get(_BIN_CHUNK)
 
 
-def _two_numbers(data: memoryview, offset: int) -> tuple[int, int]:
-    """Little-endian, 32 bits each."""
-    middle, end = offset + 4, offset + 8
-    return int.from_bytes(data[offset:middle], "little"), int.from_bytes(data[middle:end], "little")
+class Accessors:
+    """The accessors of a document as arrays. A buffer is read when it is first used.
 
-
-def extension(owner: dict[str, Any], name: str) -> dict[str, Any] | None:
-    """The data of an extension of an object; None: it has none."""
-    extensions = owner.get("extensions", {})
-    content = extensions.get(name) if isinstance(extensions, dict) else None
-    return content if isinstance(content, dict) else None
-
-
-class BufferViews:
-    """The buffer views of a glTF document; a buffer is read when it is first used."""
+    chunk: the binary chunk of a GLB file. directory: that files with buffers are relative to.
+    Raises Refused.
+    """
 
     def __init__(
         self,
-        document: dict[str, Any],
+        document: GltfDocument,
         chunk: memoryview | None,
         directory: str,
         work: Work,
         permitted: Permitted,
     ) -> None:
-        self._work = work
-        self._views = items(document, "bufferViews")
-        self._infos = items(document, "buffers")
+        self._accessors = document.accessors
+        self._views = document.buffer_views
+        self._infos = document.buffers
         self._chunk = chunk
         self._directory = directory
+        self._work = work
         self._permitted = permitted
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._unpacked_bytes = 0
 
-    def view(self, number: int) -> memoryview:
-        view = member(self._views, number, "buffer view")
-        for name in MESHOPT:  # both pack in the same way
-            packed = extension(view, name)
-            if packed is not None:
-                if number not in self._unpacked:
-                    self._unpacked[number] = memoryview(self._unpack(number, view, packed))
-                return self._unpacked[number]
-        return self._range(view, f"buffer view {number}")
+    def positions(self, index: int) -> Floats:
+        """x, y, z of each vertex, all finite."""
+        if self._accessors[index].component_type == _UINT32:
+            raise Refused("bad-record", f"accessor {index}: positions of type uint32")
+        return self.numbers(index, "VEC3", "coordinates")
 
-    def scaled_words(self, number: int) -> memoryview | None:
-        """A view whose floats are packed as integers of 24 bits times a power of two: these words,
-        with the exponent in the highest byte; None: another view."""
-        view = member(self._views, number, "buffer view")
-        for name in MESHOPT:  # both pack in the same way
-            packed = extension(view, name)
-            if packed is not None and packed.get("filter") == "EXPONENTIAL":
-                return memoryview(self._unpack(number, view, {**packed, "filter": "NONE"}))
-        return None
+    def numbers(self, index: int, kind: str, what: str = "numbers") -> Floats:
+        """The numbers of a type such as VEC4 row by row, all finite."""
+        data, code, stride = self._read(index, kind)
+        largest = self.largest_integer(index) or 0
+        numbers = readers.unpack_numbers(data, code, _COLUMNS[kind], stride, largest)
+        if numbers is None:
+            raise Refused("non-finite", f"accessor {index}: non-finite {what}")
+        return memoryview(numbers).cast("d")
 
-    def stride(self, number: int, row: int) -> int:
-        """Bytes from one element of the view to the next; row: those of an element."""
-        stride = integer(member(self._views, number, "buffer view"), "byteStride", row)
+    def indices(self, index: int) -> tuple[Indices, int]:
+        """Vertex numbers, and the largest of them; -1: none."""
+        data, code, stride = self._read(index, "SCALAR")
+        if code not in _UNSIGNED:
+            raise Refused("bad-record", f"accessor {index}: indices are not unsigned")
+        indices, largest = readers.unpack_indices(data, code, stride)
+        return memoryview(indices).cast("I"), largest
+
+    def columns(self, attributes: Attributes) -> Columns:
+        def rows(name: str, kind: str) -> Floats | None:
+            return self.numbers(attributes[name], kind) if name in attributes else None
+
+        return rows
+
+    def has_data(self, index: int) -> bool:
+        accessor = self._accessors[index]
+        return accessor.buffer_view != NONE or bool(accessor.sparse)
+
+    def largest_integer(self, index: int) -> int | None:
+        """The integer that means 1.0 in a normalized accessor; None: not normalized."""
+        accessor = self._accessors[index]
+        return _LARGEST.get(accessor.component_type) if accessor.normalized else None
+
+    def rounding(self, index: int) -> float:
+        """How far the integers or the filter of packed data may put a number off: half a step;
+        0.0: floats."""
+        accessor = self._accessors[index]
+        if accessor.component_type != _FLOAT32:
+            return 0.5 / (self.largest_integer(index) or 1)
+        off = self._rounding_of_filter(accessor, accessor.count, accessor)
+        if accessor.sparse:
+            sparse = accessor.sparse
+            off = max(off, self._rounding_of_filter(sparse.values, sparse.count, accessor))
+        return off
+
+    def _rounding_of_filter(
+        self, owner: Accessor | SparseValues, count: int, accessor: Accessor
+    ) -> float:
+        """The largest of the numbers that the owner's view holds for the accessor. A filter packs
+        floats as integers of 24 bits times a power of two, with the exponent in the highest byte.
+        """
+        packed = None if owner.buffer_view == NONE else self._packed(owner.buffer_view)
+        if packed is None or packed.filter != "EXPONENTIAL":
+            return 0.0
+        words = memoryview(self._unpack(owner.buffer_view, replace(packed, filter="NONE")))
+        rows = self._rows(owner, "packed data", count, _COLUMNS[accessor.type], "i", words)
+        return max((math.ldexp(0.5, word >> 24) for word in rows), default=0.0)
+
+    def _read(self, index: int, kind: str) -> tuple[bytes, str, int]:
+        """The numbers row by row, their type in the file, and the bytes from row to row."""
+        accessor, what = self._accessors[index], f"accessor {index}"
+        if accessor.type != kind:
+            raise Refused("bad-record", f"{what}: {kind} expected")
+        code, count, columns = _CODES[accessor.component_type], accessor.count, _COLUMNS[kind]
+        self._work.spend(count * columns * _BYTES_OF_NUMBER)
+        row = columns * array(code).itemsize
+        if accessor.buffer_view != NONE and not accessor.sparse:
+            data, stride = self._range(accessor, what, count, row)
+            return bytes(data), code, stride
+        if accessor.buffer_view != NONE:
+            values = self._rows(accessor, what, count, columns, code)
+        elif count > limits.MAX_ZEROS:
+            message = f"{count} elements without data, more than {limits.MAX_ZEROS}: write them out"
+            raise Refused("too-large", f"{what}: {message}")
+        else:
+            values = array(code, [0]) * (count * columns)
+        if accessor.sparse:
+            self._replace(values, columns, accessor.sparse, f"{what}: sparse data")
+        return values.tobytes(), code, row
+
+    def _replace(self, values: array[Any], columns: int, sparse: Sparse, where: str) -> None:
+        """Overwrites the elements that sparse data list."""
+        code, count = _CODES[sparse.indices.component_type], sparse.count
+        elements = self._rows(sparse.indices, where, count, 1, code)
+        if count and max(elements) * columns >= len(values):
+            raise Refused("index-out-of-range", f"{where}: element {max(elements)} does not exist")
+        replaced = self._rows(sparse.values, where, count, columns, values.typecode)
+        for k, element in enumerate(elements):
+            start = element * columns
+            values[start : start + columns] = replaced[k * columns : (k + 1) * columns]
+
+    def _rows(
+        self,
+        owner: Accessor | SparseValues,
+        what: str,
+        count: int,
+        columns: int,
+        code: str,
+        view: memoryview | None = None,
+    ) -> array[Any]:
+        """The elements in the range that the owner states. view: the bytes instead of those of its
+        buffer view."""
+        values = array(code)
+        row = columns * values.itemsize
+        data, stride = self._range(owner, what, count, row, view)
+        if stride == row:
+            values.frombytes(data)
+        else:
+            values.frombytes(b"".join(data[at : at + row] for at in range(0, len(data), stride)))
+        return values
+
+    def _range(
+        self,
+        owner: Accessor | SparseValues,
+        what: str,
+        count: int,
+        row: int,
+        view: memoryview | None = None,
+    ) -> tuple[memoryview, int]:
+        """The bytes from the first to the last element, and those from one to the next. row: bytes
+        of an element. view: as of `_rows`."""
+        number, start = owner.buffer_view, owner.byte_offset
+        view = self.view(number) if view is None else view
+        stride = self._views[number].byte_stride or row
         if stride < row:
             raise Refused("bad-record", f"buffer view {number}: elements overlap")
-        return stride
-
-    def _range(self, view: dict[str, Any], what: str) -> memoryview:
-        buffer_number = integer(view, "buffer", 0)
-        buffer = self._buffer(buffer_number)
-        start = integer(view, "byteOffset", 0)
-        end = start + integer(view, "byteLength", 0)
-        if end > len(buffer):
+        needed = start + (count - 1) * stride + row if count else start
+        if needed > len(view):
             raise Refused(
                 "index-out-of-range",
-                f"{what} ends at byte {end}, beyond buffer {buffer_number} of {len(buffer)} bytes",
+                f"{what} exceeds its buffer view {number}: "
+                f"{count} elements need {needed} bytes, it has {len(view)}",
             )
-        return buffer[start:end]
+        return view[start:needed], stride
 
-    def _unpack(self, number: int, view: dict[str, Any], packed: dict[str, Any]) -> bytes:
+    def view(self, number: int) -> memoryview:
+        """The bytes of a buffer view."""
+        packed = self._packed(number)
+        if packed is None:
+            return self._bytes(self._views[number], f"buffer view {number}")
+        if number not in self._unpacked:
+            self._unpacked[number] = memoryview(self._unpack(number, packed))
+        return self._unpacked[number]
+
+    def _packed(self, number: int) -> Meshopt | None:
+        """The packed data of a view; None: it is not packed."""
+        view, where = self._views[number], f"buffer view {number}"
+        found = (view.extension(name, Meshopt, where) for name in MESHOPT)
+        return next(filter(None, found), None)
+
+    def _unpack(self, number: int, packed: Meshopt) -> bytes:
         """The bytes of a view that meshopt packed."""
-        count, stride = integer(packed, "count", 0), integer(packed, "byteStride", 0)
-        mode, filter_ = packed.get("mode"), packed.get("filter", "NONE")
-        if mode not in _MODES or filter_ not in _FILTERS or count * stride == 0:
-            raise Refused(
-                "bad-record",
-                f"buffer view {number}: meshopt data of mode {mode!r} and filter {filter_!r}",
-            )
-        if count * stride != integer(view, "byteLength", 0):
-            raise Refused(
-                "count-mismatch",
-                f"buffer view {number}: {count} elements of {stride} bytes are not its length",
-            )
-        self._unpacked_bytes += count * stride
+        where, size = f"buffer view {number}", packed.count * packed.byte_stride
+        if size != self._views[number].byte_length:
+            message = f"{packed.count} elements of {packed.byte_stride} bytes are not its length"
+            raise Refused("count-mismatch", f"{where}: {message}")
+        self._unpacked_bytes += size
         if self._unpacked_bytes > limits.MAX_UNPACKED_BYTES:
             raise Refused(
                 "too-large",
                 f"meshopt data unpacks to {self._unpacked_bytes} bytes and more, beyond "
                 f"{limits.MAX_UNPACKED_BYTES}: unpack it before, or split the file",
             )
-        self._work.spend_bytes(count * stride)
-        stream = bytes(self._range(packed, f"buffer view {number}"))
-        elements = unpack_meshopt(stream, mode, count, stride, filter_)
-        if isinstance(elements, ReadError):
-            raise Refused(elements.code, f"buffer view {number}: {elements.message}")
-        return elements
+        self._work.spend(size)
+        stream = bytes(self._bytes(packed, where))
+        unpacked = readers.unpack_meshopt(
+            stream, packed.mode, packed.count, packed.byte_stride, packed.filter
+        )
+        if isinstance(unpacked, readers.ReadError):
+            raise Refused(unpacked.code, f"{where}: {unpacked.message}")
+        return unpacked
+
+    def _bytes(self, owner: BufferView | Meshopt, what: str) -> memoryview:
+        """The bytes of its buffer that a view or its packed data names."""
+        buffer, end = self._buffer(owner.buffer), owner.byte_offset + owner.byte_length
+        if end > len(buffer):
+            message = f"beyond buffer {owner.buffer} of {len(buffer)} bytes"
+            raise Refused("index-out-of-range", f"{what} ends at byte {end}, {message}")
+        return buffer[owner.byte_offset : end]
 
     def _buffer(self, number: int) -> memoryview:
         if number not in self._buffers:
-            info = member(self._infos, number, "buffer")
-            size = integer(info, "byteLength", 0)
-            data = self._fetch(info, number, size)
+            info = self._infos[number]
+            data, size = self._fetch(info, number), info.byte_length
             if len(data) < size:
-                raise Refused(
-                    "truncated", f"buffer {number} should have {size} bytes, it has {len(data)}"
-                )
+                message = f"buffer {number} should have {size} bytes, it has {len(data)}"
+                raise Refused("truncated", message)
             self._buffers[number] = data[:size]
         return self._buffers[number]
 
-    def _fetch(self, info: dict[str, Any], number: int, size: int) -> memoryview:
-        uri = info.get("uri")
-        if uri is None:
+    def _fetch(self, info: Buffer, number: int) -> memoryview:
+        if info.uri is None:
             if number != 0 or self._chunk is None:
                 raise Refused("missing-resource", f"buffer {number} has no data")
             return self._chunk
-        if not isinstance(uri, str):
-            raise Refused("bad-record", f"buffer {number}: the URI is not a text")
-        if uri.startswith("data:"):
+        if info.uri.startswith("data:"):
             import base64
-            import binascii
 
-            header, _, text = uri.partition(",")
+            header, _, text = info.uri.partition(",")
             try:
                 if not header.endswith(";base64"):
                     raise ValueError("base64 expected")
                 return memoryview(base64.b64decode(text, validate=True))
-            except (ValueError, binascii.Error) as error:
+            except ValueError as error:
                 raise Refused("bad-record", f"buffer {number}: data URI: {error}") from None
-        return memoryview(self._fetch_file(uri, size))
+        return memoryview(self._fetch_file(info.uri, info.byte_length))
 
     def _fetch_file(self, uri: str, size: int) -> bytes:
         from urllib.parse import unquote
@@ -260,10 +358,9 @@ class BufferViews:
             raise Refused("missing-resource", f"missing buffer file {name!r}")
         try:
             size = min(size, path.stat().st_size)
-            self._work.spend_bytes(size)
+            self._work.spend(size)
             with path.open("rb") as file:
                 return file.read(size)
         except OSError as error:
-            raise Refused(
-                "unreadable-file", f"buffer file {name!r} cannot be read: {error.strerror}"
-            ) from None
+            message = f"buffer file {name!r} cannot be read: {error.strerror}"
+            raise Refused("unreadable-file", message) from None

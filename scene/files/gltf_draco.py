@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.gltf_accessors import Accessors
-from satcheck.scene.files.gltf_buffers import integer
+from satcheck.scene.files.gltf_buffers import Accessors
+from satcheck.scene.files.gltf_document import NONE, Attributes, Draco
 from satcheck.scene.resolution import FLOAT32_STEP
 
 if TYPE_CHECKING:
-    from satcheck.scene.files.gltf_accessors import Floats
+    from satcheck.scene.files.gltf_buffers import Floats
 
 FLOAT32_ROUNDING = FLOAT32_STEP / 2  # largest relative error of rounding to float32
 _RECORD = 17  # bytes: the lowest corner, the size, the bits
@@ -27,14 +27,9 @@ _BLOCK = 1 << 20  # bytes that are searched at once
 
 
 class Unpacked:
-    """packed: the data of the extension. attributes: accessors of the primitive by name.
+    """attributes: of the primitive. Raises Refused. triangles: vertex numbers, three each."""
 
-    Raises Refused. triangles: vertex numbers, three each.
-    """
-
-    def __init__(
-        self, accessors: Accessors, packed: dict[str, Any], attributes: dict[str, Any]
-    ) -> None:
+    def __init__(self, accessors: Accessors, packed: Draco, attributes: Attributes) -> None:
         try:
             import DracoPy
         except ImportError:
@@ -43,22 +38,18 @@ class Unpacked:
             ) from None
         self._accessors = accessors
         self._attributes = attributes
-        ids = packed.get("attributes")
-        data = accessors.bytes_of_view(integer(packed, "bufferView", -1))
-        self._data = data
+        self._ids = packed.attributes
+        self._data = bytes(accessors.view(packed.buffer_view))
         try:
-            self._mesh: Any = DracoPy.decode(data)
+            self._mesh: Any = DracoPy.decode(self._data)
         except (DracoPy.FileTypeException, ValueError, MemoryError) as error:
             raise Refused("bad-record", f"Draco data: {error}") from None
-        if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(ids, dict):
+        if not isinstance(self._mesh, DracoPy.DracoMesh):
             raise Refused("bad-record", "Draco data: no mesh")
-        self._ids: dict[str, Any] = ids
         faces, count = self._mesh.faces, len(self._mesh.points)
         if len(faces) and int(faces.max()) >= count:
-            raise Refused(
-                "index-out-of-range",
-                f"Draco data: index out of range: {faces.max()} of {count} vertices",
-            )
+            message = f"Draco data: index out of range: {faces.max()} of {count} vertices"
+            raise Refused("index-out-of-range", message)
         self.triangles = memoryview(faces.astype("<u4").tobytes()).cast("I")
 
     def positions(self) -> Floats:
@@ -103,7 +94,7 @@ class Unpacked:
         return memoryview(numbers.tobytes()).cast("d")
 
     def _largest(self, name: str) -> int | None:
-        return self._accessors.largest_integer(integer(self._attributes, name, -1))
+        return self._accessors.largest_integer(self._attributes.get(name, NONE))
 
 
 def lattice_step(data: bytes, points: NDArray[np.float32]) -> float:

@@ -1,19 +1,27 @@
-"""The meshes of glTF: their primitives as triangles, in the shape that the file stores."""
+"""The meshes of glTF: their primitives as triangles, in the shape that the file stores. Morph
+targets and skins move the vertices before a node places the mesh."""
 
 from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.gltf_accessors import Accessors, Columns
-from satcheck.scene.files.gltf_buffers import Work, extension, integer, items, member
-from satcheck.scene.files.gltf_vocabulary import DRACO
+from satcheck.scene.files.gltf_buffers import Accessors, Columns, Work
+from satcheck.scene.files.gltf_document import (
+    DRACO,
+    NONE,
+    Attributes,
+    Draco,
+    GltfDocument,
+    Node,
+    Primitive,
+)
 from satcheck.scene.files.raw_mesh import (
     NO_SURFACE,
     Block,
@@ -24,18 +32,26 @@ from satcheck.scene.files.raw_mesh import (
 from satcheck.scene.files.readers import NeedsChild
 
 if TYPE_CHECKING:
-    from satcheck.scene.files.gltf_accessors import Floats, Indices
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from satcheck.scene.files.gltf_buffers import Floats, Indices
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 
 
 class Shape(Struct, frozen=True):
-    """A mesh with the weights of its morph targets and the number of its skin at a node."""
+    """A mesh at a node: its number, the weights of its morph targets that the node states, and the
+    number of its skin."""
 
     mesh: int
     weights: tuple[float, ...] = ()
-    skin: int | None = None
+    skin: int = NONE
+
+    @classmethod
+    def of(cls, node: Node) -> Self:
+        return cls(node.mesh, node.weights, node.skin)
 
 
 class Skin(Struct, frozen=True):
@@ -47,23 +63,11 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    def __init__(self, document: dict[str, Any], accessors: Accessors, work: Work) -> None:
-        self._meshes = items(document, "meshes")
+    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
+        self._meshes = document.meshes
         self._accessors = accessors
         self._work = work
-        self._requires_draco = DRACO in items(document, "extensionsRequired")
-
-    def name(self, number: int) -> object:
-        return member(self._meshes, number, "mesh").get("name")
-
-    def weights(self, number: int, node: dict[str, Any]) -> tuple[float, ...]:
-        """Weights of the morph targets of a mesh at a node; () if all are 0."""
-        mesh = member(self._meshes, number, "mesh")
-        values = items(node if "weights" in node else mesh, "weights")
-        self._work.spend(len(values))
-        if not all(type(value) in (int, float) for value in values):
-            raise Refused("bad-record", f"mesh {number}: weights should be numbers")
-        return tuple(map(float, values)) if any(values) else ()
+        self._requires_draco = DRACO in document.extensions_required
 
     def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
         """All primitives with triangles, as one mesh.
@@ -75,20 +79,21 @@ class Meshes:
         where = f"mesh {shape.mesh}"
         parts: list[tuple[Block, Block, None]] = []
         rounding = 0.0
-        mesh = member(self._meshes, shape.mesh, "mesh")
-        if "primitives" not in mesh:
-            raise Refused("bad-record", f"{where} has no primitives")
-        for primitive in items(mesh, "primitives"):
-            part = self._primitive(primitive, shape, skin, where, warnings)
-            if part is not None:
-                parts.append((part[0].cast("B"), part[1].cast("B"), None))
-                rounding = max(rounding, part[2])
-        vertices, triangles = concatenate(parts)
-        if not triangles:
+        mesh = self._meshes[shape.mesh]
+        weights = shape.weights or mesh.weights
+        for primitive in mesh.primitives:
+            if primitive.mode in NO_TRIANGLES:
+                warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
+                continue
+            positions, triangles, off = self._primitive(primitive, weights, skin, where, warnings)
+            parts.append((positions.cast("B"), triangles.cast("B"), None))
+            rounding = max(rounding, off)
+        vertices, triangles_ = concatenate(parts)
+        if not triangles_:
             raise Refused(NO_SURFACE, f"{where} has no triangles, only lines or points")
         return RawMesh(
             vertices=vertices,
-            triangles=triangles,
+            triangles=triangles_,
             number_format="float32",
             units="meter",
             warnings=tuple(warnings.items()),
@@ -97,23 +102,22 @@ class Meshes:
 
     def _primitive(
         self,
-        primitive: Any,
-        shape: Shape,
+        primitive: Primitive,
+        weights: tuple[float, ...],
         skin: Skin | None,
         where: str,
         warnings: dict[str, str],
-    ) -> tuple[Floats, Indices, float] | None:
+    ) -> tuple[Floats, Indices, float]:
         """x, y, z of each vertex, the corners of each triangle, and how far integers and packed
-        data may put a vertex off; None without triangles."""
-        mode = integer(primitive, "mode", _TRIANGLES)
-        if mode in NO_TRIANGLES:
-            warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
-            return None
-        attributes = primitive.get("attributes")
-        if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
-            raise Refused("bad-record", f"{where}: a primitive without positions or mode")
-        packed = self._packed(primitive, attributes)
-        if packed is not None:
+        data may put a vertex off."""
+        attributes = primitive.attributes
+        if "POSITION" not in attributes:
+            raise Refused("bad-record", f"{where}: a primitive without positions")
+        has_data = self._accessors.has_data(attributes["POSITION"]) and (
+            primitive.indices == NONE or self._accessors.has_data(primitive.indices)
+        )
+        packed = primitive.extension(DRACO, Draco, where)
+        if packed is not None and (self._requires_draco or not has_data):
             if not self._work.isolated:
                 raise NeedsChild
             from satcheck.scene.files.gltf_draco import Unpacked
@@ -122,88 +126,104 @@ class Meshes:
             positions, triangles = unpacked.positions(), unpacked.triangles
             rounding = unpacked.rounding(positions)
             columns: Columns = unpacked.columns
-        else:
-            self._refuse_unread(primitive, attributes, where)
-            number = integer(attributes, "POSITION", -1)
+        elif has_data:
+            number = attributes["POSITION"]
             positions = self._accessors.positions(number)
             rounding = self._accessors.rounding(number)
-            triangles = self._triangles(primitive, mode, len(positions) // 3, where)
+            triangles = self._triangles(primitive, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
-        if primitive.get("targets"):
+        else:
+            # The values would all be 0. Most likely an extension that is not read has them.
+            message = f"{where}: the positions or indices are not in the file"
+            raise Refused("unsupported-feature", message)
+        if primitive.targets:
             warnings["rest-shape"] = "morph targets have the weights that the file stores"
-            if shape.weights:
-                targets = self._targets(items(primitive, "targets"), shape.weights)
-                positions, off = self._morphed(positions, targets)
+            if any(weights):
+                positions, off = self._morphed(positions, primitive.targets, weights)
                 rounding += off
         if skin is not None:
-            from satcheck.scene.files.gltf_shapes import skinned
-
             warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
-            positions, stretch = skinned(positions, columns, skin.joints, skin.bound, where)
+            positions, stretch = _skinned(positions, columns, skin, where)
             rounding *= stretch
         return positions, triangles, rounding
 
-    def _packed(
-        self, primitive: dict[str, Any], attributes: dict[str, Any]
-    ) -> dict[str, Any] | None:
-        """The Draco data; None if the file also has the data without compression."""
-        packed = extension(primitive, DRACO)
-        plain = all(map(self._accessors.has_data, _needed(primitive, attributes)))
-        return None if plain and not self._requires_draco else packed
-
-    def _refuse_unread(
-        self, primitive: dict[str, Any], attributes: dict[str, Any], where: str
-    ) -> None:
-        """Refuses accessors without data. Their values would all be 0, and the geometry is most
-        likely in an extension that is not read."""
-        if not all(map(self._accessors.has_data, _needed(primitive, attributes))):
-            raise Refused(
-                "unsupported-feature", f"{where}: the positions or indices are not in the file"
-            )
-
-    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> Indices:
+    def _triangles(self, primitive: Primitive, count: int, where: str) -> Indices:
         """The corners of each triangle. count: of the vertices."""
-        if "indices" not in primitive:
-            return _as_list(memoryview(array("I", range(count))), mode, where)
-        corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
+        if primitive.indices == NONE:
+            corners, largest = memoryview(array("I", range(count))), count - 1
+        else:
+            corners, largest = self._accessors.indices(primitive.indices)
         if largest >= count:
-            raise Refused(
-                "index-out-of-range",
-                f"{where}: index out of range: {largest} of {count} vertices",
-            )
-        return _as_list(corners, mode, where)
+            message = f"{where}: index out of range: {largest} of {count} vertices"
+            raise Refused("index-out-of-range", message)
+        if primitive.mode == _TRIANGLES:
+            if len(corners) % 3:
+                raise Refused("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
+            return corners
+        split = fan_triangles if primitive.mode == _FAN else strip_triangles
+        return memoryview(array("I", split(corners)))
 
-    @staticmethod
-    def _targets(targets: list[Any], weights: Sequence[float]) -> list[tuple[float, int]]:
-        """(weight, number of the accessor of the displacements) of each target that counts."""
+    def _morphed(
+        self, positions: Floats, targets: Sequence[Attributes], weights: Sequence[float]
+    ) -> tuple[Floats, float]:
+        """The moved positions, and how far integers and packed data may put their moves off."""
+        import numpy as np
+
         if len(targets) != len(weights):
             raise Refused("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
-        return [
-            (weight, integer(target, "POSITION", -1))
-            for weight, target in zip(weights, targets, strict=True)
-            if weight and isinstance(target, dict) and "POSITION" in target
-        ]
-
-    def _morphed(self, positions: Floats, targets: list[tuple[float, int]]) -> tuple[Floats, float]:
-        """The moved positions, and how far integers and packed data may put their moves off."""
-        from satcheck.scene.files.gltf_shapes import morphed
-
-        moves = [(weight, self._accessors.positions(number)) for weight, number in targets]
-        off = sum(abs(weight) * self._accessors.rounding(number) for weight, number in targets)
-        return morphed(positions, moves), off
+        moved, off = np.array(positions), 0.0
+        for weight, target in zip(weights, targets, strict=True):
+            if weight and "POSITION" in target:
+                move = self._accessors.positions(target["POSITION"])
+                if len(move) != len(moved):
+                    message = "a morph target has another number of vertices"
+                    raise Refused("count-mismatch", message)
+                moved += weight * np.array(move)
+                off += abs(weight) * self._accessors.rounding(target["POSITION"])
+        return _finite(moved), off
 
 
-def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
-    """The accessors that the triangles need."""
-    owners = ((attributes, "POSITION"), (primitive, "indices"))
-    return [integer(owner, key, -1) for owner, key in owners if key in owner]
+def _skinned(positions: Floats, columns: Columns, skin: Skin, where: str) -> tuple[Floats, float]:
+    """Each vertex where its joints put it, in world coordinates, and how far these joints stretch
+    a length at most.
+
+    positions: x, y, z of each vertex. columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and
+    so on. Many files round the last rows of matrices and the sums of weights. Each result is
+    therefore divided by its fourth coordinate.
+    """
+    import numpy as np
+
+    points = np.array(positions).reshape(-1, 3)
+    matrices = np.array(skin.joints, np.float64).reshape(-1, 4, 4)
+    if skin.bound is not None:
+        bound = np.array(skin.bound).reshape(-1, 4, 4)[: len(matrices)]
+        matrices = matrices @ bound.transpose(0, 2, 1)
+    blended = np.zeros((len(points), 4, 4))
+    used = np.zeros(len(matrices), bool)
+    number = 0
+    while (indices := columns(f"JOINTS_{number}", "VEC4")) is not None:
+        shares = columns(f"WEIGHTS_{number}", "VEC4")
+        if shares is None or not len(indices) == len(shares) == 4 * len(points):
+            raise Refused("count-mismatch", f"{where}: joints and weights are not one each")
+        numbers = np.array(indices).astype(np.int64).reshape(-1, 4)
+        weights = np.array(shares).reshape(-1, 4)
+        if numbers.size and numbers.max() >= len(matrices):
+            message = f"{where}: joint {numbers.max()} of {len(matrices)}"
+            raise Refused("index-out-of-range", message)
+        used[numbers[weights != 0]] = True
+        for k in range(4):
+            blended += weights[:, k, None, None] * matrices[numbers[:, k]]
+        number += 1
+    placed = np.einsum("nij,nj->ni", blended[:, :, :3], points) + blended[:, :, 3]
+    if not (placed[:, 3] > 0).all():
+        raise Refused("bad-record", f"{where}: a vertex of the skin has no joint")
+    stretch = np.linalg.norm(matrices[used, :3, :3], 2, axis=(1, 2)).max(initial=0.0)
+    return _finite(placed[:, :3] / placed[:, 3:]), float(stretch)
 
 
-def _as_list(corners: Indices, mode: int, where: str) -> Indices:
-    """The corners of strips and fans, three a triangle."""
-    if mode == _TRIANGLES:
-        if len(corners) % 3:
-            raise Refused("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
-        return corners
-    made = fan_triangles(corners) if mode == _FAN else strip_triangles(corners)
-    return memoryview(array("I", made))
+def _finite(points: NDArray[np.floating[Any]]) -> Floats:
+    import numpy as np
+
+    if not np.isfinite(points).all():
+        raise Refused("non-finite", "the pose makes non-finite coordinates")
+    return memoryview(points.tobytes()).cast("d")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import math
 import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import IO, NoReturn
+from typing import NoReturn
 from xml.parsers import expat
 
 import numpy as np
@@ -25,6 +23,7 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", r
 _PREFIX = re.compile(r"[<\s]([^\W\d][\w.-]*):[^\W\d]")  # of an element or an attribute
 # The name of the outermost element with all before it, and its attributes.
 _OUTERMOST = re.compile(r"((?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<]++)*+<[^\s/>]+)([^>]*)", re.DOTALL)
+_MOST_DIGITS = 18  # of a count or an index
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE)"
 
@@ -63,10 +62,10 @@ class UnboundPrefix(Refused):
     """A prefix is used but not declared."""
 
 
-def parse_xml(parse: Callable[[], object]) -> None:
-    """Runs a parser and turns an error of expat into a Refused."""
+def parse_xml(parser: expat.XMLParserType, data: bytes | memoryview, *, whole: bool = True) -> None:
+    """Parse a document, or the head of one. Raises Refused instead of errors of expat."""
     try:
-        parse()
+        parser.Parse(data, whole)
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
         if reason == expat.errors.XML_ERROR_UNBOUND_PREFIX:
@@ -78,10 +77,6 @@ def parse_xml(parse: Callable[[], object]) -> None:
         raise Refused("bad-record", f"line {error.lineno}: not well-formed XML: {reason}") from None
     except (LookupError, UnicodeError) as error:
         raise Refused("bad-encoding", f"invalid XML encoding: {error}") from None
-
-
-def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
-    parse_xml(lambda: parser.ParseFile(stream))
 
 
 def split_name(name: str) -> tuple[str, str]:
@@ -158,14 +153,6 @@ class Element:
         """A required attribute that is not empty."""
         return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
-    def below(self) -> Iterator[Element]:
-        """All elements inside, in the order of the file."""
-        waiting = list(reversed(self.children))
-        while waiting:
-            element = waiting.pop()
-            yield element
-            waiting.extend(reversed(element.children))
-
     def numbers(
         self, attribute: str, count: int, default: tuple[float, ...] | None = None
     ) -> tuple[float, ...]:
@@ -200,26 +187,26 @@ class Element:
             self.refuse(f'{before}"{value}": {EXPAND}', "xacro")
         self.refuse(f'{before}"{value}" {what}')
 
-    def floats(self, words: list[str]) -> list[float]:
-        try:
-            values = [float(word) for word in words]
-        except ValueError as error:
-            self.refuse(str(error))
-        if not all(map(math.isfinite, values)):
-            self.refuse("a number that is not finite", "non-finite")
-        return values
-
     def counted_floats(self) -> NDArray[np.float64]:
         """The numbers in the element. Their count has to equal its `count`."""
         words, count = self.text.split(), self.integer("count")
         if len(words) != count:
             message = f"{self.tag} promises {count} numbers and has {len(words)}"
             self.refuse(message, "count-mismatch")
-        return np.array(self.floats(words), np.float64)
+        try:
+            values = np.array(list(map(float, words)), np.float64)
+        except ValueError as error:
+            self.refuse(str(error))
+        if not np.isfinite(values).all():
+            self.refuse("a number that is not finite", "non-finite")
+        return values
 
     def integers(self) -> list[int]:
         """The whole numbers >= 0 in the element."""
-        values = self._whole(self.text.split())
+        try:
+            values = [int(word) for word in self.text.split()]
+        except ValueError as error:  # no whole number, or one of thousands of digits
+            self.refuse(str(error))
         if values and min(values) < 0:
             self.refuse(f"negative number {min(values)}", "index-out-of-range")
         return values
@@ -227,15 +214,9 @@ class Element:
     def integer(self, name: str) -> int:
         """A required attribute: a whole number >= 0."""
         word = self.attribute(name).strip()
-        if not word.isdecimal():
+        if not (word.isdecimal() and len(word) <= _MOST_DIGITS):
             self.refuse(f"{name}={word!r} is not a number")
-        return self._whole([word])[0]
-
-    def _whole(self, words: list[str]) -> list[int]:
-        try:
-            return [int(word) for word in words]
-        except ValueError as error:  # no whole number, or one of thousands of digits
-            self.refuse(str(error))
+        return int(word)
 
     def refuse(self, message: str, code: str | None = None) -> NoReturn:
         """Raises Refused (`bad-record`), or RefusedElement (`bad-robot`) in a robot."""
@@ -246,14 +227,13 @@ class Element:
 
 
 def read_elements(
-    data: bytes | memoryview | IO[bytes],
+    data: bytes | memoryview,
     *,
     encodings: frozenset[str] | None = None,
     file: str | None = None,
 ) -> Element:
     """The outermost element. encodings: as in `guarded_parser`. file: of a robot, whose names keep
     their prefixes. Raises Refused."""
-    stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
     parser = guarded_parser(encodings, namespaces=file is None)
     outermost: list[Element] = []
     around: list[Element] = []
@@ -273,7 +253,7 @@ def read_elements(
     parser.EndElementHandler = lambda _: around.pop()
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
     try:
-        parse_stream(parser, stream)
+        parse_xml(parser, data)
     except Refused as error:
         if not around:
             raise

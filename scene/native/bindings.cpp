@@ -19,10 +19,8 @@
 
 #include "base/large_pages.hpp"
 #include "builder.hpp"
-#include "meshopt.hpp"
 #include "polygons.hpp"
 #include "readers.hpp"
-#include "rows.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck::scene;

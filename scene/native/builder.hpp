@@ -1,7 +1,11 @@
-// Functions that all readers share: errors and final checks.
+// Functions that all readers share: errors, final checks, and numbers in binary files.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -38,6 +42,15 @@ inline void require_triangles(const MeshData& mesh) {
   fail(code::empty_mesh, mesh.vertices.empty() ? "empty mesh: no vertices and no triangles"
                                                : "empty mesh: " + std::to_string(mesh.vertices.size() / 3) +
                                                      " vertices but no triangles");
+}
+
+// A number in a file, for any byte order of the file and of the machine.
+template <class T>
+T load(const char* from, std::endian order = std::endian::little) {
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), from, sizeof(T));
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<T>(raw);
 }
 
 }  // namespace satcheck::scene

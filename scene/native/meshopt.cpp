@@ -1,7 +1,5 @@
 // After the bitstream in the appendices of KHR_meshopt_compression (Khronos Group; Arseny Kapoulkine, 2025), of which
 // EXT_meshopt_compression is version 0. Every read is checked against the end; speed is left to the compiler.
-#include "meshopt.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,7 +8,7 @@
 #include <vector>
 
 #include "builder.hpp"
-#include "bytes.hpp"
+#include "readers.hpp"
 
 namespace satcheck::scene {
 namespace {

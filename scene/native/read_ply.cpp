@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "builder.hpp"
-#include "bytes.hpp"
 #include "ply_header.hpp"
 #include "polygons.hpp"
 #include "readers.hpp"

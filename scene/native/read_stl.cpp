@@ -6,7 +6,6 @@
 
 #include "base/large_pages.hpp"
 #include "builder.hpp"
-#include "bytes.hpp"
 #include "corners.hpp"
 #include "readers.hpp"
 #include "text.hpp"

@@ -1,9 +1,9 @@
-#include "rows.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+
+#include "readers.hpp"
 
 namespace satcheck::scene {
 namespace {

@@ -118,7 +118,7 @@ def first_tags(head: bytes, count: int) -> list[str]:
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
     with suppress(Refused):  # the reader reports the error
-        parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
+        parse_xml(parser, _with_declaration_first(head), whole=False)
     return tags[:count]
 
 

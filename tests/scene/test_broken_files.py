@@ -54,10 +54,6 @@ _CUBE_NODE = '<node id="n">{}<instance_geometry url="#g"/></node>'
 _OTHER = "http://schemas.example.com/another"
 
 
-def _with_beams(object_):
-    return object_.replace("</triangles>", f'</triangles><beamlattice xmlns="{_OTHER}"/>')
-
-
 REFUSED = {
     # name: (content, code, what the message must say)
     "empty.obj": (b"", "empty-mesh", "no vertices"),
@@ -290,18 +286,13 @@ REFUSED = {
         "unsupported-feature",
         "<skew>: a transform that is not read",
     ),
-    "beams.3mf": (
-        files.threemf(_with_beams(files.object_3mf(1))),
-        "unsupported-feature",
-        "<beamlattice> is not read",
-    ),
     "boolean.3mf": (
         files.threemf(
             files.object_3mf(1) + f'<object id="2"><booleanshape xmlns="{_OTHER}"/></object>',
             '<item objectid="1"/><item objectid="2"/>',
         ),
-        "unsupported-feature",
-        "<booleanshape> is not read",
+        "empty-mesh",
+        "object '2' has no triangles",
     ),
     "hollow.3mf": (
         files.threemf(

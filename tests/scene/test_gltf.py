@@ -113,7 +113,11 @@ def test_zeros_cost_no_more_than_the_limit(tmp_path):
     document = Document()
     del document.json["accessors"][0]["bufferView"]
     document.json["accessors"][0]["count"] = 10**12
-    document.json["accessors"][0]["sparse"] = {"count": 0}
+    document.json["accessors"][0]["sparse"] = {
+        "count": 0,
+        "indices": {"bufferView": 0, "componentType": 5121},
+        "values": {"bufferView": 0},
+    }
     assert refusal(tmp_path, "a.glb", document.glb())[0] == "too-large"
 
 

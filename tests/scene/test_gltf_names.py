@@ -12,7 +12,8 @@ import pytest
 from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.gltf_nodes import parse_document
+from satcheck.scene.files.gltf_document import read_document
+from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.read_options import GeometryKind
 from tests.scene import files
 from tests.scene.loading import refusal
@@ -220,6 +221,24 @@ def test_a_node_with_a_negative_mesh_is_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, made)[0] == "bad-record"
 
 
+@pytest.mark.parametrize("number", [[0], {}, None, "0", True, 0.0])
+def test_a_number_of_another_type_is_refused(tmp_path: Path, number: Any) -> None:
+    made = document()
+    (whole,) = made["meshes"][0]["primitives"]
+    made["meshes"].append({"primitives": [{**whole, "attributes": {"POSITION": number}}]})
+    made["nodes"][1]["mesh"] = 1
+    (lost,) = read(tmp_path, made).unreadable
+    assert (lost.id, lost.issue.code) == ("b", "bad-record")
+
+
+def test_shapes_that_are_no_list_cannot_be_checked(tmp_path: Path) -> None:
+    made = with_colliders(KHR, 0, 1)
+    made["extensions"]["KHR_implicit_shapes"]["shapes"] = 1
+    assert {lost.issue.code for lost in read(tmp_path, made, "collision").unreadable} == {
+        "bad-record"
+    }
+
+
 def test_a_mesh_without_primitives_cannot_be_checked(tmp_path: Path) -> None:
     made = document()
     made["meshes"].append({"name": "lost"})
@@ -250,7 +269,7 @@ def test_a_key_given_twice_is_refused() -> None:
         '"mesh": 0, "tr', '"translation": [0, 0, 0], "mesh": 0, "tr'
     )
     with pytest.raises(Refused, match="'translation' occurs twice") as error:
-        parse_document(memoryview(made.encode()))
+        read_document(memoryview(made.encode()), UnknownNames())
     assert error.value.code == "bad-record"
 
 
@@ -258,7 +277,7 @@ def test_many_keys_before_one_given_twice_take_no_time_of_their_own() -> None:
     """They are counted in one pass: looking back from each key would take hours."""
     keys = ", ".join(f'"{number}": 0' for number in [*range(300_000), 299_999])
     with pytest.raises(Refused, match="'299999' occurs twice"):
-        parse_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()))
+        read_document(memoryview(f'{{"extras": {{{keys}}}}}'.encode()), UnknownNames())
 
 
 @pytest.mark.parametrize(

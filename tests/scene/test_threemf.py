@@ -61,9 +61,7 @@ def test_undeclared_prefixes_behind_a_comment(tmp_path, coding):
 @pytest.mark.parametrize(
     "content",
     [
-        package(CUBE.replace("<triangles>", "<my:beams/><triangles>")),
         package(CUBE.replace("</object>", "<my:component/></object>")),
-        package(items=ITEM + '<my:item objectid="1"/>'),
         package(CUBE.replace("<my:", "<"), attributes='requiredextensions="my"'),
     ],
 )
@@ -71,6 +69,52 @@ def test_undeclared_prefixes_that_could_be_geometry(tmp_path, content):
     code, message = refusal(tmp_path, "a.3mf", content)
     assert code in ("unsupported-feature", "misspelt")
     assert "my" in message
+
+
+@pytest.mark.parametrize(
+    ("content", "name"),
+    [
+        (package(CUBE.replace("<triangles>", "<my:beams/><triangles>")), "my:beams"),
+        (package(items=ITEM + '<my:item objectid="1"/>'), "my:item"),
+        (
+            package(CUBE.replace("</mesh>", '<beamlattice xmlns="urn:other"/></mesh>')),
+            "urn:other:beamlattice",
+        ),
+    ],
+)
+def test_what_could_be_geometry_beside_a_mesh_blocks_a_pass(tmp_path, content, name):
+    file = loaded(tmp_path, "a.3mf", content)
+    assert f"{name} is not read" in warnings(file)["unread"]
+
+
+ROWS = '<vertex x="9" y="9" z="9"/><vertex x="9" y="9" z="9"/><vertex x="9" y="9" z="9"/>'
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        f"<!-- {ROWS} -->",
+        f"<![CDATA[{ROWS}]]>",
+        f'<x xmlns="urn:other">{ROWS}</x>',
+        "<?satcheck-rows 0?>",
+        f"<?other {ROWS} <vertex x='8' y='8' z='8'/>?>",
+    ],
+)
+def test_rows_that_are_none_of_the_mesh(tmp_path, rows):
+    content = package(CUBE.replace("</vertices>", f"{rows}</vertices>"))
+    assert loaded(tmp_path, "a.3mf", content).mesh.bounds == ((0, 0, 0), (1, 1, 1))
+
+
+def test_rows_outside_of_an_object(tmp_path):
+    code, message = refusal(tmp_path, "a.3mf", package(ROWS + CUBE))
+    assert (code, "geometry outside of an object" in message) == ("bad-record", True)
+
+
+def test_the_line_of_what_follows_rows(tmp_path):
+    cube = CUBE.replace("/>", "/>\n").replace("</object>", "<offset/></object>")
+    line = cube.partition("<offset/>")[0].count("\n") + 1
+    warned = warnings(loaded(tmp_path, "a.3mf", package(cube)))
+    assert f"line {line}: <object>: offset is not read" in warned["unread"]
 
 
 def test_a_namespace_that_is_only_like_one_that_is_known(tmp_path):

@@ -1,5 +1,5 @@
 // The unpacking of meshopt streams without Python: no stream, cut or damaged, harms it.
-#include "meshopt.hpp"
+#include "readers.hpp"
 
 #include <random>
 #include <string>

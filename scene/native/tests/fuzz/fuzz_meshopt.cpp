@@ -2,7 +2,7 @@
 #include "tests/fuzz/input.hpp"
 #include "tests/fuzz/invariants.hpp"
 #include "tests/fuzz/target.hpp"
-#include "meshopt.hpp"
+#include "readers.hpp"
 
 namespace {
 
