@@ -153,6 +153,14 @@ class Element:
         """A required attribute that is not empty."""
         return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
+    def below(self) -> Iterator[Element]:
+        """All elements inside, in the order of the file."""
+        waiting = list(reversed(self.children))
+        while waiting:
+            element = waiting.pop()
+            yield element
+            waiting.extend(reversed(element.children))
+
     def numbers(
         self, attribute: str, count: int, default: tuple[float, ...] | None = None
     ) -> tuple[float, ...]:
