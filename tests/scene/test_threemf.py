@@ -96,7 +96,7 @@ ROWS = '<vertex x="9" y="9" z="9"/><vertex x="9" y="9" z="9"/><vertex x="9" y="9
         f"<!-- {ROWS} -->",
         f"<![CDATA[{ROWS}]]>",
         f'<x xmlns="urn:other">{ROWS}</x>',
-        "<satcheck-rows n=\"0\"/>",
+        '<satcheck-rows n="0"/>',
         f"<?other {ROWS} <vertex x='8' y='8' z='8'/>?>",
     ],
 )
