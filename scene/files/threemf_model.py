@@ -11,7 +11,6 @@ import math
 import posixpath
 import re
 from array import array
-from codecs import BOM_UTF8
 from dataclasses import dataclass, field
 from urllib.parse import unquote
 
@@ -24,7 +23,6 @@ from satcheck.scene.files.slicer_config import Volume
 from satcheck.scene.files.threemf_vocabulary import (
     ATTRIBUTES,
     CHILDREN,
-    CORE,
     CURA_VOLUMES,
     FULL,
     PREFIXES,
@@ -35,10 +33,9 @@ from satcheck.scene.files.threemf_vocabulary import (
 )
 from satcheck.scene.files.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.files.xml_tree import (
+    Element,
     UnboundPrefix,
-    guarded_parser,
-    parse_xml,
-    split_name,
+    read_elements,
     with_declared_prefixes,
 )
 
@@ -52,14 +49,15 @@ _NUMBERS = {"vertex": ["x", "y", "z"], "triangle": ["v1", "v2", "v3"]}
 
 def _run(name: str, numbers: list[str]) -> str:
     values = "".join(rf'\s++{each}="[-+.0-9eE]++"' for each in numbers)
-    row = rf"<{name}{values}\s*+/>\s*+"
+    harmless = "|".join(filter(str.isidentifier, ATTRIBUTES[name].harmless))
+    row = rf"""<{name}{values}(?:\s++(?:{harmless})="[^"<&]*+")*+\s*+/>\s*+"""
     return f"({row})((?:{row})++)"
 
 
 # A row and those like it after it, as nearly all programs write them.
 _RUN = re.compile("|".join(_run(*each) for each in _NUMBERS.items()).encode())
-_DECLARATIONS = (b"<?xml ", BOM_UTF8 + b"<?xml ")
-_TAKEN = "satcheck-rows"  # the processing instruction in place of a run
+_NUMBER = re.compile(r'\s(?:[xyz]|v[123])="([^"]*)"')
+_TAKEN = "satcheck-rows"  # the element in place of a run
 
 
 Key = tuple[str, str]  # a part, and the id of an object in it
@@ -151,33 +149,22 @@ class Model:
 
 
 def read_model(part: str, data: bytes) -> Model:
-    """Reads the objects of a model part. part: its name in the package. Raises Refused."""
-    try:
-        return _read(part, data)
-    except UnboundPrefix:
-        # Some programs write prefixes without a declaration for their own data.
-        return _read(part, with_declared_prefixes(data))
-
-
-def _read(part: str, data: bytes) -> Model:
-    if data.count(b"<?") > data.startswith(_DECLARATIONS):  # rows may be in an instruction
-        return _ModelReader(part, []).read(data)
+    """Return the objects of a model part. part: its name in the package. Raises Refused."""
     runs: list[str] = []
 
     def take(match: re.Match[bytes]) -> bytes:
         first, run = filter(None, match.groups())
         runs.append(run.decode())
         lines = b"\n" * run.count(b"\n")  # the lines of errors stay
-        return b"%b<?%b %d%b?>" % (first, _TAKEN.encode(), len(runs) - 1, lines)
+        return b'%b<%b n="%d"%b/>' % (first, _TAKEN.encode(), len(runs) - 1, lines)
 
+    if _TAKEN.encode() not in data:
+        data = _RUN.sub(take, data)
     try:
-        return _ModelReader(part, runs).read(_RUN.sub(take, data))
-    except _UnlikeRow:
-        return _ModelReader(part, []).read(data)
-
-
-class _UnlikeRow(Exception):
-    """The row before a run is none that is read."""
+        return _ModelReader(part, runs).read(data)
+    except UnboundPrefix:
+        # Some programs write prefixes without a declaration for their own data.
+        return _ModelReader(part, runs).read(with_declared_prefixes(data))
 
 
 def part_name(target: str) -> str:
@@ -193,97 +180,82 @@ class _ModelReader:
         self._runs = runs
         self._model = Model()
         self._object: Object | None = None
+        self._row = ""  # the last row that was read, "vertex" or "triangle"
         self._unknown = UnknownNames()
         self._around: list[str] = []  # the elements that are open
         self._given: set[str] = set()  # elements of the object
         self._usual: set[tuple[str, ...]] = set()  # parent, element and attributes, all known
-        self._row: tuple[str, str, list[str]] | None = None  # parent, name and keys of a row
-        self._texts: list[str] = []  # where the numbers of rows like it go
         self._prefixes: dict[str | None, str] = {}
         self._ignorable: frozenset[str] = frozenset()
-        self._parser = guarded_parser(ENCODINGS)
-        self._parser.ordered_attributes = True
-        self._parser.StartElementHandler = self._on_element
-        self._parser.EndElementHandler = lambda _: self._around.pop()
-        self._parser.StartNamespaceDeclHandler = self._prefixes.__setitem__
-        self._parser.ProcessingInstructionHandler = self._on_run
 
     def read(self, data: bytes) -> Model:
-        parse_xml(self._parser, data)
+        root = read_elements(
+            data,
+            encodings=ENCODINGS,
+            tag_of=short_element,
+            key_of=short,
+            prefixes=self._prefixes,
+        )
+        if root.tag != "model":
+            what = f"the outermost element is {root.tag}, and no model that is read"
+            raise self._fail(root, "unsupported-feature", what)
+        self._ignorable = ignorable(root.attributes, self._prefixes)
+        self._visit(root)
         self._model.unread = self._unknown.warnings()
         for id_, object_ in self._model.objects.items():
             if object_.is_empty:
                 object_.refusal = Refused("empty-mesh", f"object {id_!r} has no triangles")
         return self._model
 
-    @property
-    def _place(self) -> str:
-        return f"{self._part}, line {self._parser.CurrentLineNumber}"
+    def _fail(self, element: Element, code: str, message: str) -> Refused:
+        return Refused(code, f"{self._part}, line {element.line}: {message}")
 
-    def _fail(self, code: str, message: str) -> Refused:
-        return Refused(code, f"{self._place}: {message}")
-
-    def _on_run(self, _target: str, number: str) -> None:
-        if not self._runs:
+    def _visit(self, element: Element) -> None:
+        if element.tag == _TAKEN and self._runs:
+            self._take(self._runs[int(element.attributes["n"])])
             return
-        if self._row is None:
-            raise _UnlikeRow
-        self._texts.extend(self._runs[int(number)].split('"')[1::2])
-
-    def _on_element(self, name: str, given: list[str]) -> None:
-        """given: names of attributes and their values, in turns."""
-        around = self._around[-1] if self._around else ""
-        row = around, name, given[::2]
-        if row == self._row:
-            self._around.append(short_element(name))
-            self._texts.extend(given[1:6:2])
-            return
-        self._row = None
-        attributes = dict(zip(given[::2], given[1::2], strict=True))
-        namespace, local = split_name(name)
-        if not self._around:
-            if namespace not in CORE or local != "model":
-                what = f"the outermost element is {short_element(name)}, and no model that is read"
-                raise self._fail("unsupported-feature", what)
-            self._ignorable = ignorable(attributes, self._prefixes)
-        self._look(short_element(name), namespace in self._ignorable, attributes)
-        if namespace not in CORE:
-            return
+        self._look(element)
         try:
-            self._handle(local, attributes)
+            self._handle(element)
         except Refused as error:
-            if self._object is None or local not in _NUMBERS:
+            if self._object is None or element.tag not in _NUMBERS:
                 raise
             self._object.refusal = self._object.refusal or error
-        else:
-            is_usual = (around, local, *given[::2]) in self._usual
-            if self._object and is_usual and given[:6:2] == _NUMBERS.get(local):
-                self._row, self._texts = row, self._object.texts(local)
+        self._around.append(element.tag)
+        for child in element.children:
+            self._visit(child)
+        self._around.pop()
 
-    def _look(self, name: str, is_ignorable: bool, attributes: dict[str, str]) -> None:
+    def _take(self, run: str) -> None:
+        """Read the rows after a row."""
+        if self._row:
+            is_plain = run.count('"') == 6 * run.count("<")  # without other attributes
+            texts = run.split('"')[1::2] if is_plain else _NUMBER.findall(run)
+            self._current().texts(self._row).extend(texts)
+
+    def _look(self, element: Element) -> None:
         """Gather the element, if it is unknown there, and its attributes."""
-        around = self._around[-1] if self._around else ""
-        self._around.append(name)
-        if (around, name, *attributes) in self._usual:
-            return  # as nearly all elements of a mesh
-        place = self._place
+        name, around = element.tag, self._around[-1] if self._around else ""
+        if (around, name, *element.attributes) in self._usual:
+            return
+        place = f"{self._part}, line {element.line}"
         children, own = CHILDREN.get(around), ATTRIBUTES.get(name)
-        given = [short(key) for key in attributes if split_name(key)[0] not in self._ignorable]
-        if children is not None and not is_ignorable:
+        if children is not None and not self._is_ignorable(name):
             self._unknown.look(children, (name,), f"in {around}", f"{place}: <{around}>")
         elif around and name in ATTRIBUTES:
             message = f"{place}: <{name}> inside of <{around}>, which is not read"
             self._unknown.note((f"in {around}", name), message)
         if own is not None:
+            given = [key for key in element.attributes if not self._is_ignorable(key)]
             self._unknown.look(own, given, name, f"{place}: <{name}>")
-        elif name == "metadata":
-            if "object" in self._around or "build" in self._around:
-                self._on_setting(attributes.get("name", ""), place)
-            return
-        if (children is None or children.knows(name)) and (
-            own is None or all(map(own.knows, given))
-        ):
-            self._usual.add((around, name, *attributes))
+        elif name == "metadata" and ("object" in self._around or "build" in self._around):
+            self._on_setting(element.attributes.get("name", ""), place)
+        known = children is None or children.knows(name)
+        if known and own is not None and all(map(own.knows, element.attributes)):
+            self._usual.add((around, name, *element.attributes))
+
+    def _is_ignorable(self, name: str) -> bool:
+        return name.rpartition(":")[0] in self._ignorable
 
     def _on_setting(self, name: str, place: str) -> None:
         key = name.rpartition(":")[2]
@@ -292,48 +264,56 @@ class _ModelReader:
             message = f"{place}: {name} is not read; it may make a body none"
             self._unknown.note(("metadata", name), message)
 
-    def _handle(self, local: str, attributes: dict[str, str]) -> None:
+    def _handle(self, element: Element) -> None:
         """Read an element of the core specification."""
+        tag, attributes = element.tag, element.attributes
+        self._row = ""
         try:
-            match local:
+            match tag:
                 case "model":
-                    self._on_model(attributes)
+                    self._on_model(element)
                 case "object":
-                    self._on_object(attributes)
+                    self._on_object(element)
                 case "mesh" | "vertices" | "triangles" | "components":
-                    self._on_once(local)
+                    self._on_once(tag)
                 case "vertex" | "triangle":
-                    numbers = [attributes[key] for key in _NUMBERS[local]]
-                    self._current().texts(local).extend(numbers)
+                    numbers = [attributes[key] for key in _NUMBERS[tag]]
+                    self._current().texts(tag).extend(numbers)
+                    self._row = tag
                 case "component":
                     self._current().references.append(self._reference(attributes))
                 case "item":
                     self._model.items.append(self._reference(attributes))
         except KeyError as error:
-            raise self._fail("bad-record", f"<{local}> lacks {error.args[0]!r}") from None
+            raise self._fail(element, "bad-record", f"<{tag}> lacks {error.args[0]!r}") from None
         except (ValueError, OverflowError) as error:
-            raise self._fail("bad-record", f"<{local}>: {error}") from None
+            raise self._fail(element, "bad-record", f"<{tag}>: {error}") from None
 
-    def _on_model(self, attributes: dict[str, str]) -> None:
+    def _on_model(self, element: Element) -> None:
+        attributes = element.attributes
         self._model.unit = attributes.get("unit", _DEFAULT_UNIT)
         if self._model.unit not in UNITS:
             message = f"the unit is {self._model.unit!r}, none of {', '.join(sorted(UNITS))}"
-            raise self._fail("bad-record", message)
+            raise self._fail(element, "bad-record", message)
         for prefix in attributes.get("requiredextensions", "").split():
             uri = self._prefixes.get(prefix, prefix)
             if PREFIXES.get(uri) not in _REQUIRED:
-                raise self._fail("unsupported-feature", f"the model requires extension {uri!r}")
+                raise self._fail(
+                    element, "unsupported-feature", f"the model requires extension {uri!r}"
+                )
 
-    def _on_object(self, attributes: dict[str, str]) -> None:
+    def _on_object(self, element: Element) -> None:
+        attributes = element.attributes
         id_ = attributes["id"]
         if id_ in self._model.objects:
-            raise self._fail("bad-record", f"object id {id_!r} occurs twice")
+            raise self._fail(element, "bad-record", f"object id {id_!r} occurs twice")
         name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
         self._object = self._model.objects[id_] = Object(name, attributes.get("type", "model"))
-        for key in attributes:
-            if short(key) in FULL and attributes[key] != "fullres":
-                what = f"{short(key)}={attributes[key]!r}: the mesh is not the body"
-                self._unknown.note(("resolution", short(key)), f"{self._place}: <object> {what}")
+        for key, value in attributes.items():
+            if key in FULL and value != "fullres":
+                what = f"<object> {key}={value!r}: the mesh is not the body"
+                message = f"{self._part}, line {element.line}: {what}"
+                self._unknown.note(("resolution", key), message)
         self._given.clear()
 
     def _on_once(self, local: str) -> None:
@@ -344,12 +324,12 @@ class _ModelReader:
 
     def _current(self) -> Object:
         if self._object is None:
-            raise self._fail("bad-record", "geometry outside of an object")
+            raise ValueError("geometry outside of an object")
         return self._object
 
     def _reference(self, attributes: dict[str, str]) -> Reference:
         """A component or a build item."""
-        path = next((text for key, text in attributes.items() if short(key) == "p:path"), None)
+        path = attributes.get("p:path")
         part = part_name(path) if path else self._part
         return (part, attributes["objectid"]), self._matrix(attributes)
 
@@ -360,7 +340,7 @@ class _ModelReader:
         _check_plain(attributes["transform"])
         values = [float(word) for word in attributes["transform"].split()]
         if len(values) != 12 or not all(map(math.isfinite, values)):
-            raise self._fail("bad-record", "a transform needs 12 finite numbers")
+            raise ValueError("a transform needs 12 finite numbers")
         rows = [(*values[axis::3],) for axis in range(3)]
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
 

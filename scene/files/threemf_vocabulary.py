@@ -37,7 +37,6 @@ PREFIXES = {
     "http://www.w3.org/XML/1998/namespace": "xml",
     "http://www.w3.org/2001/XMLSchema-instance": "xsi",
 }
-_IGNORABLE = "http://schemas.openxmlformats.org/markup-compatibility/2006 Ignorable"
 # Words in the namespaces of extensions that define geometry: a file cannot make them ignorable.
 _GEOMETRY = frozenset(
     {
@@ -146,9 +145,9 @@ def short_element(name: str) -> str:
 
 def ignorable(attributes: Mapping[str, str], prefixes: Mapping[str | None, str]) -> frozenset[str]:
     """Return the namespaces that a model declares ignorable, and that nobody knows."""
-    named = {prefixes.get(each, "") for each in attributes.get(_IGNORABLE, "").split()}
+    named = {prefixes.get(each, "") for each in attributes.get("mc:Ignorable", "").split()}
     return frozenset(
-        each
+        each.removeprefix(UNDECLARED)
         for each in named - CORE - PREFIXES.keys() - {""}
         if _GEOMETRY.isdisjoint(each.split("/"))
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NoReturn
 from xml.parsers import expat
@@ -83,6 +84,10 @@ def split_name(name: str) -> tuple[str, str]:
     """(namespace, local name); the namespace is "" if there is none."""
     namespace, _, local = name.rpartition(_NAMESPACE_SEPARATOR)
     return namespace, local
+
+
+def local_name(name: str) -> str:
+    return split_name(name)[1]
 
 
 def with_declared_prefixes(data: bytes) -> bytes:
@@ -239,16 +244,23 @@ def read_elements(
     *,
     encodings: frozenset[str] | None = None,
     file: str | None = None,
+    tag_of: Callable[[str], str] = local_name,
+    key_of: Callable[[str], str] = local_name,
+    prefixes: dict[str | None, str] | None = None,
 ) -> Element:
-    """The outermost element. encodings: as in `guarded_parser`. file: of a robot, whose names keep
-    their prefixes. Raises Refused."""
+    """The outermost element. Raises Refused.
+
+    encodings: as in `guarded_parser`. file: of a robot, whose names keep their prefixes. tag_of,
+    key_of: the names of elements and attributes by those of the parser. prefixes: takes the
+    namespaces of all prefixes.
+    """
     parser = guarded_parser(encodings, namespaces=file is None)
     outermost: list[Element] = []
     around: list[Element] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        plain = {split_name(key)[1]: value for key, value in attributes.items()}
-        element = Element(split_name(name)[1], plain, parser.CurrentLineNumber, file or "")
+        named = {key_of(key): value for key, value in attributes.items()}
+        element = Element(tag_of(name), named, parser.CurrentLineNumber, file or "")
         if len(around) >= MAX_DEPTH:
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
@@ -260,11 +272,13 @@ def read_elements(
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda _: around.pop()
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
+    if prefixes is not None:
+        parser.StartNamespaceDeclHandler = prefixes.__setitem__
     try:
         parse_xml(parser, data)
     except Refused as error:
         if not around:
             raise
         still = f"<{around[-1].tag}> of line {around[-1].line} was still open"
-        raise Refused(error.code, f"{error.message}; {still}") from None
+        raise type(error)(error.code, f"{error.message}; {still}") from None
     return outermost[0]

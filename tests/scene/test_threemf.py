@@ -96,13 +96,21 @@ ROWS = '<vertex x="9" y="9" z="9"/><vertex x="9" y="9" z="9"/><vertex x="9" y="9
         f"<!-- {ROWS} -->",
         f"<![CDATA[{ROWS}]]>",
         f'<x xmlns="urn:other">{ROWS}</x>',
-        "<?satcheck-rows 0?>",
+        '<satcheck-rows n="0"/>',
         f"<?other {ROWS} <vertex x='8' y='8' z='8'/>?>",
     ],
 )
 def test_rows_that_are_none_of_the_mesh(tmp_path, rows):
     content = package(CUBE.replace("</vertices>", f"{rows}</vertices>"))
     assert loaded(tmp_path, "a.3mf", content).mesh.bounds == ((0, 0, 0), (1, 1, 1))
+
+
+def test_rows_with_colours(tmp_path):
+    pieces = CUBE.split("/>")
+    for k in range(8, 20):  # the triangles
+        pieces[k] += (' pid="5" p1="0" p2="1"', ' pid="5"', "")[k % 3]
+    file = loaded(tmp_path, "a.3mf", package("/>".join(pieces)))
+    assert (file.health.volume, warnings(file)) == (1.0, {})
 
 
 def test_rows_outside_of_an_object(tmp_path):
