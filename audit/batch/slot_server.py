@@ -184,7 +184,7 @@ def _key(
     lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
     if lacking or not files.are_certain():
         return None
-    return key_of(world, terms, inputs, options.folders, _digests.real_path)
+    return key_of(world, terms, inputs, options.folders)
 
 
 def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:
