@@ -65,6 +65,14 @@ def test_of_a_batch_under_way_the_part_is_read(tmp_path: Path) -> None:
     assert (names(listed), issues, least) == (["a", "b"], [], "pass")
 
 
+def test_a_batch_that_finishes_while_it_is_read_ends_the_reading(tmp_path: Path) -> None:
+    """Its part is emptied."""
+    part = write(tmp_path / "1.part", *(line(name) for name in "abc"))
+    with StoredResults([tmp_path / "1"]) as results:
+        part.write_bytes(b"")
+        assert list(results) == []
+
+
 def test_of_a_resumed_batch_the_part_counts(tmp_path: Path) -> None:
     path = write(tmp_path / "1", line("a", reason="old"), line("b", reason="old"))
     write(tmp_path / "1.part", line("b", reason="new"))
