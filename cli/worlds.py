@@ -13,8 +13,8 @@ from typing import Any
 import click
 from msgspec.structs import asdict
 
-from satcheck.audit.assets import unused_rules, without_unused_rules
 from satcheck.audit.baseline_file import read_baseline
+from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot_server import Answer, Wanted

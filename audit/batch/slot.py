@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from tempfile import TemporaryDirectory
 
-from satcheck.audit.assets import lost_asset
+from satcheck.audit.batch.check_world import lost_asset
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import is_remote
 from satcheck.audit.batch.slot_server import (

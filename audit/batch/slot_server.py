@@ -16,8 +16,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.assets import unreadable_asset, without_unused_rules
-from satcheck.audit.batch.check_world import check_world
+from satcheck.audit.batch.check_world import check_world, unreadable_asset, without_unused_rules
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import Copies, is_remote, make_room

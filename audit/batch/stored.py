@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple, Self, TypeVar
 
 import msgspec
 
-from satcheck.audit.assets import unreadable_asset
+from satcheck.audit.batch.check_world import unreadable_asset
 from satcheck.audit.batch.options import World
 from satcheck.audit.batch.results import PART, complete_lines, part_of, resolved
 from satcheck.core.errors import SatcheckError

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.assets import lost_asset
+from satcheck.audit.batch.check_world import lost_asset
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.stored import Stored, StoredResults
 from satcheck.core.errors import SatcheckError
