@@ -8,8 +8,7 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
-from satcheck.audit.baseline import beside_baseline
-from satcheck.audit.baseline_file import asset_key, current_baseline
+from satcheck.audit.baseline import asset_key, beside_baseline, current_baseline
 from satcheck.audit.batch.options import CheckOptions, World
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
 from satcheck.audit.check import check

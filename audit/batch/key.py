@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.report.batch import InputFile
+from satcheck.report.assets import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.paths import Permitted, search_path
 

@@ -16,9 +16,8 @@ from filelock import FileLock, Timeout
 
 from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import AssetVerdict
+from satcheck.report.assets import AssetVerdict, InputFile
 from satcheck.report.atomic_file import replace_file
-from satcheck.report.batch import InputFile
 from satcheck.report.json import read_line
 
 # What the name of the file of an unfinished run ends with.
@@ -27,7 +26,7 @@ _BLOCK_BYTES = 1 << 16
 
 
 class Head(msgspec.Struct, frozen=True):
-    """`report.batch.Result` without the report."""
+    """`report.assets.Result` without the report."""
 
     files: World
     key: str | None

@@ -23,8 +23,7 @@ from satcheck.audit.batch.remote import Copies, is_remote, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
-from satcheck.report.assets import Asset, AssetVerdict
-from satcheck.report.batch import InputFile, Result
+from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
 from satcheck.report.json import line_of
 from satcheck.scene.files_read import FilesRead, files_read, note
 from satcheck.scene.mesh_files import KnownMeshes

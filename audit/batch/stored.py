@@ -19,9 +19,8 @@ from satcheck.audit.batch.check_world import unreadable_asset
 from satcheck.audit.batch.options import World
 from satcheck.audit.batch.results import PART, complete_lines, part_of, resolved
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import Asset, AssetVerdict, worst_verdict
+from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result, worst_verdict
 from satcheck.report.atomic_file import replace_file
-from satcheck.report.batch import InputFile, Result
 from satcheck.report.json import read_line
 from satcheck.report.report import Issue
 

@@ -12,8 +12,7 @@ from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.stored import Stored, StoredResults
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss
-from satcheck.report.assets import AssetVerdict
-from satcheck.report.batch import Result
+from satcheck.report.assets import AssetVerdict, Result
 from satcheck.report.json import line_of
 from tests.cli.reports import PENETRATING, report
 
