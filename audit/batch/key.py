@@ -90,12 +90,12 @@ def _place(name: str, places: dict[str, str]) -> str:
     """Return the path without links. places: of the folders that are known so far."""
     if remote.is_url(name):
         return name
-    folder, slash, base = name.rpartition("/")
+    folder, base = os.path.split(name)
     try:
         if base in ("", "..") or _is_link(name):
             return os.path.realpath(name)
         if folder not in places:
-            places[folder] = os.path.realpath(folder + slash)
+            places[folder] = os.path.realpath(folder)
         return f"{places[folder]}/{base}"
     except ValueError:  # a NUL: no file has this name
         return name
