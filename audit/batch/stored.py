@@ -37,6 +37,7 @@ _VERDICTS: dict[str, AssetVerdict] = {
     MISSING: "incomplete",
     DIFFERENT: "pass",
 }
+_LAST_COUNTS = "; the last file counts"  # in a report; nothing is merged then
 # Issues for which nothing is merged, and the codes of these errors.
 _REFUSED = {BAD_RESULT: "bad-results", UNFINISHED: UNFINISHED, DIFFERENT: "results-differ"}
 # Lines of a file that are named one by one.
@@ -130,7 +131,7 @@ class StoredResults:
                 first_different = first_different or _named(lines[0].name.files)
         if different:
             which = f"{first_different}{_more(different - 1)}"
-            reason = f"{which}: different results in several files; the last file counts"
+            reason = f"{which}: different results in several files{_LAST_COUNTS}"
             yield Issue(DIFFERENT, "warning", None, None, reason)
         if missing:
             which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
@@ -281,5 +282,6 @@ def merge(paths: Sequence[Path], out: Path) -> None:
         with StoredResults(paths) as results:
             for issue in results.issues:
                 if issue.code in _REFUSED:
-                    raise SatcheckError(_REFUSED[issue.code], issue.message)
+                    reason = issue.message.removesuffix(_LAST_COUNTS)
+                    raise SatcheckError(_REFUSED[issue.code], reason)
             replace_file(out, results.lines())
