@@ -1,4 +1,5 @@
-"""Every rung of the ladder on one pair, in turn, compared with what the exact one proves."""
+"""Ask every rung of the ladder about one pair, and compare each answer with what the exact one
+proves."""
 
 from __future__ import annotations
 
@@ -30,7 +31,7 @@ from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.core.rounding import rounding_pad
 from satcheck.decompose.result import Decomposition
 from satcheck.report.report import OVERLAPS, Finding
-from satcheck.report.tradeoff import Bounds, Row, RungName, Times, TradeoffReport, Truth, choices
+from satcheck.report.tradeoff import Bounds, Row, RungName, Times, TradeoffReport, Truth
 
 SPENT = "budget"
 # Stages of a trace that are rungs, and their names here.
@@ -58,20 +59,10 @@ PARTS = tuple(Rung("parts", threshold) for threshold in (0.5, 0.2, 0.1, 0.05, 0.
 RUNGS = (Rung("aabb"), Rung("obb"), Rung("hull"), *PARTS, EXACT, BOOLEAN)
 
 
-class Run(Struct, frozen=True):
-    """Seconds from the meshes in memory to the answer, with hulls and trees made anew. cpu: of
-    these the processor was at work so long, on all threads and in ended child processes."""
-
-    row: Row
-    cold: float
-    cpu: float | None = None
-    cached: float | None = None
-
-
 class Measured(Struct):
-    """The runs of a rung, the seconds that they took, and why it has no answer."""
+    """The answer of a rung at each run, the seconds that they took, and why it has none."""
 
-    runs: list[Run] = []
+    runs: list[Row] = []
     spent: float = 0.0
     failure: str | None = None
 
@@ -86,12 +77,12 @@ def tradeoff(
     method: Method = "auto",
     progress: Progress | None = None,
 ) -> TradeoffReport:
-    """Each rung on two bodies, as they are placed.
+    """Measure each rung on two bodies, as they are placed.
 
     repeat: runs of each rung. budget: seconds for all of them; rung_seconds: for those of one rung.
-    What does not fit is left away, and said. rungs: the exact one has to be among them. method: of
-    the convex hulls, see Settings. progress(done, total) counts runs. Raises SatcheckError where a
-    body cannot be placed.
+    What does not fit is not run, and its row says so. rungs: the exact one has to be among them.
+    method: of the convex hulls, see Settings. progress(done, total) counts runs. Raises
+    SatcheckError where a body cannot be placed.
     """
     start = monotonic()
     pair = pair_of(bodies, Settings())
@@ -102,7 +93,11 @@ def tradeoff(
     if budget > monotonic() - start:
         _ask(EXACT, plain, bodies, budget, settings)
     measured = {rung: Measured() for rung in rungs}
-    turns = _in_turn(rungs, repeat)
+    # Rungs take turns: what slows the machine down for a while slows all of them. The exact one is
+    # the first, and convex parts, the dearest, are the last: a budget cuts these.
+    parts = [rung for rung in rungs if rung.name == "parts"]
+    others = [EXACT, *(rung for rung in rungs if rung != EXACT and rung not in parts)]
+    turns = repeat * others + repeat * parts
     for done, rung in enumerate(turns, 1):
         mine = measured[rung]
         left = min(budget - (monotonic() - start), rung_seconds - mine.spent)
@@ -111,7 +106,6 @@ def tradeoff(
         if progress is not None:
             progress(done, len(turns))
     truth, pad = _truth(measured[EXACT]), rounding_pad(pair.largest_coordinate)
-    rows = [_row(rung, mine, truth, pad) for rung, mine in measured.items()]
     return TradeoffReport(
         tool=tool(),
         units=bodies[0].units,
@@ -121,17 +115,9 @@ def tradeoff(
         a=bodies[0].id,
         b=bodies[1].id,
         truth=truth,
-        default=next((one.row.settled_by for one in plain.runs if one.row.proven), None),
-        rungs=with_front(rows),
+        default=next((row.settled_by for row in plain.runs if row.proven), None),
+        rungs=tuple(_row(rung, mine, truth, pad) for rung, mine in measured.items()),
     )
-
-
-def _in_turn(rungs: Sequence[Rung], repeat: int) -> list[Rung]:
-    """Rungs take turns, so that what slows the machine down for a while slows all of them. The
-    exact one is the first, and convex parts, the dearest, are the last: a budget cuts these."""
-    parts = [rung for rung in rungs if rung.name == "parts"]
-    others = [EXACT, *(rung for rung in rungs if rung != EXACT and rung not in parts)]
-    return repeat * others + repeat * parts
 
 
 def _ask(rung: Rung, mine: Measured, bodies: Bodies, left: float, settings: Settings) -> None:
@@ -139,91 +125,21 @@ def _ask(rung: Rung, mine: Measured, bodies: Bodies, left: float, settings: Sett
     try:
         # Not counted: what ran before, such as a child process, makes the next question slower.
         run(RUNGS[0], bodies, left, settings)
-        result = run(rung, bodies, left, settings)
+        mine.runs.append(run(rung, bodies, left, settings))
+        failure = None
+    except SatcheckError as error:
+        failure = str(error)
     except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
-        result = f"internal error: {type(error).__name__}: {error}"
+        failure = f"internal error: {type(error).__name__}: {error}"
     took = monotonic() - start
     mine.spent += took
-    if isinstance(result, Run):
-        mine.runs.append(result)
-    elif took < left:  # else its time was over
-        mine.failure = result
+    if took < left:  # else its time was over
+        mine.failure = failure
 
 
-def _truth(exact: Measured) -> Truth:
-    if not exact.runs:
-        return Truth(None, None, f"the exact rung was not run: {exact.failure or SPENT}")
-    row = exact.runs[0].row
-    if not row.proven:
-        return Truth(None, None, row.reason or "the exact rung has not proven it")
-    low, high = row.bounds or (None, None)
-    if low is None or high is None or math.isinf(high - low):
-        return Truth(row.relation, None, None)
-    return Truth(row.relation, (low, high), None)
-
-
-def _row(rung: Rung, mine: Measured, truth: Truth, pad: float) -> Row:
-    if mine.failure is not None:
-        return Row(rung=rung.name, threshold=rung.threshold, state="failed", reason=mine.failure)
-    if not mine.runs:
-        return Row(rung=rung.name, threshold=rung.threshold, state="not run", reason=SPENT)
-    row = mine.runs[0].row
-    return replace(
-        row,
-        right=is_right(row, truth),
-        error=error_of(row.signed_distance, truth, pad),
-        cold=_times(one.cold for one in mine.runs),
-        cached=_times(one.cached for one in mine.runs),
-        cpu=_times(one.cpu for one in mine.runs),
-    )
-
-
-def is_right(row: Row, truth: Truth) -> bool | None:
-    """Return whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
-    `inside` and `coincident` are overlaps like any."""
-    if truth.relation is None or row.overlap is None:
-        return None
-    if row.overlap != (truth.relation in OVERLAPS):
-        return False
-    return row.overlap or row.relation in (None, truth.relation)
-
-
-def error_of(value: float | None, truth: Truth, pad: float) -> float | None:
-    """The value minus the nearest signed distance that is possible; 0.0 within rounding (pad)."""
-    if value is None or truth.bounds is None:
-        return None
-    low, high = truth.bounds
-    error = value - min(max(value, low), high)
-    return 0.0 if abs(error) <= pad else error
-
-
-def _times(seconds: Iterable[float | None]) -> Times | None:
-    known = [1e6 * time for time in seconds if time is not None]
-    return Times(median(known), min(known), max(known), len(known)) if known else None
-
-
-def with_front(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """The rows with the marks of those on the Pareto front: a lucky guess takes no proven answer
-    off it, and a wrong answer no right one."""
-    keys = {row.label: _key(row) for row in choices(rows) if row.error is not None}
-    front = {
-        label
-        for label, key in keys.items()
-        if not any(
-            other != key and all(o <= k for o, k in zip(other, key, strict=True))
-            for other in keys.values()
-        )
-    }
-    return tuple(replace(row, pareto=row.label in front) for row in rows)
-
-
-def _key(row: Row) -> tuple[float, float, int]:
-    """Smaller is better: time, error, standing."""
-    return row.cold.median if row.cold else math.inf, abs(row.error or 0.0), row.standing
-
-
-def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Run | str:
-    """Ask a rung; or why it has no answer. seconds: that convex parts or a volume may take."""
+def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Row:
+    """Ask a rung, with hulls and trees made anew from the meshes in memory. seconds: that convex
+    parts or a volume may take. Raises SatcheckError: why it has no answer."""
     if rung == BOOLEAN:
         limit = min(settings.volume_seconds, seconds)
         return _boolean(bodies, replace(settings, volume_seconds=limit))
@@ -238,27 +154,16 @@ def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Run |
             part_seconds=min(settings.part_seconds, seconds),
             cache_directory=folder,
         )
-        cold, pair = _ladder(rung, bodies, settings)
-        made = _decompositions(pair)
-        if failure := next((one for one in made if isinstance(one, SatcheckError)), None):
-            return str(failure)
+        row, made = _ladder(rung, bodies, settings)
         if not made:  # the hulls of the bodies are all there is
-            ended = "hull" if cold.row.settled_by == "parts" else cold.row.settled_by
-            return replace(cold, row=replace(cold.row, settled_by=ended))
-        again, pair = _ladder(rung, bodies, settings)
-        reread = all(
-            isinstance(one, Decomposition) and one.from_cache for one in _decompositions(pair)
-        )
-        return replace(cold, cached=again.cold if reread else None)
+            return replace(row, settled_by="hull" if row.settled_by == "parts" else row.settled_by)
+        again, reread = _ladder(rung, bodies, settings)
+        return replace(row, cached=again.cold if all(one.from_cache for one in reread) else None)
 
 
-def _decompositions(pair: Pair) -> list[Decomposition | SatcheckError]:
-    """Those that a climb has asked for."""
-    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
-    return [one for one in known if one is not None]
-
-
-def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
+def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Row, list[Decomposition]]:
+    """Return the answer of a rung and the convex parts that it has asked for. Raises SatcheckError
+    if these cannot be made."""
     cpu, start = _cpu_seconds(), perf_counter()
     pair = pair_of(bodies, settings)
     examined = examine(pair, Trace())
@@ -267,7 +172,7 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
     # A clearance is asked only to have the gap measured.
     relation = "separated" if finding.relation == "near" else finding.relation
     known = is_of_bodies(finding) and relation != "indeterminate"
-    figure = signed_distance(finding, examined.draft.verdict)
+    value, bounds = signed_distance(finding, examined.draft.verdict) or (None, None)
     row = Row(
         rung=rung.name,
         threshold=rung.threshold,
@@ -276,15 +181,25 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
         overlap=relation in OVERLAPS if known else None,
         relation=relation,
         proven=known and finding.exact_relation is not None,
-        signed_distance=None if figure is None else figure[0],
-        bounds=None if figure is None else figure[1],
+        signed_distance=value,
+        bounds=bounds,
         settled_by=last_rung(finding),
+        cold=_once(cold),
+        cpu=_once(cpu),
     )
-    return Run(row, cold, cpu), pair
+    return row, _parts_of(pair)
+
+
+def _parts_of(pair: Pair) -> list[Decomposition]:
+    made = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    for one in made:
+        if isinstance(one, SatcheckError):
+            raise one
+    return [one for one in made if isinstance(one, Decomposition)]
 
 
 def last_rung(finding: Finding) -> RungName | None:
-    """The rung at which the climb ended."""
+    """Return the rung at which the climb ended."""
     ran = [stage.stage for stage in finding.plan if stage.result != "skipped"]
     return next((STAGES[stage] for stage in reversed(ran) if stage in STAGES), None)
 
@@ -295,9 +210,9 @@ def is_of_bodies(finding: Finding) -> bool:
 
 
 def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] | None:
-    """With its bounds. verdict: of the same ladder, for what it proves and nobody asked to report.
-    None: no figure of the bodies; how far their surfaces are apart says nothing of one that may lie
-    inside."""
+    """Return it with its bounds. verdict: of the same ladder, for what it proves and nobody asked
+    to report. None: no figure of the bodies; how far their surfaces are apart says nothing of one
+    that may lie inside."""
     if not is_of_bodies(finding):
         return None
     if finding.depth_bounds is not None:
@@ -322,36 +237,88 @@ def _cpu_seconds() -> float:
     return time.process_time() + used.children_user + used.children_system
 
 
-def _boolean(bodies: Bodies, settings: Settings) -> Run | str:
+def _boolean(bodies: Bodies, settings: Settings) -> Row:
     """Measure the common volume by manifold3d, in a child process of its own, twice."""
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
     with VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
-        cold = _volume(bodies, settings, meter)
-        cached = cold if isinstance(cold, str) else _volume(bodies, settings, meter)
-    if isinstance(cold, str) or isinstance(cached, str):
-        return str(cached)
-    _, volume, error = cold
+        row, again = (_volume(bodies, settings, meter) for _ in range(2))
+    return replace(row, cached=again.cold)
+
+
+def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> Row:
+    """Return the answer. Raises SatcheckError if there is no volume."""
+    start = perf_counter()
+    pair = pair_of(bodies, settings, meter)
+    if pair.curved:
+        raise SatcheckError("curved-shape", "a curved shape has no triangles")
+    common = common_volume(pair, Verdict("penetrating", False), Trace())
+    seconds, volume, error = perf_counter() - start, common.volume, common.error
+    if volume is None or error is None:
+        raise SatcheckError("no-volume", common.refusal or "no volume")
     known = volume == 0 or volume > error
-    row = Row(
+    return Row(
         rung="boolean",
         state="answered",
         overlap=volume > 0 if known else None,
         volume=volume,
         volume_error=error,
         reason=None if known else "the volume lies within its own error",
+        cold=_once(seconds),
     )
-    return Run(row, cold[0], cached=cached[0])
 
 
-def _volume(
-    bodies: Bodies, settings: Settings, meter: VolumeMeter
-) -> tuple[float, float, float] | str:
-    """Seconds, the volume and its error; or why there is none."""
-    start = perf_counter()
-    pair = pair_of(bodies, settings, meter)
-    if pair.curved:
-        return "a curved shape has no triangles"
-    common = common_volume(pair, Verdict("penetrating", False), Trace())
-    if common.volume is None or common.error is None:
-        return common.refusal or "no volume"
-    return perf_counter() - start, common.volume, common.error
+def _truth(exact: Measured) -> Truth:
+    if not exact.runs:
+        return Truth(None, None, f"the exact rung was not run: {exact.failure or SPENT}")
+    row = exact.runs[0]
+    if not row.proven:
+        return Truth(None, None, row.reason or "the exact rung has not proven it")
+    low, high = row.bounds or (None, None)
+    if low is None or high is None or math.isinf(high - low):
+        return Truth(row.relation, None, None)
+    return Truth(row.relation, (low, high), None)
+
+
+def _row(rung: Rung, mine: Measured, truth: Truth, pad: float) -> Row:
+    if mine.failure is not None:
+        return Row(rung=rung.name, threshold=rung.threshold, state="failed", reason=mine.failure)
+    if not mine.runs:
+        return Row(rung=rung.name, threshold=rung.threshold, state="not run", reason=SPENT)
+    row = mine.runs[0]
+    return replace(
+        row,
+        right=is_right(row, truth),
+        error=error_of(row.signed_distance, truth, pad),
+        cold=_all_of(one.cold for one in mine.runs),
+        cached=_all_of(one.cached for one in mine.runs),
+        cpu=_all_of(one.cpu for one in mine.runs),
+    )
+
+
+def _once(seconds: float) -> Times:
+    micro = 1e6 * seconds
+    return Times(micro, micro, micro, 1)
+
+
+def _all_of(runs: Iterable[Times | None]) -> Times | None:
+    known = [one.median for one in runs if one is not None]
+    return Times(median(known), min(known), max(known), len(known)) if known else None
+
+
+def is_right(row: Row, truth: Truth) -> bool | None:
+    """Return whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
+    `inside` and `coincident` are overlaps like any."""
+    if truth.relation is None or row.overlap is None:
+        return None
+    if row.overlap != (truth.relation in OVERLAPS):
+        return False
+    return row.overlap or row.relation in (None, truth.relation)
+
+
+def error_of(value: float | None, truth: Truth, pad: float) -> float | None:
+    """Return the value minus the nearest possible signed distance; 0.0 within rounding (pad)."""
+    if value is None or truth.bounds is None:
+        return None
+    low, high = truth.bounds
+    error = value - min(max(value, low), high)
+    return 0.0 if abs(error) <= pad else error

@@ -13,8 +13,8 @@ from typing import Any
 import click
 from msgspec.structs import asdict
 
-from satcheck.audit.assets import unused_rules, without_unused_rules
-from satcheck.audit.baseline_file import read_baseline
+from satcheck.audit.baseline import read_baseline
+from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot_server import Answer, Wanted
@@ -35,8 +35,7 @@ from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import Asset, AssetVerdict
-from satcheck.report.batch import Result
+from satcheck.report.assets import Asset, AssetVerdict, Result
 from satcheck.report.json import read_line
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.report.settings import StatedConfig

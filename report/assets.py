@@ -1,4 +1,5 @@
-"""The reports of many assets, each checked as a scene of its own: `satcheck.assets/1`."""
+"""The reports of many assets, each checked as a scene of its own: `satcheck.assets/1`. A line of
+the results of a batch: `satcheck.result/1`."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ from collections.abc import Mapping
 from typing import Literal, get_args
 
 from satcheck.report.report import Issue, Report
-from satcheck.report.values import Count, Tool, Value
+from satcheck.report.values import Count, Sha256, Tool, Value
 
 SCHEMA: Literal["satcheck.assets/1"] = "satcheck.assets/1"
 # error: the file or a body in it could not be read.
@@ -74,3 +75,26 @@ def counted(verdicts: Mapping[AssetVerdict, int]) -> AssetCounts:
         incomplete=verdicts.get("incomplete", 0),
         passed=verdicts.get("pass", 0),
     )
+
+
+class InputFile(Value, frozen=True):
+    """A file that the check has read or looked for. sha256: of its bytes; for a
+    folder or a file that cannot be read, of words that say so. None: it was not there. A path that
+    ends in `/` stands for the names of the folders in this folder."""
+
+    path: str
+    sha256: Sha256 | None
+
+
+class Result(Value, frozen=True, kw_only=True):
+    """files: of the world, as given; the first one names it. inputs: every file that the answer
+    depends on. key: of the contents of these, the options and the version of satcheck: the same key
+    means the same answer. None: the next run checks this world again, because a process of its
+    check was lost, or a file changed meanwhile."""
+
+    schema: Literal["satcheck.result/1"] = "satcheck.result/1"
+    files: tuple[str, ...]
+    key: Sha256 | None
+    verdict: AssetVerdict
+    inputs: tuple[InputFile, ...]
+    report: Report

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -10,7 +9,6 @@ from msgspec import Meta
 from satcheck.report.values import Count, Length, Relation, Size, Tool, Value
 
 RungName = Literal["aabb", "obb", "hull", "parts", "exact", "boolean"]
-State = Literal["answered", "failed", "not run"]
 # Of a signed distance; null: no such bound.
 Bounds = tuple[float | None, float | None]
 
@@ -35,12 +33,12 @@ class Row(Value, frozen=True, kw_only=True):
     minus the nearest one that the truth allows; negative: closer or deeper than the bodies are.
     settled_by: the rung at which its climb ended. cold: nothing kept from before; cpu: of these
     runs, with child processes (not on Windows). cached: the convex parts are on disk, or the child
-    process runs. pareto: no rung is better in time, error or proof without being worse in another.
+    process runs.
     """
 
     rung: RungName
     threshold: Size | None = None
-    state: State
+    state: Literal["answered", "failed", "not run"]
     reason: str | None = None
     overlap: bool | None = None
     relation: Relation | None = None
@@ -55,19 +53,11 @@ class Row(Value, frozen=True, kw_only=True):
     cold: Times | None = None
     cached: Times | None = None
     cpu: Times | None = None
-    pareto: bool = False
 
     @property
     def label(self) -> str:
         """`hull`, `parts 0.05`."""
         return self.rung if self.threshold is None else f"{self.rung} {self.threshold:g}"
-
-    @property
-    def standing(self) -> int:
-        """0: proven, 1: a guess that is right or cannot be judged, 2: wrong."""
-        if self.right is False:
-            return 2
-        return 0 if self.proven else 1
 
 
 class Truth(Value, frozen=True):
@@ -100,20 +90,3 @@ class TradeoffReport(Value, frozen=True, kw_only=True):
         """Each rung has answered, and the truth is known."""
         answered = all(row.state == "answered" for row in self.rungs)
         return answered and self.truth.relation is not None
-
-
-def choices(rows: Sequence[Row]) -> list[Row]:
-    """The rows that answered, without those that climbed no further than a lower rung and say what
-    that says: they are that rung again."""
-    figures: dict[RungName | None, tuple[float | None, Bounds | None]] = {
-        row.rung: (row.signed_distance, row.bounds) for row in rows
-    }
-    return [
-        row
-        for row in rows
-        if row.state == "answered"
-        and (
-            row.settled_by in (None, row.rung)
-            or (row.signed_distance, row.bounds) != figures.get(row.settled_by)
-        )
-    ]

@@ -1,22 +1,27 @@
-"""The check of one world of a batch, in this process."""
+"""The check of one world of a batch, in this process. Every error becomes part of its report."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 from msgspec.structs import replace
 
-from satcheck.audit.assets import check_asset
-from satcheck.audit.baseline import beside_baseline
-from satcheck.audit.baseline_file import asset_key, current_baseline
+from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
+from satcheck.audit.baseline import asset_key, beside_baseline, current_baseline
 from satcheck.audit.batch.options import CheckOptions, World
+from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
+from satcheck.audit.check import check
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.stated_places import with_stated_places
+from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
+from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
-from satcheck.report.report import Report
-from satcheck.scene import Scene
+from satcheck.report.report import INTERNAL_ERROR, Issue, PairCounts, Report
+from satcheck.report.verdict import summarise
+from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.paths import exists, is_folder
@@ -43,20 +48,63 @@ def check_world(
     hashed: bool = True,
     known: KnownMeshes | None = None,
 ) -> Asset:
-    """Every error of the world becomes part of the report. hashed: state the SHA-256 of the mesh
-    files. known: mesh files that stay in memory. Raises SatcheckError if the baseline cannot be
-    read."""
-    with step(f"checking {world[0]}"):
-        checked = check_asset(
-            world[0],
-            partial(_load, world, options, hashed, known),
-            options.settings_for,
-            places=options.places,
-        )
-    report = checked.report
+    """Check one world. If it cannot be loaded, the report has no bodies and the error as an issue.
+
+    A world with a single body passes, and so does one without a body that can collide, or with
+    pairs that rules all allow; a note says so. hashed: state the SHA-256 of the mesh files. known:
+    mesh files that stay in memory. Raises SatcheckError if the baseline cannot be read."""
+    file = world[0]
+    with step(f"checking {file}"):
+        report = _report(world, options, hashed, known)
     if options.baseline is not None:
-        report = _beside(report, world[0], Path(options.baseline))
-    return asset(world[0], replace(report, config=options.config))
+        report = _beside(report, file, Path(options.baseline))
+    return asset(file, replace(report, config=options.config))
+
+
+def _report(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Report:
+    try:
+        scene = _load(world, options, hashed, known)
+        report = check(scene, options.settings_for(scene), least=0)
+        return with_stated_places(report, scene) if options.places else report
+    except SatcheckError as error:
+        issues = [
+            Issue(each.code, "error", None, world[0], str(each), _line_of(each))
+            for each in (error, *error.others)
+        ]
+    except Exception as error:  # noqa: BLE001  the other worlds still get their answers
+        not_for_lack_of_memory(error)
+        text = f"a fault of satcheck: {type(error).__name__}: {error}"
+        issues = [Issue(INTERNAL_ERROR, "error", None, world[0], text)]
+    return _without_bodies(issues)
+
+
+def _line_of(error: SatcheckError) -> int | None:
+    return error.line if isinstance(error, Refused) else None
+
+
+def _without_bodies(issues: Sequence[Issue]) -> Report:
+    settings = Settings()
+    none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
+    return Report(
+        tool=tool(),
+        units=None,
+        settings=settings.stated(depth=False, thickness=False),
+        summary=summarise(none, (), settings.fail_on),
+        bodies=(),
+        findings=(),
+        issues=tuple(issues),
+    )
+
+
+def lost_asset(file: str, loss: Loss) -> Asset:
+    """Return an asset whose every check lost its process: nothing is known about it."""
+    message = f"{file}: the process that checked it {loss.how}"
+    return asset(file, _without_bodies([Issue(loss.code, "warning", None, file, message)]))
+
+
+def unreadable_asset(file: str, error: SatcheckError) -> Asset:
+    """Return an asset whose result cannot be read."""
+    return asset(file, _without_bodies([Issue(error.code, "error", None, file, str(error))]))
 
 
 def _beside(report: Report, file: str, baseline: Path) -> Report:
@@ -98,3 +146,25 @@ def _refuse_folder(name: str) -> None:
         raise SatcheckError(
             "unreadable-folder", f"the folder cannot be listed: {error.strerror}", file=name
         ) from None
+
+
+def unused_rules(assets: Sequence[Asset], files: Collection[str]) -> tuple[Issue, ...]:
+    """Return the issues of rules in these files that select no pair in any asset. An asset that
+    could not be loaded may need them."""
+    if not assets or any(not asset.report.bodies for asset in assets):
+        return ()
+    first, *others = (asset.report.issues for asset in assets)
+    unused = (issue for issue in first if _is_unused_rule(issue, files))
+    return tuple(issue for issue in unused if all(issue in issues for issues in others))
+
+
+def without_unused_rules(given: Asset, files: Collection[str]) -> Asset:
+    """Rules in these files are about many assets, and need not be about this one."""
+    issues = tuple(i for i in given.report.issues if not _is_unused_rule(i, files))
+    return asset(given.file, replace(given.report, issues=issues))
+
+
+def _is_unused_rule(issue: Issue, files: Collection[str]) -> bool:
+    """An acceptance that accepts nothing counts as one."""
+    of_files = issue.code == UNUSED_RULE and issue.file in files
+    return of_files or issue.code == UNUSED_ACCEPTANCE

@@ -8,8 +8,7 @@ import os
 import stat
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
-from typing import NamedTuple
+from io import FileIO
 
 from msgspec import to_builtins
 from msgspec.structs import replace
@@ -17,92 +16,89 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.report.batch import InputFile
+from satcheck.report.assets import InputFile
 from satcheck.scene.files_read import FilesRead, Signature
 from satcheck.scene.paths import Permitted, search_path
 
 _MOST_DIGESTS = 5_000
+_BLOCK_BYTES = 1 << 18
+_status, _is_link = os.stat, os.path.islink
 # Settings that change no answer.
 _WITHOUT_EFFECT = frozenset({"jobs", "cache", "cache_directory", "timings"})
 
 
 def digest(name: str) -> str | None:
-    """The SHA-256 of a file; of `folder/`: of the names of the folders in it. None: nothing is
-    there. What is there and cannot be read has a digest that says why. Raises SatcheckError for a
-    URL that cannot be reached."""
+    """Return the SHA-256 of a file; of `folder/`: of the names of the folders in it. None: nothing
+    is there. What is there and cannot be read has a digest that says why. Raises SatcheckError for
+    a URL that cannot be reached."""
     if remote.is_url(name):
         return remote.digest(name)
     try:
         if name.endswith("/"):
-            return _sha256(
-                "\0".join(sorted(each.name for each in os.scandir(name) if each.is_dir()))
-            )
-        mode = Path(name).stat().st_mode
-        if not stat.S_ISREG(mode):
+            folders = sorted(each.name for each in os.scandir(name) if each.is_dir())
+            return _sha256("\0".join(folders))
+        mode = _status(name).st_mode
+        if not stat.S_ISREG(mode):  # a pipe would be waited for
             return _sha256(f"type {stat.S_IFMT(mode):o}")
-        with Path(name).open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        made = hashlib.sha256()
+        with FileIO(name) as file:
+            while block := file.read(_BLOCK_BYTES):
+                made.update(block)
+        return made.hexdigest()
     except (FileNotFoundError, NotADirectoryError, ValueError):
         return None
     except OSError as error:
         return _sha256(f"error {error.errno}")
 
 
-class _Known(NamedTuple):
-    """place: where the file really lies."""
-
-    at: Signature
-    digest: str | None
-    place: str
-
-
 class Digests:
-    """The digests and places of files that did not change since they were made."""
+    """The digests of files that did not change since they were made."""
 
     def __init__(self) -> None:
-        self._known: OrderedDict[str, _Known] = OrderedDict()
+        self._known: OrderedDict[str, tuple[Signature, str | None]] = OrderedDict()
 
     def digest(self, files: FilesRead, name: str) -> str | None:
         """files: the name is one of them."""
         at = files.signature(name)
         known = self._known.pop(name, None)
-        if known is None or known.at != at:
-            known = _Known(at, digest(name), real_path(name))
+        if known is None or known[0] != at:
+            known = at, digest(name)
         if files.is_settled(name):
             self._known[name] = known
             if len(self._known) > _MOST_DIGESTS:
                 self._known.popitem(last=False)
-        return known.digest
-
-    def real_path(self, name: str) -> str:
-        """After `digest`. A file that is not there has nothing that would show a change."""
-        known = self._known.get(name)
-        return real_path(name) if known is None or known.at is None else known.place
+        return known[1]
 
 
 def inputs_of(names: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:
     return tuple(InputFile(name, digest(name)) for name in sorted(names))
 
 
-def real_path(name: str) -> str:
-    try:
-        return name if remote.is_url(name) else os.path.realpath(name)
-    except ValueError:  # a NUL: no file has this name
-        return name
-
-
 def key_of(
-    world: World,
-    terms: str,
-    inputs: tuple[InputFile, ...],
-    folders: Sequence[str] = (),
-    real_path: Callable[[str], str] = real_path,
+    world: World, terms: str, inputs: tuple[InputFile, ...], folders: Sequence[str] = ()
 ) -> str:
-    """terms: of the options, see `terms_of`. folders: that the user gave. Where a file really lies
-    counts: the names of packages and bodies, and what a scene may read, depend on it."""
-    files = [(each.path, real_path(each.path), each.sha256) for each in inputs]
+    """Return the key of a result. terms: of the options, see `terms_of`. folders: that the user
+    gave. Where a file really lies counts: the names of packages and bodies, and what a scene may
+    read, depend on it."""
+    places: dict[str, str] = {}
+    files = [(each.path, _place(each.path, places), each.sha256) for each in inputs]
     around = Permitted.around(world, folders).folders
     return _sha256(json.dumps([terms, world, files, around]))
+
+
+def _place(name: str, places: dict[str, str]) -> str:
+    """Return the path without links. places: of the folders that are known so far."""
+    if remote.is_url(name):
+        return name
+    folder, base = os.path.split(name)
+    try:
+        if base in ("", "..") or _is_link(name):
+            return os.path.realpath(name)
+        if folder not in places:
+            places[folder] = os.path.realpath(folder)
+        return f"{places[folder]}/{base}"
+    except ValueError:  # a NUL: no file has this name
+        return name
 
 
 def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:

@@ -24,7 +24,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
-from satcheck.report.batch import InputFile
+from satcheck.report.assets import InputFile
 from satcheck.scene.files.readers import robots
 
 # The slashes of `file:///` belong to the head, so that what follows is never an absolute path.

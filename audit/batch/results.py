@@ -9,24 +9,24 @@ from contextlib import suppress
 from io import FileIO
 from os import SEEK_END, fsync
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import BinaryIO, NamedTuple, Self
 
 import msgspec
 from filelock import FileLock, Timeout
 
 from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import AssetVerdict
+from satcheck.report.assets import AssetVerdict, InputFile
 from satcheck.report.atomic_file import replace_file
-from satcheck.report.batch import InputFile
 from satcheck.report.json import read_line
 
 # What the name of the file of an unfinished run ends with.
 PART = ".part"
+_BLOCK_BYTES = 1 << 16
 
 
 class Head(msgspec.Struct, frozen=True):
-    """`report.batch.Result` without the report."""
+    """`report.assets.Result` without the report."""
 
     files: World
     key: str | None
@@ -98,18 +98,19 @@ class ResultsFile:
         self._cut()
 
     def _kept(self, file: FileIO, path: Path, valid: Callable[[Head], bool]) -> Iterator[Head]:
-        for begin, line in _complete_lines(path):
-            try:
-                head = read_line(line, Head)
-            except msgspec.DecodeError as error:
-                reason = f"byte {begin}: no result of a batch: {error}"
-                raise SatcheckError("bad-results", reason, file=str(path)) from None
-            end = begin + len(line)
-            if file is self._added:
-                self._end = end
-            if valid(head):
-                self._lines[head.files] = _Line(file, begin, end)
-                yield head
+        with path.open("rb") as text:
+            for begin, line in complete_lines(text, path.stat().st_size):
+                try:
+                    head = read_line(line, Head)
+                except msgspec.DecodeError as error:
+                    reason = f"byte {begin}: no result of a batch: {error}"
+                    raise SatcheckError("bad-results", reason, file=str(path)) from None
+                end = begin + len(line)
+                if file is self._added:
+                    self._end = end
+                if valid(head):
+                    self._lines[head.files] = _Line(file, begin, end)
+                    yield head
 
     def append(self, results: Iterable[tuple[World, bytes]]) -> None:
         """Returns when the lines of these results are on the disk. If that fails, the file ends
@@ -180,11 +181,17 @@ def _has_bytes(path: Path) -> bool:
     return path.exists() and path.stat().st_size > 0
 
 
-def _complete_lines(path: Path) -> Iterator[tuple[int, bytes]]:
-    """(offset, line) of each line that ends."""
+def complete_lines(file: BinaryIO, end: int) -> Iterator[tuple[int, bytes]]:
+    """Yield the offset of each line before this end, and the line with its end. Others may read the
+    file in between, and the run that writes it may cut it."""
     begin = 0
-    with path.open("rb") as file:
-        for line in file:
-            if line.endswith(b"\n"):
-                yield begin, line
+    while begin < end:
+        file.seek(begin)
+        lines = file.readlines(_BLOCK_BYTES)
+        for line in lines:
+            if begin >= end or not line.endswith(b"\n"):
+                return
+            yield begin, line
             begin += len(line)
+        if not lines:
+            return

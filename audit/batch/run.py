@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from functools import lru_cache
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from satcheck.audit.batch.key import digest, inputs_of, key_of, terms_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
@@ -27,22 +28,15 @@ _DIGESTS = 100_000
 
 
 class Tally(Struct):
-    """The number of worlds with each verdict; kept: of an earlier run."""
+    """verdicts: the number of worlds with each so far; kept: of an earlier run."""
 
     total: int
     kept: int = 0
-    error: int = 0
-    fail: int = 0
-    incomplete: int = 0
-    passed: int = 0
+    verdicts: Counter[AssetVerdict] = field(default_factory=Counter)
 
     @property
     def done(self) -> int:
-        return self.error + self.fail + self.incomplete + self.passed
-
-    def count(self, verdict: AssetVerdict) -> None:
-        name = "passed" if verdict == "pass" else verdict
-        setattr(self, name, getattr(self, name) + 1)
+        return self.verdicts.total()
 
 
 def run(
@@ -61,13 +55,12 @@ def run(
         if head.files in waiting:
             del waiting[head.files]
             tally.kept += 1
-            tally.count(head.verdict)
+            tally.verdicts[head.verdict] += 1
     progress(tally)
     with closing(engine(tuple(waiting))) as coming:
         for answers in coming:
             results.append((each.world, each.line) for each in answers)
-            for each in answers:
-                tally.count(each.verdict)
+            tally.verdicts.update(each.verdict for each in answers)
             progress(tally)
     results.finish(worlds)
     return tally

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from tempfile import TemporaryDirectory
 
-from satcheck.audit.assets import lost_asset
+from satcheck.audit.batch.check_world import lost_asset
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import is_remote
 from satcheck.audit.batch.slot_server import (
@@ -20,9 +20,9 @@ from satcheck.audit.batch.slot_server import (
     Answer,
     Chunk,
     Wanted,
-    answer,
     answers_in,
     request_of,
+    result_of,
 )
 from satcheck.core.risky_steps import Loss
 from satcheck.core.worker import Worker
@@ -34,7 +34,7 @@ from satcheck.core.worker_errors import (
     WorkerStopped,
     WorkerTimeout,
 )
-from satcheck.report.batch import Result
+from satcheck.report.json import line_of
 
 _SERVER = "satcheck.audit.batch.slot_server"
 RESULTS = Wanted()
@@ -151,6 +151,5 @@ def _loss(error: WorkerError) -> Loss:
 
 def lost(world: World, loss: Loss) -> Answer:
     """The answer for a world that nobody could check."""
-    asset = lost_asset(world[0], loss)
-    result = Result(files=world, key=None, verdict=asset.verdict, inputs=(), report=asset.report)
-    return answer(result)
+    result = result_of(world, lost_asset(world[0], loss))
+    return Answer(world, result.verdict, line_of(result))

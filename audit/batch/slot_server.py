@@ -7,7 +7,7 @@ import json
 import os
 import re
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NoReturn
@@ -16,16 +16,14 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.assets import unreadable_asset, without_unused_rules
-from satcheck.audit.batch.check_world import check_world
+from satcheck.audit.batch.check_world import check_world, unreadable_asset, without_unused_rules
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import Copies, is_remote, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
-from satcheck.report.assets import Asset, AssetVerdict
-from satcheck.report.batch import InputFile, Result
+from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
 from satcheck.report.json import line_of
 from satcheck.scene.files_read import FilesRead, files_read, note
 from satcheck.scene.mesh_files import KnownMeshes
@@ -96,25 +94,22 @@ def serve(request: bytes) -> bytes:
     settings = {**chunk.options.settings, "jobs": chunk.wanted.threads}
     options = replace(chunk.options, settings=settings)
     care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
-    with careful(care):
-        answers = list(_answers(chunk, options))
-    return msgspec.msgpack.encode([(each.verdict, each.line) for each in answers])
-
-
-def _answers(chunk: Chunk, options: CheckOptions) -> Iterator[Answer]:
-    if not chunk.wanted.kept:
-        yield from (_answer_of_now(world, options, chunk.wanted) for world in chunk.worlds)
-        return
-    terms = terms_of(options, chunk.limits if chunk.left_out else None)
     if chunk.copies is not None:
         make_room(Path(chunk.copies))
-    yield from (_answer(world, options, terms, chunk.copies) for world in chunk.worlds)
+    with careful(care):
+        if chunk.wanted.kept:
+            terms = terms_of(options, chunk.limits if chunk.left_out else None)
+            made = [_result(world, options, terms, chunk.copies) for world in chunk.worlds]
+        else:
+            made = [_result_of_now(world, options, chunk.wanted) for world in chunk.worlds]
+    return msgspec.msgpack.encode(made)
 
 
-def _answer_of_now(world: World, options: CheckOptions, wanted: Wanted) -> Answer:
+def _result_of_now(
+    world: World, options: CheckOptions, wanted: Wanted
+) -> tuple[AssetVerdict, bytes]:
     checked = check_world(world, options, hashed=wanted.hashed, known=_meshes)
-    line = line_of(_result(world, checked, (), None), timings=True)
-    return Answer(world, checked.verdict, line)
+    return checked.verdict, line_of(result_of(world, checked), timings=True)
 
 
 def _tell(step: str) -> None:
@@ -128,27 +123,27 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _answer(world: World, options: CheckOptions, terms: str, folder: str | None) -> Answer:
+def _result(
+    world: World, options: CheckOptions, terms: str, folder: str | None
+) -> tuple[AssetVerdict, bytes]:
+    """folder: for copies of remote files."""
+    copies = None
     if folder is not None and is_remote(world):
         copies = Copies(Path(folder), world, anywhere=options.allow_outside)
-        return _remote_answer(world, options, terms, copies)
-    checked, files = _checked(world, options)
+        try:
+            checked, files = _checked_copies(world, options, copies)
+        except SatcheckError as error:  # of the fetch: the next run tries again
+            lost = result_of(world, unreadable_asset(world[0], error))
+            return lost.verdict, line_of(lost)
+    else:
+        checked, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
-    return answer(
-        _result(world, checked, inputs, _key(world, terms, inputs, options, checked, files))
-    )
-
-
-def _remote_answer(world: World, options: CheckOptions, terms: str, copies: Copies) -> Answer:
-    try:
-        checked, files = _checked_copies(world, options, copies)
-    except SatcheckError as error:  # of the fetch: the next run tries again
-        return answer(_result(world, unreadable_asset(world[0], error), (), None))
-    inputs = copies.inputs(inputs_of(files, partial(_digests.digest, files)))
-    made = answer(
-        _result(world, checked, inputs, _key(world, terms, inputs, options, checked, files))
-    )
-    return replace(made, line=copies.with_urls(made.line))
+    inputs = inputs if copies is None else copies.inputs(inputs)
+    lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
+    is_known = files.are_certain() and not lacking
+    key = key_of(world, terms, inputs, options.folders) if is_known else None
+    line = line_of(result_of(world, checked, inputs, key))
+    return checked.verdict, line if copies is None else copies.with_urls(line)
 
 
 def _checked_copies(world: World, options: CheckOptions, copies: Copies) -> tuple[Asset, FilesRead]:
@@ -172,26 +167,10 @@ def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
     return without_unused_rules(checked, options.rules), files
 
 
-def _key(
-    world: World,
-    terms: str,
-    inputs: tuple[InputFile, ...],
-    options: CheckOptions,
-    checked: Asset,
-    files: FilesRead,
-) -> str | None:
-    """None: the next run checks the world again."""
-    lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
-    if lacking or not files.are_certain():
-        return None
-    return key_of(world, terms, inputs, options.folders, _digests.real_path)
-
-
-def _result(world: World, checked: Asset, inputs: tuple[InputFile, ...], key: str | None) -> Result:
+def result_of(
+    world: World, checked: Asset, inputs: tuple[InputFile, ...] = (), key: str | None = None
+) -> Result:
+    """key: None: the next run checks the world again."""
     return Result(
         files=world, key=key, verdict=checked.verdict, inputs=inputs, report=checked.report
     )
-
-
-def answer(result: Result) -> Answer:
-    return Answer(result.files, result.verdict, line_of(result))

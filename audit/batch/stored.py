@@ -1,4 +1,4 @@
-"""Results files, read for questions: those of several shards together, a result for each world."""
+"""Results files, read back: those of several shards together, a result for each world."""
 
 from __future__ import annotations
 
@@ -6,20 +6,21 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
-from heapq import merge
+from heapq import merge as merge_sorted
 from itertools import groupby
 from os import fstat
 from pathlib import Path
-from typing import NamedTuple, Self, TypeVar
+from tempfile import TemporaryDirectory
+from typing import Literal, NamedTuple, Self, TypeVar
 
 import msgspec
 
-from satcheck.audit.assets import unreadable_asset
+from satcheck.audit.batch.check_world import unreadable_asset
 from satcheck.audit.batch.options import World
-from satcheck.audit.batch.results import PART, part_of, resolved
+from satcheck.audit.batch.results import PART, complete_lines, part_of, resolved
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import Asset, AssetVerdict, worst_verdict
-from satcheck.report.batch import InputFile, Result
+from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result, worst_verdict
+from satcheck.report.atomic_file import replace_file
 from satcheck.report.json import read_line
 from satcheck.report.report import Issue
 
@@ -36,9 +37,13 @@ _VERDICTS: dict[str, AssetVerdict] = {
     MISSING: "incomplete",
     DIFFERENT: "pass",
 }
+_LAST_COUNTS = "; the last file counts"  # in a report; nothing is merged then
+# Issues for which nothing is merged, and the codes of these errors.
+_REFUSED = {BAD_RESULT: "bad-results", UNFINISHED: UNFINISHED, DIFFERENT: "results-differ"}
 # Lines of a file that are named one by one.
 _NAMED = 10
-_BLOCK_BYTES = 1 << 16
+# Files that are merged at a time: a process may have 256 of them open on macOS, 1024 on Linux.
+_MOST_OPEN = 128
 _SURROGATE = b"\\ud"
 _T = TypeVar("_T")
 
@@ -88,7 +93,7 @@ class StoredResults:
     def __enter__(self) -> Self:
         with ExitStack() as stack:
             files = (each for path in self._paths for each in _files_of(path))
-            self._files = [_Lines(path, stack) for path in files]
+            self._files = [_File(path, stack) for path in files]
             self._stack = stack.pop_all()
         self.issues = (*(issue for file in self._files for issue in file.issues), *self._scan())
         self.least = worst_verdict(Counter(_VERDICTS[issue.code] for issue in self.issues))
@@ -101,12 +106,17 @@ class StoredResults:
         return self._count
 
     def __iter__(self) -> Iterator[Stored]:
-        for lines in self._worlds():
-            yield _read(lines[-1])
+        return map(_read, self._last())
+
+    def lines(self) -> Iterator[bytes]:
+        return (line.text for line in self._last())
+
+    def _last(self) -> Iterator[_Line]:
+        return (lines[-1] for lines in self._worlds())
 
     def _worlds(self) -> Iterator[list[_Line]]:
         """The lines of each world, in the order of the files."""
-        lines = merge(*self._files, key=lambda line: line.name.files)
+        lines = merge_sorted(*self._files, key=lambda line: line.name.files)
         for _, same in groupby(lines, key=lambda line: line.name.files):
             yield list(same)
 
@@ -121,7 +131,7 @@ class StoredResults:
                 first_different = first_different or _named(lines[0].name.files)
         if different:
             which = f"{first_different}{_more(different - 1)}"
-            reason = f"{which}: different results in several files; the last file counts"
+            reason = f"{which}: different results in several files{_LAST_COUNTS}"
             yield Issue(DIFFERENT, "warning", None, None, reason)
         if missing:
             which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
@@ -151,84 +161,66 @@ def _more(scenes: int) -> str:
     return f" and {scenes:,} more" if scenes else ""
 
 
-class _Lines:
+class _File:
     """The complete lines of one file, in the order of their worlds. issues: about the file."""
 
     def __init__(self, path: Path, stack: ExitStack) -> None:
         self._path = path
+        self._places: dict[World, int] | None = None
         try:
             self._file = stack.enter_context(path.open("rb"))
             self._end = fstat(self._file.fileno()).st_size  # a batch may still write
-            self._bad: list[Issue] = []
-            self._places: dict[World, int] | None = None
-            self._is_cut = False
-            is_sorted = self._scan()
-            if not is_sorted:
-                self._places = dict(sorted(self._place_of_each()))
+            self.issues = list(self._scan())
         except OSError as error:
             reason = f"cannot be read: {error.strerror}"
             raise SatcheckError("unreadable-file", reason, file=str(path)) from None
-        self.issues = [*self._bad[:_NAMED], *self._more_bad(), *self._unfinished(is_sorted)]
 
     def __iter__(self) -> Iterator[_Line]:
+        lines: Iterator[bytes]
         if self._places is None:
-            named = ((_name(line), line) for _, line in self._lines())
-            yield from (_Line(name, line, self._path) for name, line in named if name is not None)
-            return
-        for begin in self._places.values():
-            self._file.seek(begin)
-            line = self._file.readline()
-            name = _name(line)
-            if name is not None:
-                yield _Line(name, line, self._path)
+            lines = (line for _, line in complete_lines(self._file, self._end))
+        else:
+            lines = map(self._line_at, self._places.values())
+        named = ((_name(line), line) for line in lines)
+        return (_Line(name, line, self._path) for name, line in named if name is not None)
 
-    def _scan(self) -> bool:
-        """Notes bad lines; whether the others are sorted."""
-        is_sorted, last = True, None
-        for number, (_, line) in enumerate(self._lines(), 1):
-            name = _name(line)
+    def _line_at(self, place: int) -> bytes:
+        self._file.seek(place)
+        return self._file.readline()
+
+    def _scan(self) -> Iterator[Issue]:
+        """Find what is wrong, and the last place of each world if the lines are not sorted, as a
+        finished batch leaves them."""
+        bad, is_sorted, last, end = 0, True, None, 0
+        for number, (begin, line) in enumerate(complete_lines(self._file, self._end), 1):
+            end, name = begin + len(line), _name(line)
             if name is None:
-                self._bad.append(_bad(self._path, number))
+                bad += 1
+                if bad <= _NAMED:
+                    yield self._issue(BAD_RESULT, "no result of a batch", number)
                 continue
             is_sorted &= last is None or last < name.files
             last = name.files
-        return is_sorted
-
-    def _place_of_each(self) -> Iterator[tuple[World, int]]:
-        """The last place of each world."""
-        named = ((_name(line), begin) for begin, line in self._lines())
-        yield from {name.files: begin for name, begin in named if name is not None}.items()
-
-    def _lines(self) -> Iterator[tuple[int, bytes]]:
-        """(offset, line) of each line that ends."""
-        begin = 0
-        while begin < self._end:
-            self._file.seek(begin)
-            for line in self._file.readlines(_BLOCK_BYTES):
-                if begin >= self._end:
-                    return
-                if not line.endswith(b"\n"):
-                    self._is_cut = True
-                    return
-                yield begin, line
-                begin += len(line)
-
-    def _more_bad(self) -> Iterator[Issue]:
-        if (more := len(self._bad) - _NAMED) > 0:
-            reason = f"{self._path}: {more:,} more lines are no results"
-            yield Issue(BAD_RESULT, "error", None, str(self._path), reason)
-
-    def _unfinished(self, is_sorted: bool) -> Iterator[Issue]:
-        """A finished batch leaves a sorted file of complete lines."""
+        if bad > _NAMED:
+            yield self._issue(BAD_RESULT, f"{bad - _NAMED:,} more lines are no results")
+        if not is_sorted:
+            named = ((_name(line), at) for at, line in complete_lines(self._file, self._end))
+            self._places = {name.files: at for name, at in named if name is not None}
+            self._places = dict(sorted(self._places.items()))
         signs = {
             "it is a part": self._path.suffix == PART,
-            "its last line is cut off": self._is_cut,
+            "its last line is cut off": end < self._end,
             "its lines are not sorted": not is_sorted,
         }
         if any(signs.values()):
             why = ", ".join(sign for sign, is_there in signs.items() if is_there)
-            reason = f"{self._path}: the batch did not finish, so scenes may be missing ({why})"
-            yield Issue(UNFINISHED, "warning", None, str(self._path), reason)
+            reason = f"the batch did not finish, so scenes may be missing ({why})"
+            yield self._issue(UNFINISHED, reason)
+
+    def _issue(self, code: str, reason: str, line: int | None = None) -> Issue:
+        severity: Literal["error", "warning"] = "error" if code == BAD_RESULT else "warning"
+        place = f"{self._path}" if line is None else f"{self._path}:{line}"
+        return Issue(code, severity, None, str(self._path), f"{place}: {reason}", line)
 
 
 def _differ(lines: list[_Line]) -> bool:
@@ -255,11 +247,6 @@ def _decoded(line: bytes, kind: type[_T]) -> _T:
         raise msgspec.DecodeError(str(error)) from None
 
 
-def _bad(path: Path, number: int) -> Issue:
-    reason = f"{path}:{number}: no result of a batch"
-    return Issue(BAD_RESULT, "error", None, str(path), reason, number)
-
-
 def _read(line: _Line) -> Stored:
     name = _named(line.name.files)
     try:
@@ -277,3 +264,24 @@ def _require_bodies(result: Result) -> None:
     for finding in result.report.findings:
         if not {finding.a, finding.b} <= known:
             raise msgspec.ValidationError(f"no body is {finding.a}, or {finding.b}")
+
+
+def merge(paths: Sequence[Path], out: Path) -> None:
+    """Write the results of finished files to one, whole or not at all: those of the whole batch, if
+    these are its shards. Holds one line of each file in memory.
+
+    Raises SatcheckError: `unreadable-file`, `bad-results`; `unfinished-results`, if a run has not
+    finished a file; `results-differ`, if two files have different results of a world. OSError.
+    """
+    with TemporaryDirectory() as folder:
+        while len(paths) > _MOST_OPEN:
+            groups = [paths[k : k + _MOST_OPEN] for k in range(0, len(paths), _MOST_OPEN)]
+            paths = [Path(folder) / f"{len(groups)}-{k}" for k in range(len(groups))]
+            for some, path in zip(groups, paths, strict=True):
+                merge(some, path)
+        with StoredResults(paths) as results:
+            for issue in results.issues:
+                if issue.code in _REFUSED:
+                    reason = issue.message.removesuffix(_LAST_COUNTS)
+                    raise SatcheckError(_REFUSED[issue.code], reason)
+            replace_file(out, results.lines())

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.check import check, volume_meter
@@ -40,60 +39,6 @@ _VERDICTS: dict[str, ResolutionVerdict] = {
 }
 
 
-class Resolution(Struct, frozen=True):
-    """moves, pinned, left: as in the document. before: pairs of the unmoved scene by the kind of
-    their state. rounds: how often bodies were pushed. report: of the check of the moved scene.
-    """
-
-    moves: tuple[Move, ...]
-    pinned: tuple[str, ...]
-    before: Mapping[str, int]
-    rounds: int
-    left: tuple[Left, ...]
-    report: Report
-
-    @property
-    def summary(self) -> ResolutionSummary:
-        overlaps, gaps, holes = (self.before.get(kind, 0) for kind in ("overlap", "near", "open"))
-        lengths = [move.length for move in self.moves]
-        return ResolutionSummary(
-            verdict=_VERDICTS[self.report.summary.verdict],
-            conflicts=overlaps + gaps + holes,
-            gaps=gaps,
-            open=holes,
-            remaining=len(objected(self.report)),
-            flush=sum(
-                finding.at_rest == "touching" and finding.exact_relation in OVERLAPS
-                for finding in self.report.findings
-            ),
-            moved=len(self.moves),
-            pinned=len(self.pinned),
-            total_motion=math.fsum(lengths),
-            largest_motion=max(lengths, default=0.0),
-            rounds=self.rounds,
-        )
-
-    def document(self, output: str | None = None) -> ResolutionReport:
-        """output: the file that the moved scene was written to."""
-        report = self.report
-        counts = sorted(report.summary.by_relation.items())
-        return ResolutionReport(
-            tool=report.tool,
-            units=report.units,
-            output=output,
-            summary=self.summary,
-            moves=self.moves,
-            pinned=self.pinned,
-            left=self.left,
-            check=MovedCheck(
-                report.summary.verdict,
-                report.summary.pairs,
-                {relation: count for relation, count in counts if count},
-            ),
-            issues=report.issues,
-        )
-
-
 def resolve(
     scene: Scene,
     settings: Settings | None = None,
@@ -102,8 +47,11 @@ def resolve(
     max_motion: float | None = None,
     iterations: int = 50,
     progress: Progress | None = None,
-) -> Resolution:
-    """Translations, without rotation, that end every overlap of a scene that can be ended.
+    checked: Callable[[Mapping[str, Vector], Settings], Report] | None = None,
+    output: str | None = None,
+) -> tuple[ResolutionReport, Report]:
+    """Find translations, without rotation, that end every overlap of a scene that can be ended.
+    Return them, and the check of the moved scene.
 
     `check` with these settings decides what an overlap is: a pair that the scene allows or ignores
     stays, and an overlap within the touch band is a touch. A pair closer than its clearance is
@@ -112,7 +60,8 @@ def resolve(
 
     pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
     links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
-    after which bodies go to free places. progress(done, total) counts pairs.
+    after which bodies go to free places. progress(done, total) counts pairs. checked: checks the
+    scene with these bodies moved, as the file `output`; None: in memory.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
@@ -120,7 +69,16 @@ def resolve(
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
-    proof = proof_of(settings or Settings())
+    # Figures of overlaps are not needed where none is left.
+    proof = replace(
+        settings or Settings(),
+        depth=False,
+        contacts=False,
+        components=False,
+        volume=False,
+        cross_check=False,
+        certificate=False,
+    )
     scene.require_in_space("resolve moves bodies in space only")
     scene.require_one_unit()
     robots = (robot for robot in scene.robots if not robot.loose)
@@ -136,31 +94,50 @@ def resolve(
         why = reasons(layout, staying, links, pushing.left)
     offsets = zip(layout.home, layout.offsets, strict=True)
     moved = {body.id: offset for body, offset in offsets if offset != ORIGIN}
-    report = check(moved_scene(scene, moved), proof)
-    return Resolution(
-        moves=tuple(
-            Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
-            for body in scene.bodies
-            if body.id in moved
-        ),
-        pinned=tuple(body.id for body in scene.bodies if body.id in staying),
-        before=Counter(state.kind for state in before.values()),
-        rounds=pushing.rounds,
-        left=tuple(left_pairs(report, why)),
-        report=report,
+    report = checked(moved, proof) if checked else check(moved_scene(scene, moved), proof)
+    moves = tuple(
+        Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
+        for body in scene.bodies
+        if body.id in moved
     )
+    pinned = tuple(body.id for body in scene.bodies if body.id in staying)
+    kinds: Counter[str] = Counter(state.kind for state in before.values())
+    counts = sorted(report.summary.by_relation.items())
+    relations = {relation: count for relation, count in counts if count}
+    document = ResolutionReport(
+        tool=report.tool,
+        units=report.units,
+        output=output,
+        summary=_summary(report, kinds, moves, len(pinned), pushing.rounds),
+        moves=moves,
+        pinned=pinned,
+        left=tuple(left_pairs(report, why)),
+        check=MovedCheck(report.summary.verdict, report.summary.pairs, relations),
+        issues=report.issues,
+    )
+    return document, report
 
 
-def proof_of(settings: Settings) -> Settings:
-    """The settings for the check of the moved scene: the same, without figures for overlaps."""
-    return replace(
-        settings,
-        depth=False,
-        contacts=False,
-        components=False,
-        volume=False,
-        cross_check=False,
-        certificate=False,
+def _summary(
+    report: Report, before: Counter[str], moves: Sequence[Move], pinned: int, rounds: int
+) -> ResolutionSummary:
+    """before: pairs of the unmoved scene by the kind of their state."""
+    lengths = [move.length for move in moves]
+    return ResolutionSummary(
+        verdict=_VERDICTS[report.summary.verdict],
+        conflicts=before["overlap"] + before["near"] + before["open"],
+        gaps=before["near"],
+        open=before["open"],
+        remaining=len(objected(report)),
+        flush=sum(
+            finding.at_rest == "touching" and finding.exact_relation in OVERLAPS
+            for finding in report.findings
+        ),
+        moved=len(moves),
+        pinned=pinned,
+        total_motion=math.fsum(lengths),
+        largest_motion=max(lengths, default=0.0),
+        rounds=rounds,
     )
 
 
@@ -175,7 +152,7 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     return frozenset(pinned)
 
 
-def moved_scene(scene: Scene, translations: dict[str, Vector]) -> Scene:
+def moved_scene(scene: Scene, translations: Mapping[str, Vector]) -> Scene:
     """The scene with these bodies, by id, moved in the world."""
     return replace(
         scene,

@@ -8,8 +8,14 @@ from pathlib import Path
 import click
 from msgspec.structs import replace
 
-from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
-from satcheck.audit.baseline_file import asset_key, read_baseline
+from satcheck.audit.baseline import (
+    absent_from,
+    asset_key,
+    known_findings,
+    pruned,
+    read_baseline,
+    updated,
+)
 from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document, write_file

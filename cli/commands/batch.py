@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
@@ -32,6 +33,7 @@ from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import asset_names, check_options, tell_foreign
 from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import ASSET_VERDICTS, AssetVerdict, worst_verdict
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.plugins import function_at
 
@@ -140,32 +142,26 @@ def command(
     with _local(output) as path, ResultsFile(path) as results, Bar("scenes") as bar:
         if not resume:
             _refuse_existing(results, output)
-        watch = _Watch(Tally(len(worlds)), bar)
+        tally = Tally(len(worlds))
+
+        def show(reached: Tally) -> None:
+            nonlocal tally
+            tally = reached
+            if bar is not None:
+                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
+
         made = partial(check, options=terms, limits=limits)
         try:
-            tally = run(worlds, terms, limits, made, results, watch)
+            run(worlds, terms, limits, made, results, show)
         except (KeyboardInterrupt, SatcheckError):
             if is_url(output):
                 write_before_the_end()
-            if watch.tally.done:
+            if tally.done:
                 place = output if is_url(output) else str(results.part)
-                talk(f"satcheck: {_recorded(watch.tally, place)}")
+                talk(f"satcheck: {_recorded(tally, place)}")
             raise
     talk(_summary(tally, output))
     return _exit_code(tally, exit_zero)
-
-
-class _Watch:
-    """Keeps and shows how far a run is."""
-
-    def __init__(self, tally: Tally, bar: Bar | None) -> None:
-        self.tally = tally
-        self._bar = bar
-
-    def __call__(self, tally: Tally) -> None:
-        self.tally = tally
-        if self._bar is not None:
-            self._bar(tally.done, tally.total, _verdicts(tally, but="pass"))
 
 
 def _refuse(worlds: Sequence[World], inputs: Inputs, output: str, baseline: Path | None) -> None:
@@ -240,14 +236,9 @@ def _recorded(tally: Tally, place: str) -> str:
 def _verdicts(tally: Tally, but: str = "") -> str:
     """`1 error, 5 pass`"""
     parts = [
-        f"{number:,} {word}"
-        for number, word in (
-            (tally.error, "error"),
-            (tally.fail, "fail"),
-            (tally.incomplete, "incomplete"),
-            (tally.passed, "pass"),
-        )
-        if number and word != but
+        f"{tally.verdicts[verdict]:,} {verdict}"
+        for verdict in ASSET_VERDICTS
+        if tally.verdicts[verdict] and verdict != but
     ]
     return ", ".join(parts)
 
@@ -259,8 +250,6 @@ def _summary(tally: Tally, output: str) -> str:
 
 
 def _exit_code(tally: Tally, exit_zero: bool) -> int:
-    if tally.error:
-        return exit_codes.ERROR
-    if tally.fail and not exit_zero:
-        return exit_codes.FINDINGS
-    return exit_codes.INCOMPLETE if tally.incomplete else exit_codes.CLEAN
+    """By the worst scene, or the worst that does not fail."""
+    forgiven: Counter[AssetVerdict] = Counter({"fail": tally.total} if exit_zero else {})
+    return exit_codes.for_assets(worst_verdict(tally.verdicts - forgiven), exit_zero=exit_zero)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
-from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
-from satcheck.audit.resolve import proof_of, resolve
+from satcheck.audit.resolve.resolve import resolve
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
@@ -21,6 +21,7 @@ from satcheck.cli.lengths import in_units_of, length, settings_of
 from satcheck.cli.output import talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
+from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.input_kind import SCENE_SUFFIXES, kind_of
@@ -100,28 +101,23 @@ def command(
     farthest = None
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
+    written = None if scene_out is None else partial(_written, scene_out, scene, inputs)
     with Bar(verb="pushing apart") as bar:
-        result = resolve(
+        resolution, report = resolve(
             scene,
             settings,
             pins=pins,
             max_motion=farthest,
             iterations=iterations,
             progress=bar,
+            checked=written,
+            output=None if scene_out is None else str(scene_out),
         )
-    if scene_out is not None:
-        moves = {move.body: move.translation for move in result.moves}
-        files = inputs.mesh_files(scene.reading)
-        write_file(scene_out, new_scene_file(scene_out, scene, files, moves))
-        result = replace(result, report=_checked(scene_out, settings, inputs))
-    named = None if scene_out is None else str(scene_out)
-    table = partial(render, result, output=named)
-    deliver(document, result.document(named), form, output, table)
+    deliver(document, resolution, form, output, partial(render, resolution, report))
     if stray:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
     if scene_out is not None and scene.robots:
         talk(f"note: {scene_out} has no joints: the bodies stand where they were moved")
-    report = result.report
     return exit_codes.for_verdict(report.summary.verdict, report.issues, exit_zero=False)
 
 
@@ -159,11 +155,14 @@ def _stray(output: Path, scene: Scene, *, allow_outside: bool) -> str | None:
     return stray
 
 
-def _checked(path: Path, settings: Settings, inputs: Inputs) -> Report:
-    """The file as anybody would check it; errors of reading are told. What cannot be read is not
-    left behind."""
+def _written(
+    path: Path, scene: Scene, inputs: Inputs, moves: Mapping[str, Vector], settings: Settings
+) -> Report:
+    """Write the moved scene, and return the check of the file, as anybody would check it. Errors of
+    reading are told. What cannot be read is not left behind."""
+    write_file(path, new_scene_file(path, scene, inputs.mesh_files(scene.reading), moves))
     try:
-        scene = load_scene(
+        moved = load_scene(
             [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
@@ -173,7 +172,7 @@ def _checked(path: Path, settings: Settings, inputs: Inputs) -> Report:
     except SatcheckError:
         path.unlink(missing_ok=True)
         raise
-    report = check(scene, proof_of(settings))
+    report = check(moved, settings)
     for issue in report.issues:
         if issue.severity == "error":
             talk(f"satcheck: {issue_line(issue)}")

@@ -11,9 +11,8 @@ from msgspec import Struct
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.config import options_of_commands
 from satcheck.cli.output import Document
-from satcheck.report.assets import AssetsReport
+from satcheck.report.assets import AssetsReport, Result
 from satcheck.report.axes import AxesReport
-from satcheck.report.batch import Result
 from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport

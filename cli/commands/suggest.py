@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import click
-from msgspec.structs import replace
 
-from satcheck.audit.suggest import Suggestions, suggest
+from satcheck.audit.suggest import suggest
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.formats.suggest import chosen, remark, srdf, toml
@@ -21,14 +20,9 @@ from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.report.json import document as json_document
 from satcheck.scene import Scene
-from satcheck.scene.robot import Pose, posed
+from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
 
 FORMATS = ("toml", "json", "srdf")
-
-
-def _form_of(output: Path | None) -> str:
-    ending = "" if output is None else output.suffix.lower().removeprefix(".")
-    return ending if ending in FORMATS else FORMATS[0]
 
 
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
@@ -73,19 +67,28 @@ def command(
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
-    form = form or _form_of(output)
+    if form is None:
+        ending = "" if output is None else output.suffix.lower().removeprefix(".")
+        form = ending if ending in FORMATS else FORMATS[0]
     refuse_early(inputs, output)
     document = Document()
     scene = load(inputs)
     if form == "srdf" and len(scene.robots) != 1:
         raise click.UsageError("SRDF is about one robot: give one URDF")
-    result = _suggest(scene, inputs, options)
-    pairs = chosen(result, never=never)
-    text = {
-        "json": lambda: json_document(result.document()),
-        "srdf": lambda: srdf(result, pairs, scene.robots[0].robot.name),
-        "toml": lambda: toml(result, pairs),
-    }[form]()
+    placed, poses = _poses(scene, inputs)
+    if placed:
+        scene = posed(scene, placed)
+    held = tuple(placed) if inputs.sample else ()
+    settings = settings_of({**options, **inputs.limits}, scene)
+    with Bar("poses") as bar:
+        result = suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
+    pairs = chosen(result.report, never=never)
+    if form == "json":
+        text = json_document(result.report)
+    elif form == "srdf":
+        text = srdf(result, pairs, scene.robots[0].robot.name)
+    else:
+        text = toml(result.report, pairs)
     document.deliver(lambda _: text, output, utf8=True)
     told = {issue.code for issue in scene.issues}
     errors = [issue for issue in result.issues if issue.severity == "error"]
@@ -100,16 +103,6 @@ def command(
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
 
 
-def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestions:
-    placed, poses = _poses(scene, inputs)
-    if placed:
-        scene = posed(scene, placed)
-    held = tuple(placed) if inputs.sample else ()
-    settings = settings_of({**options, **inputs.limits}, scene)
-    with Bar("poses") as bar:
-        return suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
-
-
 def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, Sequence[Pose]]:
     """(as the robots are placed, the other poses to look at). The pose that --sample starts from
     places them too; a list of poses does not."""
@@ -118,7 +111,6 @@ def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, Sequence[Pose]]:
     poses = poses_of(scene, inputs)
     if isinstance(poses, Mapping):
         return poses, []
-    fixed = replace(inputs, pose=inputs.pose if inputs.sample else (), sample=None, seed=None)
-    placed = poses_of(scene, fixed)
-    assert isinstance(placed, Mapping)  # --sample takes no list
-    return placed, poses
+    if isinstance(poses, RandomPoses):
+        return poses.fixed, poses
+    return pose_of_states(scene, inputs.state), poses

@@ -9,15 +9,15 @@ from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.formats.numbers import number, vector
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.words import counted
+from satcheck.cli.formats.words import counted, with_unit
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
-    from satcheck.report.resolution import Left, Move, ResolutionSummary
+    from satcheck.report.report import Report
+    from satcheck.report.resolution import Left, Move, ResolutionReport, ResolutionSummary
 
 # More rows than this, and the longest moves are shown.
 ROWS = 60
@@ -35,21 +35,20 @@ _RELATIONS = {
 }
 
 
-def render(resolution: Resolution, page: Page, output: str | None) -> str:
-    """The whole text, final newline included. output: the file that the scene was written to."""
+def render(resolution: ResolutionReport, report: Report, page: Page) -> str:
+    """Return the whole text, final newline included. report: of the moved scene."""
     shown = _shown(resolution.moves)
     said = []
     if rest := len(resolution.moves) - len(shown):
         said.append(f"{counted(rest, 'more body', 'more bodies')} moved by less")
     said += map(_left_line, resolution.left)
-    summary = resolution.summary
-    said.append(_motion_line(resolution, summary))
-    if summary.flush:
-        pairs = counted(summary.flush, "pair")
+    said.append(_motion_line(resolution, report))
+    if resolution.summary.flush:
+        pairs = counted(resolution.summary.flush, "pair")
         said.append(f"{pairs} within the tolerance: they count as touching.")
-    subject = "The moved scene" if output is None else output
-    said.append(f"{subject}, checked again: {counts_line(resolution.report)}")
-    said.append(verdict_line(resolution.report))
+    subject = resolution.output or "The moved scene"
+    said.append(f"{subject}, checked again: {counts_line(report)}")
+    said.append(verdict_line(report))
     lines = _moves(shown, page) if shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 
@@ -86,23 +85,23 @@ def _conflicts(summary: ResolutionSummary) -> str:
     return ", ".join(text for text, count in kinds.items() if count)
 
 
-def _motion_line(resolution: Resolution, summary: ResolutionSummary) -> str:
+def _motion_line(resolution: ResolutionReport, report: Report) -> str:
     """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
-    unit = unit_of(resolution.report.units)
-    unit = f" {unit}" if unit else ""
+    summary, unit = resolution.summary, unit_of(resolution.units)
     stays = ""
     if summary.pinned:
         stays = f" {counted(summary.pinned, 'body', 'bodies')} had to stay."
     if not summary.conflicts:
-        motions = resolution.report.motions
-        where = "as the bodies are placed" if motions else "beyond what is allowed"
+        where = "as the bodies are placed" if report.motions else "beyond what is allowed"
         return f"Nothing overlaps {where}: nothing was moved.{stays}"
     conflicts = _conflicts(summary)
-    total, largest = number(summary.total_motion), number(summary.largest_motion)
     if not summary.moved:
         return f"{conflicts}: nothing was moved.{stays}"
+    total, largest = (
+        with_unit(number(length), unit) for length in (summary.total_motion, summary.largest_motion)
+    )
     return (
         f"{conflicts}: {counted(summary.moved, 'body', 'bodies')} moved, "
-        f"by {total}{unit} in total and {largest}{unit} at most, "
+        f"by {total} in total and {largest} at most, "
         f"in {counted(summary.rounds, 'round')}.{stays}"
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
@@ -17,7 +18,7 @@ from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
-    from satcheck.report.suggestions import Suggestion, Unchecked, Why
+    from satcheck.report.suggestions import Suggestion, SuggestionsReport, Unchecked, Why
 
 RULES_ALONE = """\
 # Give this file beside the scene, or move its rules into the scene.
@@ -35,14 +36,14 @@ _SRDF_REASONS: dict[Why, str] = {
 }
 
 
-def chosen(suggestions: Suggestions, *, never: bool) -> list[Suggestion]:
+def chosen(report: SuggestionsReport, *, never: bool) -> list[Suggestion]:
     """never: also the pairs that did not meet in any pose, which proves nothing."""
-    return [pair for pair in suggestions.pairs if never or pair.why != "never"]
+    return [pair for pair in report.suggestions if never or pair.why != "never"]
 
 
-def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
+def toml(report: SuggestionsReport, pairs: Iterable[Suggestion]) -> str:
     """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
-    blocks = [f"# {_left_out(pair)}" for pair in suggestions.unchecked if pair.adjacent]
+    blocks = [f"# {_left_out(pair)}" for pair in report.unchecked if pair.adjacent]
     blocks += [
         "\n".join(
             (
@@ -50,7 +51,7 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
                 f"a = {quoted(Selector.writable(pair.a).text)}",
                 f"b = {quoted(Selector.writable(pair.b).text)}",
                 "allowed = true",
-                f"reason = {quoted(f'suggested: {evidence(pair, suggestions)}; confirm')}",
+                f"reason = {quoted(f'suggested: {evidence(pair, report)}; confirm')}",
             )
         )
         for pair in pairs
@@ -64,7 +65,9 @@ def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> s
 
     None where some of their bodies could not be checked: a comment says so in its place."""
     unchecked = {
-        frozenset(pair.links): pair for pair in suggestions.unchecked if pair.links is not None
+        frozenset(pair.links): pair
+        for pair in suggestions.report.unchecked
+        if pair.links is not None
     }
     lines = {links: _comment(_left_out(pair)) for links, pair in unchecked.items() if pair.adjacent}
     for reason, a, b in _links(pairs):
@@ -89,15 +92,15 @@ def _links(pairs: Iterable[Suggestion]) -> Iterator[tuple[str, str, str]]:
                 yield reason, *pair.links
 
 
-def evidence(pair: Suggestion, suggestions: Suggestions) -> str:
+def evidence(pair: Suggestion, report: SuggestionsReport) -> str:
     """`penetrating by 0.2 mm at the placement`."""
     said = []
     if pair.why == "adjacent":
         said.append("a joint connects them")
     if pair.relation is not None and pair.relation != "separated":
-        said.append(f"{_contact(pair, unit_of(suggestions.units))} at the placement")
-    if suggestions.poses and pair.contacts is not None:
-        poses = _poses(suggestions)
+        said.append(f"{_contact(pair, unit_of(report.units))} at the placement")
+    if report.poses and pair.contacts is not None:
+        poses = _poses(report)
         if pair.why == "never":
             said.append(f"never in contact in {poses}, which is no proof")
         else:
@@ -107,17 +110,18 @@ def evidence(pair: Suggestion, suggestions: Suggestions) -> str:
 
 def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
     """A few lines for standard error."""
+    report = suggestions.report
     said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
-    left = sum(pair.why == "never" for pair in suggestions.pairs)
+    left = sum(pair.why == "never" for pair in report.suggestions)
     if left and not never:
-        poses = _poses(suggestions)
+        poses = _poses(report)
         said += f" {counted(left, 'more pair')} never met in {poses}, which proves nothing:"
         said += " --never suggests them."
-    if left_out := sum(pair.adjacent for pair in suggestions.unchecked):
+    if left_out := sum(pair.adjacent for pair in report.unchecked):
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
-    for pair in suggestions.undecided[:_NAMED]:
-        said += f"\nNot decided: {pair.a} and {pair.b}: {pair.reason.removeprefix('undecided: ')}"
+    for (a, b), reason in islice(suggestions.undecided.items(), _NAMED):
+        said += f"\nNot decided: {a} and {b}: {reason.removeprefix('undecided: ')}"
     if (more := len(suggestions.undecided) - _NAMED) > 0:
         said += f"\nNot decided: {counted(more, 'more pair')}"
     return said
@@ -136,12 +140,10 @@ def _comment(text: str) -> str:
     return f"<!-- {re.sub('-(?=-)', '- ', text)} -->"
 
 
-def _poses(suggestions: Suggestions) -> str:
+def _poses(report: SuggestionsReport) -> str:
     """`20 random poses with 1 joint held`."""
-    poses = counted(suggestions.poses, "pose" if suggestions.seed is None else "random pose")
-    return poses + (
-        f" with {counted(len(suggestions.held), 'joint')} held" if suggestions.held else ""
-    )
+    poses = counted(report.poses, "pose" if report.seed is None else "random pose")
+    return poses + (f" with {counted(len(report.held), 'joint')} held" if report.held else "")
 
 
 def _contact(pair: Suggestion, unit: str | None) -> str:

@@ -25,8 +25,7 @@ def render(result: TradeoffReport, page: Page) -> str:
         below.append(f"The default: settled by {result.default}; see satcheck --explain A B.")
     spent = f"{number(round(result.seconds, 1))} s of {number(result.budget)} s"
     below.append(
-        "* on the Pareto front: no rung is better in time, error or proof without being worse in "
-        "another. Error: signed distance said minus proven; below 0: closer or deeper than it is. "
+        "Error: signed distance said minus proven; below 0: closer or deeper than it is. "
         f"Medians of up to {counted(result.repeat, 'run')} in turn, {spent}."
     )
     lines = [*fitted(title(result), page), *_table(result, page)]
@@ -42,7 +41,7 @@ def title(result: TradeoffReport) -> str:
 
 
 def silent(result: TradeoffReport) -> Iterator[str]:
-    """Which rungs do not answer, and why."""
+    """Yield which rungs do not answer, and why."""
     reasons: dict[str, list[str]] = {}
     for row in result.rungs:
         if row.reason:
@@ -70,7 +69,7 @@ def _table(result: TradeoffReport, page: Page) -> list[str]:
         return Column(name, tuple(map(cell, rows)), **how)
 
     columns = (
-        column("rung", lambda row: f"{'*' if row.pareto else ' '} {row.label}"),
+        column("rung", lambda row: row.label),
         column("relation", _relation, folds=True),
         column("verdict", _verdict, right=True, graded=True),
         column("answer", _answer, right=True, folds=True),

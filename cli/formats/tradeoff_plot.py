@@ -15,7 +15,6 @@ from satcheck.cli.formats.numbers import duration, number
 from satcheck.cli.formats.plot_style import LETTERS, POINTS_PER_INCH, Palette, fitted, style
 from satcheck.cli.formats.tradeoff import silent, title
 from satcheck.cli.output import harmless
-from satcheck.report.tradeoff import choices
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,12 +24,10 @@ if TYPE_CHECKING:
 # Points, 72 to the inch.
 WIDTH = 780.0
 _HEAD, _PANEL, _LINE = 40.0, 260.0, 15.0
-_MARKERS = ("o", "^", "x")  # by Row.standing
-_WORDS = ("verdict proven", "verdict not proven", "verdict wrong")
 
 
 def draw(results: Sequence[TradeoffReport], *, dark: bool = False) -> Figure:
-    """A panel for each pair, and below it what is not drawn."""
+    """Return a figure with a panel for each pair, and below it what is not drawn."""
     remarks = [
         [line for said in _remarks(result) for line in wrap(harmless(said), LETTERS)]
         for result in results
@@ -43,45 +40,43 @@ def draw(results: Sequence[TradeoffReport], *, dark: bool = False) -> Figure:
         for axes, result, lines in zip(panels[:, 0], results, remarks, strict=True):
             axes.set_title(fitted(title(result)))
             axes.set_xlabel("\n".join(lines), loc="left", size=10)
-            drawn = sorted(_drawn(result), key=_place)
-            _scale(axes, drawn)
-            best = [_place(row) for row in drawn if row.pareto]
-            axes.step([x for x, _ in best], [y for _, y in best], palette.faint, where="post")
-            for row in drawn:
-                _mark(axes, row, palette)
-            parts = [row for row in _drawn(result) if row.threshold is not None]
-            named = [row for row in drawn if row not in parts[1:-1]]  # the coarsest and the finest
-            for k, row in enumerate(named):
-                up, va = (7, "bottom") if k % 2 == 0 else (-7, "top")
-                where: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": va}
-                axes.annotate(row.label, _place(row), (0, up), **where)
+            _draw_rungs(axes, _drawn(result), palette)
         panels[-1, 0].set_xlim(*_decades([row for result in results for row in _drawn(result)]))
-        figure.legend(handles=_legend(palette), loc="outside upper left", ncols=5)
+        cached = Line2D([], [], marker="o", mfc="none", ls=":", color=palette.faint, label="cached")
+        marks = [
+            Line2D([], [], marker=marker, color=colour, linestyle="none", label=words)
+            for marker, colour, words in _kinds(palette)
+        ]
+        figure.legend(handles=[*marks, cached], loc="outside upper left", ncols=4)
     return figure
 
 
+def _kinds(palette: Palette) -> tuple[tuple[str, str, str], ...]:
+    """Return marker, colour and words of a verdict that is proven, a guess, or wrong."""
+    return (
+        ("o", palette.proven, "verdict proven"),
+        ("^", palette.guess, "verdict not proven"),
+        ("x", palette.wrong, "verdict wrong"),
+    )
+
+
 def _drawn(result: TradeoffReport) -> list[Row]:
-    return [row for row in choices(result.rungs) if row.error is not None]
+    return [row for row in _distinct(result) if row.error is not None and row.cold is not None]
 
 
-def _decades(rows: Sequence[Row]) -> tuple[float, float]:
-    """Whole decades around every time, with room for labels."""
-    times = [t.median for row in rows for t in (row.cold, row.cached) if t is not None] or [1.0]
-    first, last = math.log10(min(times) / 1.5), math.log10(1.5 * max(times))
-    return 10.0 ** math.floor(first), 10.0 ** math.ceil(last)
+def _distinct(result: TradeoffReport) -> list[Row]:
+    """Return the rows that answered, without those that climbed no further than a lower rung and
+    say what that says."""
+    seen: dict[object, Row] = {}
+    for row in result.rungs:
+        own = row.settled_by in (None, row.rung)
+        said = row.label if own else row.settled_by, row.signed_distance, row.bounds
+        if row.state == "answered":
+            seen.setdefault(said, row)
+    return list(seen.values())
 
 
-def _legend(palette: Palette) -> list[Line2D]:
-    marks = [
-        Line2D([], [], marker=marker, color=colour, linestyle="none", label=words)
-        for marker, colour, words in zip(_MARKERS, _colours(palette), _WORDS, strict=True)
-    ]
-    cached = Line2D([], [], marker="o", mfc="none", ls=":", color=palette.faint, label="cached")
-    front = Line2D([], [], color=palette.faint, label="Pareto front: worth its time")
-    return [*marks, cached, front]
-
-
-def _scale(axes: Axes, rows: Sequence[Row]) -> None:
+def _draw_rungs(axes: Axes, rows: Sequence[Row], palette: Palette) -> None:
     """Both axes are logarithmic, and have room for labels; errors reach down to 0."""
     errors = [abs(row.error) for row in rows if row.error] or [1.0]
     axes.set_xscale("log")
@@ -92,14 +87,20 @@ def _scale(axes: Axes, rows: Sequence[Row]) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda error, _: number(error)))
     axes.tick_params(labelbottom=True)
-
-
-def _mark(axes: Axes, row: Row, palette: Palette) -> None:
-    (x, y), colour = _place(row), _colours(palette)[row.standing]
-    if row.cached is not None:
-        axes.plot([row.cached.median, x], [y, y], ":", color=palette.faint, linewidth=1)
-        axes.plot(row.cached.median, y, "o", color=colour, mfc="none", gid=f"{row.label}, cached")
-    axes.plot(x, y, _MARKERS[row.standing], color=colour, markersize=9, gid=row.label)
+    for row in rows:
+        (x, y), kinds = _place(row), _kinds(palette)
+        marker, colour, _ = kinds[2 if row.right is False else 0 if row.proven else 1]
+        if row.cached is not None:
+            axes.plot([row.cached.median, x], [y, y], ":", color=palette.faint, linewidth=1)
+            gid = f"{row.label}, cached"
+            axes.plot(row.cached.median, y, "o", color=colour, mfc="none", gid=gid)
+        axes.plot(x, y, marker, color=colour, markersize=9, gid=row.label)
+    parts = [row for row in rows if row.threshold is not None]
+    named = [row for row in rows if row not in parts[1:-1]]  # the coarsest and the finest
+    for k, row in enumerate(sorted(named, key=_place)):
+        up, va = (7, "bottom") if k % 2 == 0 else (-7, "top")
+        where: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": va}
+        axes.annotate(row.label, _place(row), (0, up), **where)
 
 
 def _place(row: Row) -> tuple[float, float]:
@@ -107,14 +108,16 @@ def _place(row: Row) -> tuple[float, float]:
     return row.cold.median, abs(row.error or 0.0)
 
 
-def _colours(palette: Palette) -> tuple[str, str, str]:
-    """By Row.standing."""
-    return palette.proven, palette.guess, palette.wrong
+def _decades(rows: Sequence[Row]) -> tuple[float, float]:
+    """Return whole decades around every time, with room for labels."""
+    times = [t.median for row in rows for t in (row.cold, row.cached) if t is not None] or [1.0]
+    first, last = math.log10(min(times) / 1.5), math.log10(1.5 * max(times))
+    return 10.0 ** math.floor(first), 10.0 ** math.ceil(last)
 
 
 def _remarks(result: TradeoffReport) -> Iterator[str]:
-    """What is not drawn, and why."""
-    for row in choices(result.rungs):
+    """Yield what is not drawn, and why."""
+    for row in _distinct(result):
         if row.error is None and row.cold is not None:
             yield f"{row.label}: {duration(row.cold.median)}, verdict only"
     yield from silent(result)

@@ -15,13 +15,13 @@ from msgspec.structs import replace
 
 from satcheck.audit import Finding, Report, Settings, check
 from satcheck.audit.joint_path.search import WIDEST
-from satcheck.audit.resolve import resolve
 from satcheck.audit.samples import check_poses
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.half_spaces import is_half_space
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import new_scene_file
+from tests.audit.resolve.boxes import resolve
 from tests.cli.process import satcheck
 from tests.oracles.half_space import Matrix, heights_of_shape, heights_of_vertices
 from tests.plugin_marks import needs

@@ -167,7 +167,9 @@ def test_what_hits_on_the_way_counts(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert "separated" not in text
     schema = Draft202012Validator(json.loads(schema_text("samples")))
     schema.validate(json.loads(json.dumps(found.to_dict())))
-    why = {(one.a, one.b): one.why for one in suggest(scene, poses=drawn, seed=1).pairs}
+    why = {
+        (one.a, one.b): one.why for one in suggest(scene, poses=drawn, seed=1).report.suggestions
+    }
     assert all(why.get(pair) != "never" for pair in hits)
 
 

@@ -23,7 +23,7 @@ POSES = list(RandomPoses([robot.robot for robot in ARM.robots], 40, 0))
 
 
 def pairs(found: Suggestions) -> dict[tuple[str, str], str]:
-    return {(one.a, one.b): one.why for one in found.pairs}
+    return {(one.a, one.b): one.why for one in found.report.suggestions}
 
 
 def allow(a: str, b: str, **keys) -> Rule:
@@ -34,11 +34,11 @@ def test_what_is_in_contact_as_placed(tmp_path):
     meshes = {"a": unit_box(), "b": unit_box(0.75), "c": unit_box(1.75), "d": unit_box(9)}
     found = suggest(scene_of(tmp_path, **meshes))
     assert pairs(found) == {("a", "b"): "contact", ("b", "c"): "contact"}
-    overlap, touch = found.pairs
+    overlap, touch = found.report.suggestions
     assert overlap.relation == "penetrating"
     assert overlap.depth_bounds == pytest.approx((0.25, 0.25))
     assert (touch.relation, touch.depth_bounds) == ("touching", None)
-    assert found.undecided == ()
+    assert found.undecided == {}
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_what_is_in_contact_as_placed(tmp_path):
 )
 def test_what_rules_allow_limit_or_excuse_is_not_suggested(tmp_path, rule):
     scene = replace(scene_of(tmp_path, a=unit_box(), b=unit_box(0.75)), rules=(rule,))
-    assert suggest(scene).pairs == ()
+    assert suggest(scene).report.suggestions == ()
 
 
 def test_too_deep_for_its_rule_is_suggested(tmp_path):
@@ -57,12 +57,12 @@ def test_too_deep_for_its_rule_is_suggested(tmp_path):
 
 def test_what_could_not_be_decided_is_counted_and_not_suggested(tmp_path):
     found = suggest(scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 3.5)))
-    assert (found.pairs, len(found.undecided)) == ((), 1)
+    assert (found.report.suggestions, len(found.undecided)) == ((), 1)
 
 
 def test_links_with_a_joint_between_them():
     found = suggest(ARM)
-    adjacent = {(one.links, one.why) for one in found.pairs if one.why == "adjacent"}
+    adjacent = {(one.links, one.why) for one in found.report.suggestions if one.why == "adjacent"}
     assert {links for links, _ in adjacent} == {
         ("base", "turret"),
         ("turret", "upper"),
@@ -71,14 +71,14 @@ def test_links_with_a_joint_between_them():
         ("fore", "right"),
     }
     assert pairs(found)["left", "right"] == "contact"
-    assert all(one.contacts is None for one in found.pairs)
+    assert all(one.contacts is None for one in found.report.suggestions)
     assert "never" not in pairs(found).values()
 
 
 def test_random_poses_tell_never():
     found = suggest(ARM, poses=POSES, seed=0)
-    assert (found.poses, found.seed) == (40, 0)
-    never = [one for one in found.pairs if one.why == "never"]
+    assert (found.report.poses, found.report.seed) == (40, 0)
+    never = [one for one in found.report.suggestions if one.why == "never"]
     assert {one.contacts for one in never} == {0}
     assert {one.relation for one in never} == {None}
     assert {("turret", "left"), ("upper", "right")} <= {(one.a, one.b) for one in never}
@@ -97,7 +97,7 @@ def test_random_poses_tell_always(tmp_path):
     )
     scene = load_scene([tmp_path / "r.urdf"])
     poses = list(RandomPoses([robot.robot for robot in scene.robots], 5, 1))
-    found = {(one.a, one.b): one for one in suggest(scene, poses=poses, seed=1).pairs}
+    found = {(one.a, one.b): one for one in suggest(scene, poses=poses, seed=1).report.suggestions}
     assert found["base", "tip"].why == "always"
     assert found["base", "tip"].contacts == 5
     assert found["base", "mid"].why == "adjacent"
@@ -136,7 +136,9 @@ def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
 
 def test_bodies_of_links_that_may_meet_are_remembered():
     found = suggest(ARM, poses=POSES, seed=0)
-    never = {frozenset(one.links) for one in found.pairs if one.why == "never" and one.links}
+    never = {
+        frozenset(one.links) for one in found.report.suggestions if one.why == "never" and one.links
+    }
     assert frozenset(("base", "upper")) in found.may_meet
     assert never - found.may_meet
 
@@ -144,7 +146,7 @@ def test_bodies_of_links_that_may_meet_are_remembered():
 def test_allowing_what_is_suggested_makes_the_check_pass():
     scene = load_scene([SAMPLES / "gripper.glb"])
     assert check(scene).summary.verdict == "fail"
-    rules = tuple(allow(one.a, one.b) for one in suggest(scene).pairs)
+    rules = tuple(allow(one.a, one.b) for one in suggest(scene).report.suggestions)
     allowed = replace(scene, rules=rules)
     assert check(allowed).summary.verdict == "pass"
-    assert suggest(allowed).pairs == ()
+    assert suggest(allowed).report.suggestions == ()

@@ -1,4 +1,4 @@
-"""Rungs on pairs whose truth is known, and made-up rows on the front."""
+"""Rungs on pairs whose truth is known."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ from satcheck.audit.tradeoff import (
     is_right,
     last_rung,
     tradeoff,
-    with_front,
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Finding, Stage
-from satcheck.report.tradeoff import Row, RungName, Times, TradeoffReport, Truth
+from satcheck.report.tradeoff import Row, TradeoffReport, Truth
 from satcheck.report.values import Relation
 from satcheck.scene import load_scene
 from tests.audit.shapes import open_box, unit_box, write
@@ -52,8 +51,6 @@ def test_boxes_are_exact_on_every_rung_from_oriented_boxes_on() -> None:
             assert row.error == 0.0, label
     # Hulls settle it: what climbs higher is the same again, and no choice of its own.
     assert seen["parts 0.1"].settled_by == seen["exact"].settled_by == "hull"
-    assert {label for label, row in seen.items() if row.pareto} <= {"aabb", "obb", "hull"}
-    assert seen["hull"].pareto
     assert seen["boolean"].volume == pytest.approx(1.0 * 1.75 * 1.5, abs=1e-9)
     assert report.default == "hull"
 
@@ -76,7 +73,6 @@ def test_a_peg_in_a_notch_is_apart_for_the_finer_rungs_only() -> None:
     assert part.cached is not None
     assert -0.1 < (part.error or 0.0) <= 0.0
     assert seen["exact"].error == 0.0
-    assert seen["exact"].pareto
     assert report.default == "exact"
 
 
@@ -191,48 +187,6 @@ def test_right_is_what_agrees_about_the_overlap_and_else_about_the_relation(
 ) -> None:
     row = Row(rung="hull", state="answered", overlap=overlap, relation=relation)
     assert is_right(row, Truth(truth, None, None)) is right
-
-
-def at(
-    rung: RungName,
-    time: float,
-    error: float | None,
-    standing: int = 0,
-    settled_by: RungName | None = None,
-) -> Row:
-    return Row(
-        rung=rung,
-        state="answered",
-        right=standing < 2,
-        proven=standing == 0,
-        signed_distance=error,
-        error=error,
-        settled_by=settled_by,
-        cold=Times(time, time, time, 1),
-    )
-
-
-@pytest.mark.parametrize(
-    ("made", "expected"),
-    [
-        ([], []),
-        ([at("aabb", 1, -4), at("hull", 2, 1), at("exact", 3, 2)], ["aabb", "hull"]),
-        ([at("hull", 1, 0), at("exact", 2, 0)], ["hull"]),
-        ([at("hull", 2, 0), at("exact", 1, 0)], ["exact"]),
-        ([at("hull", 1, None), at("exact", 5, 5)], ["exact"]),
-        # A guess takes no proof off the front, and a wrong answer no guess.
-        ([at("hull", 1, 0, 1), at("exact", 2, 0)], ["hull", "exact"]),
-        ([at("aabb", 1, 0, 2), at("hull", 2, 0, 1)], ["aabb", "hull"]),
-        ([at("hull", 1, 0), at("exact", 2, 0, 1)], ["hull"]),
-        # A rung that climbed no further than a lower one is that rung again.
-        ([at("aabb", 2, 1, 0, "aabb"), at("obb", 1, 1, 0, "aabb")], ["aabb"]),
-        ([at("aabb", 2, 1, 0, "aabb"), at("obb", 1, 0.5, 0, "aabb")], ["obb"]),
-    ],
-)
-def test_what_is_slower_and_no_better_is_not_on_the_front(
-    made: list[Row], expected: list[str]
-) -> None:
-    assert [row.rung for row in with_front(made) if row.pareto] == expected
 
 
 MEET = Stage("aabb", "meet", 1.0, "world boxes meet")

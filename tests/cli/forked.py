@@ -12,7 +12,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-IMPORTED = ("numpy", "rich.table", "satcheck.audit.resolve", "satcheck.scene.robot")
+IMPORTED = ("numpy", "rich.table", "satcheck.audit.resolve.resolve", "satcheck.scene.robot")
 CONTEXT = multiprocessing.get_context("forkserver")
 CONTEXT.set_forkserver_preload([__name__, "satcheck.cli.commands.check", *IMPORTED])
 

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.baseline import absent_from, beside_baseline, known_findings, updated
-from satcheck.audit.baseline_file import asset_key
+from satcheck.audit.baseline import absent_from, asset_key, beside_baseline, known_findings, updated
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from satcheck.audit.batch.merge import merge
+from satcheck.audit.batch.stored import merge
 from tests.cli.process import SAMPLES, satcheck
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.batch.merge import merge
+from satcheck.audit.batch.stored import merge
 from tests.audit.batch.worlds import make_worlds
 from tests.cli.process import environment, on_posix, private_cache, satcheck
 from tests.test_docs import BLOCK, ROOT

@@ -15,7 +15,7 @@ from satcheck.audit.suggest import Suggestions
 from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.suggest import srdf, toml
 from satcheck.report.report import Tool
-from satcheck.report.suggestions import Suggestion, Unchecked
+from satcheck.report.suggestions import Suggestion, SuggestionsReport, Unchecked
 from satcheck.scene import Selector
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.scene.robot.robots import joint, link, robot_of
@@ -43,9 +43,18 @@ def contacts_of(ran: Ran) -> set[tuple[str, str]]:
     return {(one["a"], one["b"]) for one in ran.document["suggestions"] if one["why"] == "contact"}
 
 
-def suggestions(*pairs: Suggestion, units: str | None = "mm", poses: int = 0) -> Suggestions:
-    return Suggestions(
-        Tool("satcheck", "0"), units, poses, 0 if poses else None, pairs, (), frozenset(), ()
+def report(
+    *pairs: Suggestion, poses: int = 0, unchecked: tuple[Unchecked, ...] = ()
+) -> SuggestionsReport:
+    return SuggestionsReport(
+        tool=Tool("satcheck", "0"),
+        units="mm",
+        poses=poses,
+        seed=0 if poses else None,
+        held=(),
+        suggestions=pairs,
+        undecided=0,
+        unchecked=unchecked,
     )
 
 
@@ -70,26 +79,26 @@ def test_the_rules_can_be_given_beside_the_scene(tmp_path: Path) -> None:
 @pytest.mark.parametrize("body", ['say "hi"', "back\\slash", "a*[b]", "tab\there", "\x7f", "Ø"])
 def test_any_id_survives_toml(body: str) -> None:
     pair = Suggestion(body, "b", "contact", relation="touching")
-    (rule,) = tomllib.loads(toml(suggestions(pair), [pair]))["rules"]
+    (rule,) = tomllib.loads(toml(report(pair), [pair]))["rules"]
     assert Selector(rule["a"]).choose(["other", body, rule["a"]]) == (body,)
     assert rule["reason"] == "suggested: touching at the placement; confirm"
 
 
 def test_bytes_that_are_no_text_are_matched() -> None:
     pair = Suggestion("caf\udce9", "b", "contact", relation="touching")
-    (rule,) = tomllib.loads(toml(suggestions(pair), [pair]))["rules"]
+    (rule,) = tomllib.loads(toml(report(pair), [pair]))["rules"]
     assert Selector(rule["a"]).choose(["cafe", "caf\udce9"]) == ["caf\udce9"]
 
 
 def test_never_says_that_it_is_no_proof() -> None:
     pair = Suggestion("a", "b", "never", contacts=0)
-    (rule,) = tomllib.loads(toml(suggestions(pair, poses=1000), [pair]))["rules"]
+    (rule,) = tomllib.loads(toml(report(pair, poses=1000), [pair]))["rules"]
     assert "never in contact in 1,000 random poses, which is no proof" in rule["reason"]
 
 
 def test_an_interval_is_called_one() -> None:
     pair = Suggestion("a", "b", "contact", relation="contains", depth_bounds=(0.5, 0.75))
-    assert "contains by at most 0.75 mm at" in toml(suggestions(pair), [pair])
+    assert "contains by at most 0.75 mm at" in toml(report(pair), [pair])
 
 
 def test_an_srdf_for_a_robot(tmp_path: Path) -> None:
@@ -114,11 +123,9 @@ def test_an_srdf_for_a_robot(tmp_path: Path) -> None:
 
 def test_a_link_pair_that_may_meet_is_not_called_never() -> None:
     pair = Suggestion("a/1", "b", "never", ("a", "b"), contacts=0)
-    found = suggestions(pair, poses=10)
+    found = Suggestions(report(pair, poses=10), {}, frozenset(), ())
     assert "Never" in srdf(found, [pair], "arm")
-    met = Suggestions(
-        found.tool, None, 10, 0, found.pairs, (), frozenset({frozenset(("a", "b"))}), ()
-    )
+    met = replace(found, may_meet=frozenset({frozenset(("a", "b"))}))
     assert srdf(met, [pair], "arm") == '<robot name="arm">\n</robot>\n'
 
 
@@ -161,7 +168,7 @@ def test_what_was_not_checked_is_not_suggested(tmp_path: Path) -> None:
 def test_two_links_with_a_pair_that_was_not_checked_have_no_line() -> None:
     met = Suggestion("a/1", "b", "contact", ("a", "b"), relation="touching")
     lost = Unchecked("a/2", "b", adjacent=False, links=("a", "b"), reason="no -- file\n")
-    found = replace(suggestions(met), unchecked=(lost,))
+    found = Suggestions(report(met, unchecked=(lost,)), {}, frozenset(), ())
     text_ = srdf(found, [met], "arm")
     assert list(ElementTree.fromstring(text_)) == []
     assert "<!-- not suggested: a/2 and b: they could not be checked: no - - file? -->" in text_

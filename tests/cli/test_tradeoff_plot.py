@@ -34,7 +34,6 @@ def made(**of_rung: tuple[float, float | None]) -> TradeoffReport:
                 settled_by=rung.name,
                 cold=times(seconds),
                 cached=times(0.5 * seconds) if rung.name == "parts" else None,
-                pareto=rung.name in ("aabb", "hull", "exact"),
             )
         rows.append(row)
     return TradeoffReport(
@@ -128,12 +127,14 @@ def test_of_convex_parts_the_coarsest_and_the_finest_are_named() -> None:
     assert named == ["parts 0.5", "parts 0.01"]
 
 
-def test_the_line_along_the_front_goes_over_to_the_next_rung_and_then_down() -> None:
-    (front,) = [
-        line for line in draw([PAIR]).axes[0].get_lines() if "steps" in line.get_drawstyle()
+def test_a_rung_that_says_what_a_lower_one_has_proven_is_not_drawn_again() -> None:
+    settled = {"aabb": "aabb", "obb": "aabb", "hull": "hull", "exact": "hull"}
+    pair = made(aabb=(1e-4, 0.5), obb=(2e-4, 0.5), hull=(1e-3, 0.0), exact=(0.1, 0.25))
+    rows = [
+        replace(row, settled_by=settled.get(row.rung), signed_distance=row.error)
+        for row in pair.rungs
     ]
-    assert front.get_drawstyle() == "steps-post"
-    assert corners_of(front) == [(1e2, 4.0), (1e3, 0.5), (1e5, 0.0)]
+    assert set(markers(draw([replace(pair, rungs=tuple(rows))]))) == {"aabb", "hull", "exact"}
 
 
 def test_any_name_can_be_drawn() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from satcheck.audit import check
-from satcheck.audit.baseline_file import read_baseline
+from satcheck.audit.baseline import read_baseline
 from satcheck.cli.config import nearest_config, read_config
 from satcheck.cli.formats.picture.html import render as page
 from satcheck.cli.stated_scene import read_report, stated_scene

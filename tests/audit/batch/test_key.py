@@ -350,3 +350,15 @@ def test_another_folder_counts(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) 
     monkeypatch.chdir(tmp_path / "after")
     assert checked([world]) == [world]
     assert checked([world]) == []
+
+
+def test_where_a_link_to_a_file_leads_counts_too() -> None:
+    for folder in ("one", "two"):
+        copied("box.obj", f"{folder}/box.obj")
+    Path("box.obj").symlink_to("one/box.obj")
+    world = scene("s.toml", "box.obj", copied("rod.stl"))
+    assert checked([world], CheckOptions(allow_outside=True)) == [world]
+    assert checked([world], CheckOptions(allow_outside=True)) == []
+    Path("box.obj").unlink()
+    Path("box.obj").symlink_to("two/box.obj")
+    assert checked([world], CheckOptions(allow_outside=True)) == [world]

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.batch.merge import merge
+from satcheck.audit.batch.stored import merge
 from satcheck.core.errors import SatcheckError
 
 
 def lines(*names: str, verdict: str = "pass") -> str:
-    return "".join(json.dumps({"files": [name], "verdict": verdict}) + "\n" for name in names)
+    results = ({"files": [name], "key": None, "verdict": verdict} for name in names)
+    return "".join(json.dumps(result) + "\n" for result in results)
 
 
 def shards(folder: Path, *texts: str) -> list[Path]:
@@ -46,7 +47,7 @@ def test_a_result_in_two_files_counts_once(tmp_path: Path) -> None:
 def test_two_answers_for_one_world_are_refused(tmp_path: Path) -> None:
     error = refused(tmp_path, lines("a"), lines("a", verdict="fail"))
     assert error.code == "results-differ"
-    assert "result for a" in str(error)
+    assert str(error) == "a: different results in several files"
 
 
 @pytest.mark.parametrize("text", [lines("b", "a"), lines("a", "a"), lines("a")[:-1]])
@@ -57,7 +58,7 @@ def test_a_file_that_is_not_finished_is_refused(tmp_path: Path, text: str) -> No
 def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
     error = refused(tmp_path, lines("a") + "[]\n")
     assert error.code == "bad-results"
-    assert "0.jsonl: line 2" in str(error)
+    assert "0.jsonl:2" in str(error)
 
 
 def test_a_missing_shard_is_refused(tmp_path: Path) -> None:
@@ -83,6 +84,6 @@ def test_a_part_and_a_file_beside_its_part_are_refused(tmp_path: Path) -> None:
 
 
 def test_names_that_are_no_text(tmp_path: Path) -> None:
-    text = json.dumps({"files": ["\udcff.obj"]}) + "\n"
+    text = json.dumps({"files": ["\udcff.obj"], "key": None}) + "\n"
     merge(shards(tmp_path, text), tmp_path / "all.jsonl")
     assert (tmp_path / "all.jsonl").read_text() == text

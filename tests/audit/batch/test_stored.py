@@ -7,13 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.assets import lost_asset
+from satcheck.audit.batch.check_world import lost_asset
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.stored import Stored, StoredResults
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss
-from satcheck.report.assets import AssetVerdict
-from satcheck.report.batch import Result
+from satcheck.report.assets import AssetVerdict, Result
 from satcheck.report.json import line_of
 from tests.cli.reports import PENETRATING, report
 
@@ -63,6 +62,14 @@ def test_of_a_batch_under_way_the_part_is_read(tmp_path: Path) -> None:
         results.finish([("a",), ("b",)])
     listed, issues, least = read(path)
     assert (names(listed), issues, least) == (["a", "b"], [], "pass")
+
+
+def test_a_batch_that_finishes_while_it_is_read_ends_the_reading(tmp_path: Path) -> None:
+    """Its part is emptied."""
+    part = write(tmp_path / "1.part", *(line(name) for name in "abc"))
+    with StoredResults([tmp_path / "1"]) as results:
+        part.write_bytes(b"")
+        assert list(results) == []
 
 
 def test_of_a_resumed_batch_the_part_counts(tmp_path: Path) -> None:

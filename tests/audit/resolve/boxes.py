@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
-from satcheck.audit.resolve import Resolution, moved_scene
+from satcheck.audit import Settings
+from satcheck.audit.resolve import resolve as resolving
+from satcheck.report.resolution import ResolutionReport
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import box, write
 
@@ -36,12 +39,17 @@ def unit_at(x: float, y: float = 0.0, z: float = 0.0) -> tuple[Corner, Corner]:
     return (x, y, z), (x + 1, y + 1, z + 1)
 
 
-def moves(found: Resolution) -> dict[str, Corner]:
+def resolve(scene: Scene, settings: Settings | None = None, **how: Any) -> ResolutionReport:
+    """Return what is resolved, without the check of the moved scene."""
+    return resolving.resolve(scene, settings, **how)[0]
+
+
+def moves(found: ResolutionReport) -> dict[str, Corner]:
     return {move.body: move.translation for move in found.moves}
 
 
-def after(scene: Scene, found: Resolution) -> Scene:
-    return moved_scene(scene, moves(found))
+def after(scene: Scene, found: ResolutionReport) -> Scene:
+    return resolving.moved_scene(scene, moves(found))
 
 
 def overlapping(scene: Scene) -> set[tuple[str, str]]:

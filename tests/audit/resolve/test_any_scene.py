@@ -8,8 +8,7 @@ import random
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.resolve import resolve
-from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, unit_at
+from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, resolve, unit_at
 from tests.audit.shapes import bracket, moved, scene_of
 
 
@@ -58,5 +57,5 @@ def test_the_order_of_the_scene_changes_nothing(tmp_path) -> None:
 def test_threads_change_nothing(tmp_path) -> None:
     meshes = {f"bracket{k}": moved(bracket(), 3.5 * k, 2.5 * (k % 3), k) for k in range(9)}
     scene = scene_of(tmp_path, **meshes)
-    one, many = (resolve(scene, Settings(jobs=jobs)).document() for jobs in (1, 4))
+    one, many = (resolve(scene, Settings(jobs=jobs)) for jobs in (1, 4))
     assert one == many

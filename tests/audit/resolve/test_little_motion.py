@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.resolve import resolve
 from satcheck.audit.vectors import dot
 from satcheck.scene import load_scene
-from tests.audit.resolve.boxes import boxes_scene, moves
+from tests.audit.resolve.boxes import boxes_scene, moves, resolve
 from tests.audit.test_samples import SAMPLES
 
 

@@ -7,10 +7,9 @@ import math
 import pytest
 
 from satcheck.audit import Settings
-from satcheck.audit.resolve import resolve
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
-from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, unit_at
+from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, resolve, unit_at
 from tests.audit.shapes import bracket, open_box, scene_of, unit_box, write
 
 
@@ -19,7 +18,7 @@ def test_two_free_boxes_share_the_shortest_way(tmp_path) -> None:
     resolution = resolve(scene)
     assert moves(resolution) == {"a": (-0.125, 0.0, 0.0), "b": (0.125, 0.0, 0.0)}
     assert resolution.summary.verdict == "resolved"
-    assert resolution.report.summary.by_relation["touching"] == 1
+    assert resolution.check.by_relation["touching"] == 1
     assert (
         resolution.summary.conflicts,
         resolution.summary.total_motion,
@@ -167,7 +166,7 @@ def test_nothing_to_do(tmp_path) -> None:
     assert (
         resolution.summary.conflicts,
         resolution.moves,
-        resolution.rounds,
+        resolution.summary.rounds,
         resolution.summary.verdict,
     ) == (
         0,
@@ -285,7 +284,7 @@ def test_without_rounds_bodies_are_taken_out(tmp_path) -> None:
 def test_rounds_are_counted(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(4)})
     resolution = resolve(scene, iterations=1)
-    assert resolution.rounds == 1
+    assert resolution.summary.rounds == 1
     assert resolution.summary.verdict == "resolved"
 
 

@@ -6,11 +6,10 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
-from satcheck.audit.resolve import resolve
 from satcheck.audit.resolve.resolve import ONLY_MOVING
 from satcheck.scene import Rule, Scene, Selector
 from satcheck.scene.motion import Motion, Translation
-from tests.audit.resolve.boxes import boxes_scene, moves, unit_at
+from tests.audit.resolve.boxes import boxes_scene, moves, resolve, unit_at
 from tests.audit.shapes import bracket, scene_of, unit_box
 
 
