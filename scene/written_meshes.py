@@ -7,7 +7,7 @@ metres (section 3.4).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from trimesh import Trimesh
 
 Part = tuple[str, Mesh]
+FORMATS = (".glb", ".obj", ".stl")
 _CONTINUES = "\\"  # at the end of a line of OBJ: the next line belongs to it
 
 
@@ -91,9 +92,12 @@ def _metres(units: str | None) -> float:
 
 
 def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
-    """The content of a file. parts: names, and meshes in one frame. suffix: a key of FORMATS.
+    """The content of a file. parts: names, and meshes in one frame. suffix: one of FORMATS.
     units: of the coordinates. If they are known, a GLB file is in metres."""
-    return FORMATS[suffix]([(_plain(name), mesh) for name, mesh in parts], units)
+    named = [(_plain(name), mesh) for name, mesh in parts]
+    if suffix == ".glb":
+        return glb([Node(name, mesh) for name, mesh in named], units)
+    return _obj(named, units) if suffix == ".obj" else _stl(named)
 
 
 def rounding(parts: Sequence[Part], suffix: str) -> float:
@@ -121,22 +125,10 @@ def _obj(parts: Sequence[Part], units: str | None) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode(errors="backslashreplace")
 
 
-def _stl(parts: Sequence[Part], units: str | None) -> bytes:
+def _stl(parts: Sequence[Part]) -> bytes:
     import trimesh
     from trimesh.exchange.stl import export_stl
 
-    del units
     meshes = [trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False) for _, mesh in parts]
     content: bytes = export_stl(trimesh.util.concatenate(meshes))
     return content
-
-
-def _glb(parts: Sequence[Part], units: str | None) -> bytes:
-    return glb([Node(name, mesh) for name, mesh in parts], units)
-
-
-FORMATS: dict[str, Callable[[Sequence[Part], str | None], bytes]] = {
-    ".glb": _glb,
-    ".obj": _obj,
-    ".stl": _stl,
-}
