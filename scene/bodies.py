@@ -154,9 +154,10 @@ class Scene(Struct, frozen=True):
     motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
     entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
-    reading: the options with which the files were read. body_rules: questions about the support of
-    single bodies. statics: gravity and friction, as stated; None: not stated. joint_path: along
-    which the robots move; they stand in its first pose. accept: issues that block no pass.
+    reading: the options that were given for reading the files. body_rules: questions about the
+    support of single bodies. statics: gravity and friction, as stated; None: not stated.
+    joint_path: along which the robots move; they stand in its first pose. accept: issues that block
+    no pass.
     """
 
     name: str
@@ -173,7 +174,7 @@ class Scene(Struct, frozen=True):
     entries: Mapping[str, Entry] = {}
     robots: tuple[SceneRobot, ...] = ()
     posture: Posture | None = None
-    reading: ReadOptions = ReadOptions()
+    reading: ReadOptions = {}
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     joint_path: JointPath | None = None

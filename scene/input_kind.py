@@ -6,7 +6,14 @@ from pathlib import Path
 from typing import Literal
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.files.readers import mesh_reader, readers, robot_reader, robots, robots_of
+from satcheck.scene.files.readers import (
+    RobotReader,
+    mesh_reader,
+    readers,
+    robot_reader,
+    robots,
+    robots_of,
+)
 from satcheck.scene.opening import size_of
 from satcheck.scene.paths import suffix_of
 
@@ -48,7 +55,12 @@ def robot_endings() -> frozenset[str]:
 
 def is_robot(location: Path) -> bool:
     """Return whether the outermost element is that of a robot."""
-    return robot_reader(_first_elements(location)[0]) is not None
+    return reader_of_robot(location) is not None
+
+
+def reader_of_robot(location: Path) -> RobotReader | None:
+    """Return the reader of robots with this outermost element; None: it is none of a robot."""
+    return robot_reader(_first_elements(location)[0])
 
 
 def _first_elements(location: Path) -> list[str]:

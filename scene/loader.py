@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,12 +21,19 @@ from satcheck.scene.files.readers import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     ReadLimits,
+    option_named,
 )
-from satcheck.scene.input_kind import InputKind, kind_of
+from satcheck.scene.input_kind import InputKind, kind_of, reader_of_robot
+from satcheck.scene.issue import UNUSED_OPTION, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import ANYWHERE, Permitted, name_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, plain_ids
-from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.read_options import (
+    GEOMETRY,
+    GeometryKind,
+    OptionValue,
+    ReadOptions,
+)
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_builder import SceneBuilder
 from satcheck.scene.units import MICROMETRES, unit_of
@@ -58,8 +65,8 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
     geometry: which elements of the links of robots are bodies, "collision" or "visual"; of USD the
     colliders of a simulation, or what is drawn. None: collision of robots, visual of USD.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
-    reading: options for formats that leave a choice, such as the time of a USD file. A scene may
-    state those that are not given here.
+    reading: values of options that readers declare, by name, such as the time of a USD file. A
+    scene may state those that are not given here.
     """
 
     split: Split | None = None
@@ -70,7 +77,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
     units: str | None = None
     rules: tuple[str, ...] = ()
     between: tuple[tuple[str, str], ...] = ()
-    reading: ReadOptions = ReadOptions()
+    reading: ReadOptions = {}
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
 
@@ -80,11 +87,13 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         *,
         hashed: bool = True,
         known: KnownMeshes | None = None,
+        must_count: Collection[str] = (),
     ) -> Scene:
         """Return all bodies of the given mesh files, scene files and robots, in that order.
 
         hashed: compute the SHA-256 of each file, which some reports contain. known: mesh files that
-        stay in memory from scene to scene.
+        stay in memory from scene to scene. must_count: names in `reading` that have to be options
+        of a reader of these files; of others a note says that they have no effect.
 
         - `.toml` and `.json` files are scenes: satcheck.scene/1, JSON also satcheck-scene-1. Rules
           of a scene apply to its own bodies, mesh files and robots. Rules of a scene without bodies
@@ -98,16 +107,14 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         their file if there are several files). Repeated ids get the suffix -2, -3, ...
 
         A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the
-        rest is loaded. Raises Refused for an invalid scene file or robot.
+        rest is loaded. Raises Refused for an invalid scene file or robot, and SatcheckError for an
+        option of readers that cannot be.
         """
         given = [(path, kind_of(path)) for path in _as_texts(paths)]
         names = [path for path, _ in given]
         permitted = Permitted.around(names, self.folders, anywhere=self.allow_outside)
         scenes = {path: _scene(path, permitted) for path, kind in given if kind == "scene"}
-        reading = self.reading
-        if self.geometry is not None:
-            reading = replace(reading, geometry=self.geometry)
-        reading = reading.beside(_stated_reading(scenes.values()))
+        reading = {**_stated_reading(scenes.values()), **self._given_reading()}
         seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
         allowed = ReadLimits(seconds, megabytes, permitted, hashed, reading)
         with closing(MeshFiles(allowed, known)) as files:
@@ -118,7 +125,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             ]
             alone = sum(have_bodies) == 1
             # Colliders are exact shapes, which no mesh of a whole file holds.
-            apart = alone or reading.geometry == "collision"
+            apart = alone or reading.get("geometry") == "collision"
             split: Split = self.split or ("nodes" if apart else "none")
             kinds: tuple[InputKind, ...] = ("mesh", "document")
             of_kind = {kind: [path for path, own in given if own == kind] for kind in kinds}
@@ -141,8 +148,38 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             for path in _as_texts(self.rules):
                 builder.add(read_rules(path))
             scene = builder.scene()
-        between = self.between
-        return replace(scene, rules=(*_only(between), *scene.rules)) if between else scene
+            unused = _unused(reading, files, [path for path, kind in given if kind == "robot"])
+        if wrong := [name for name in unused if name in must_count]:
+            raise SatcheckError(UNUSED_OPTION, unused[wrong[0]])
+        if not unused and not self.between:
+            return scene
+        issues = (*scene.issues, *(issue(UNUSED_OPTION, said) for said in unused.values()))
+        return replace(scene, issues=issues, rules=(*_only(self.between), *scene.rules))
+
+    def _given_reading(self) -> dict[str, OptionValue]:
+        """The options of readers that are given. Raises SatcheckError for one that none has, and
+        for a value that it does not take."""
+        return {
+            name: option_named(name).converted(value)
+            for name, value in {**self.reading, "geometry": self.geometry}.items()
+            if value is not None
+        }
+
+
+def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> dict[str, str]:
+    """The options that count for none of the files: name -> what is said about it."""
+    if not reading:
+        return {}
+    counting = files.options()
+    for path in robots:
+        reader = reader_of_robot(Path(path))
+        counting |= {GEOMETRY.name, *(each.name for each in (reader.options if reader else ()))}
+    theirs = f"they have {', '.join(sorted(counting))}" if counting else "they have none"
+    return {
+        name: f"no reader of these files has the option {name}: {theirs}"
+        for name in reading
+        if name not in counting
+    }
 
 
 def load_scene(
@@ -167,6 +204,8 @@ def load_scene(
 
 def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
     """Rules that allow all pairs but these. They stand before all others, which can change that."""
+    if not between:
+        return
     everything = Selector("*")
     reason = "no pair of --between"
     yield Rule(a=everything, b=everything, allowed=True, reason=reason, where="--between")

@@ -39,7 +39,7 @@ from satcheck.scene.issue import Issue
 from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.paths import StrPath, suffix_of
 from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.read_options import GEOMETRY, GeometryKind
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ class MeshFiles:
         known: KnownMeshes | None = None,
     ) -> None:
         self.allowed = allowed
+        self._terms = allowed.key
         self._known = known
         self._made: dict[Hashable, Any] = {}
 
@@ -78,7 +79,7 @@ class MeshFiles:
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
-            load = partial(self._known.recall, (path, key, self.allowed), load)
+            load = partial(self._known.recall, (path, key, *self._terms), load)
         made: Document | Refused = self._once(key, load)
         return made
 
@@ -131,8 +132,8 @@ class MeshFiles:
         hint = meant(part, filter(None, by_path))
         message = f"there is no part {part!r} in the file{hint}"
         reader = reader_of(suffix_of(location))
-        if reader is not None and "geometry" in reader.options:
-            message += "; --geometry, --purpose and `reading` of a scene choose its parts"
+        if reader is not None and GEOMETRY in reader.options:
+            message += "; --geometry, --read and `reading` of a scene choose its parts"
         return Item(Refused("unknown-part", message, file=path), part)
 
     def mesh(self, named: FilePart) -> MeshFile | Refused:
@@ -159,6 +160,13 @@ class MeshFiles:
         place = _absolute(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
+
+    def options(self) -> set[str]:
+        """Return the names of the options that count for the files that are read."""
+        keys = (key for key in self._made if isinstance(key, tuple))
+        suffixes = {suffix_of(place) for place, *_ in keys if isinstance(place, str)}
+        readers = filter(None, map(reader_of, suffixes))
+        return {option.name for reader in readers for option in reader.options}
 
     def read_ahead(self, given: Iterable[tuple[str, StrPath]]) -> None:
         """Reads the large ones of these files in parallel, as a whole.

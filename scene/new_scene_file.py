@@ -55,7 +55,8 @@ def new_scene_file(
     head: dict[str, Any] = {"schema": SCENE_1}
     if scene.units:
         head["units"] = scene.units
-    if reading := scene.reading.changed(options_of({body.file.format for body in scene.bodies})):
+    counting = options_of({body.file.format for body in scene.bodies})
+    if reading := {name: value for name, value in scene.reading.items() if name in counting}:
         head["reading"] = to_builtins(reading)
     if scene.check_static and any(body.static for body in scene.in_order()):
         head["check_static"] = True

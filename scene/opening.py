@@ -20,6 +20,7 @@ from satcheck.scene.files.readers import (
     mesh_reader,
     reader_of,
     readers,
+    values_of,
 )
 from satcheck.scene.files_read import note
 from satcheck.scene.paths import StrPath, suffix_of
@@ -182,7 +183,7 @@ def open_file(path: str, location: StrPath, allowed: ReadLimits, *, whole: bool 
         name,
         data,
         size,
-        allowed.options,
+        values_of(reader, allowed.options),
         whole,
         permitted=allowed.permitted,
         path=path,

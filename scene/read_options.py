@@ -1,60 +1,102 @@
-"""Choices of the user where the format of a file leaves a choice of geometry."""
+"""Options of readers: each reader declares those choices that its format leaves to the user.
+
+They decide the geometry of a check, so a report states them, and whoever reads the same files again
+needs the same ones.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any, Literal
+from collections.abc import Mapping
+from math import pi
+from sys import float_info
+from typing import Annotated, Any, Literal, get_args, get_origin
 
-from msgspec import Struct, convert
-from msgspec.structs import replace
+from msgspec import Meta, Struct, ValidationError, convert
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.units import parse_length
 
 GeometryKind = Literal["collision", "visual"]
-Purpose = Literal["render", "proxy", "guide"]
+OptionValue = bool | int | float | str | tuple[str, ...]
+# By name, those that are not given left out.
+ReadOptions = Mapping[str, OptionValue]
 
-ANGULAR_TOLERANCE = 0.5  # radians
 
+class Option(Struct, frozen=True):
+    """An option of a reader.
 
-class ReadOptions(Struct, frozen=True):
-    """Options for reading files. They decide the geometry of a check, so a report states them, and
-    whoever reads the same files again needs the same options.
-
-    time: the time code of USD files; None: their first samples. geometry: collision: the colliders
-    of a simulation are bodies; visual or None: what is drawn. purpose: of the prims that are drawn,
-    beside those without a purpose; None: render. mesh_hulls: the collision meshes of MJCF files are
-    convex hulls; the parts that bodies name say so. chord_tolerance: how far facets may be off a
-    curved face for which a reader makes them, in millimetres; None: as the format has it.
-    angular_tolerance: the largest angle between neighbouring facets of such a face, in radians.
+    name: in scene files and reports; the command line also takes - for _. type: of its values, with
+    their limits, such as `Annotated[float, Meta(gt=0)]`. help: one sentence, which says what it
+    takes. default: None: the reader decides. is_length: in millimetres; the command line may give
+    another unit. Readers may have options of one name and type, each with its default.
     """
 
-    time: float | None = None
-    geometry: GeometryKind | None = None
-    purpose: tuple[Purpose, ...] | None = None
-    mesh_hulls: bool | None = None
-    chord_tolerance: float | None = None
-    angular_tolerance: float = ANGULAR_TOLERANCE
+    name: str
+    type: Any
+    help: str
+    default: OptionValue | None = None
+    is_length: bool = False
 
-    def beside(self, stated: Mapping[str, Any]) -> ReadOptions:
-        """These options, those that have their default as stated."""
-        free = {name for name in stated if getattr(self, name) == getattr(_DEFAULTS, name)}
-        return replace(self, **{name: stated[name] for name in free})
+    @property
+    def spelling(self) -> str:
+        """Return its name on the command line."""
+        return self.name.replace("_", "-")
 
-    def chord(self, default: float) -> float:
-        """Return the chord tolerance. default: of the format. Both in millimetres."""
-        return default if self.chord_tolerance is None else self.chord_tolerance
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """Return the words that it takes; (): it takes other values."""
+        return _words(self.type)
 
-    def named(self, names: Iterable[str]) -> dict[str, Any]:
-        """Return the options of these names."""
-        return {name: getattr(self, name) for name in names}
+    def converted(self, value: OptionValue) -> OptionValue:
+        """Return the value as the reader takes it. Raises SatcheckError."""
+        try:
+            made: OptionValue = convert(value, self.type)
+        except ValidationError:
+            raise self._refused(value) from None
+        return made
 
-    def changed(self, names: Iterable[str]) -> dict[str, Any]:
-        """Return those of these names that differ from their defaults."""
-        values = self.named(names)
-        return {k: value for k, value in values.items() if value != getattr(_DEFAULTS, k)}
+    def parsed(self, text: str) -> OptionValue:
+        """Return the value that a text states; a comma separates several. Raises SatcheckError."""
+        try:
+            made: OptionValue = convert(self._stated(text), self.type, strict=False)
+        except ValueError:  # as a ValidationError is, too
+            raise self._refused(text) from None
+        return made
+
+    def _stated(self, text: str) -> float | str | list[str]:
+        if self.is_length:
+            return parse_length(text).in_units_of("mm")
+        kind = get_args(self.type)[0] if get_origin(self.type) is Annotated else self.type
+        return text.split(",") if get_origin(kind) is tuple else text
+
+    def _refused(self, value: object) -> SatcheckError:
+        return SatcheckError("bad-argument", f"{self.spelling}: not {value!r}, but {self.help}")
 
 
-_DEFAULTS = ReadOptions()
+# `--geometry` gives it.
+GEOMETRY = Option("geometry", GeometryKind, "what is checked: collision or visual")
 
 
-def as_stated(stated: Mapping[str, Any] | None) -> ReadOptions:
-    """The options as a report states them."""
-    return convert({k: v for k, v in (stated or {}).items() if v is not None}, ReadOptions)
+def facets(chord: float) -> tuple[Option, Option]:
+    """Return the options of a reader that makes facets of curved faces. chord: its default."""
+    return (
+        Option(
+            "chord_tolerance",
+            Annotated[float, Meta(gt=0, le=float_info.max)],
+            "how far facets may be off, in millimetres, above 0",
+            chord,
+            is_length=True,
+        ),
+        Option(
+            "angular_tolerance",
+            Annotated[float, Meta(gt=0, le=pi)],
+            "the largest angle between facets, in radians, up to pi",
+            0.5,
+        ),
+    )
+
+
+def _words(kind: Any) -> tuple[str, ...]:
+    if get_origin(kind) is Literal:
+        return get_args(kind)
+    return tuple(word for inner in get_args(kind) for word in _words(inner))

@@ -132,7 +132,7 @@ class Bodies:
         *,
         allow_open: bool = False,
         allow_outside: bool = False,
-        reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
+        reading: ReadOptions = {},  # noqa: B006  nobody changes it
     ) -> None:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)

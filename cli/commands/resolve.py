@@ -167,7 +167,7 @@ def _checked(path: Path, settings: Settings, inputs: Inputs) -> Report:
             [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
-            reading=inputs.reading,
+            reading=inputs.read,
             geometry=inputs.geometry,
         )
     except SatcheckError:

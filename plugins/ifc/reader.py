@@ -14,13 +14,11 @@ from typing import Any
 from satcheck.plugins.ifc.elements import Elements, elements_of, groups_of, instances_of, path_names
 from satcheck.plugins.ifc.kernel import Shape, shapes_of
 from satcheck.plugins.ifc.model import UNITS, open_model
-from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.relations import relations_of
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import tidy_name
 from satcheck.scene.files.raw_mesh import RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
-from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
 _LONGEST_NAME = 60
@@ -87,7 +85,7 @@ def remarks_on(
     model: Any,
     elements: Elements,
     shapes: Mapping[int, Shape | Refusal],
-    options: ReadOptions,
+    options: Mapping[str, Any],
 ) -> Iterator[tuple[str, str]]:
     """(code, message) of each. shapes: of the bodies."""
     left_out = [*_counts(elements.left_out), *_wholes(elements)]
@@ -103,7 +101,7 @@ def remarks_on(
         yield (
             "faceted",
             f"curved surfaces of {count} bodies are checked as facets, up to about "
-            f"{options.chord(CHORD):g} mm off (--chord-tolerance)",
+            f"{options['chord_tolerance']:g} mm off (--read chord-tolerance)",
         )
 
 

@@ -45,7 +45,7 @@ def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]
         location.name,
         b"",
         0,
-        replace(allowed.options, geometry=robot.geometry),
+        {**robot.options, "geometry": robot.geometry},
         permitted=allowed.permitted,
         path=path,
         packages={name: str(place) for name, place in robot.packages.items()},

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NoReturn
 
 import numpy as np
@@ -17,7 +17,6 @@ from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
-from satcheck.plugins.step.readers import CHORD
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
 from satcheck.scene.files.gltf_accessors import Accessors
@@ -36,7 +35,6 @@ from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_na
 from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.paths import NOTHING_ELSE
-from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF
@@ -69,13 +67,13 @@ def read_step(file: File) -> RawScene:
     return _Assembly(document, chunk, exchange, options).read()
 
 
-def _tessellated(data: bytes, options: ReadOptions) -> bytes:
+def _tessellated(data: bytes, options: Mapping[str, Any]) -> bytes:
     """The glTF document that OpenCascade makes of the file. One thread: the same facets in every
     run."""
     glb: bytes = imported("cascadio", "step", "STEP files").load(
         data,
-        tol_linear=options.chord(CHORD),
-        tol_angular=options.angular_tolerance,
+        tol_linear=options["chord_tolerance"],
+        tol_angular=options["angular_tolerance"],
         use_parallel=False,
         include_brep=True,
     )
@@ -90,7 +88,7 @@ class _Assembly:
         document: dict[str, Any],
         chunk: memoryview | None,
         exchange: Exchange,
-        options: ReadOptions,
+        options: Mapping[str, Any],
     ) -> None:
         work = Work(isolated=True)
         views = BufferViews(document, chunk, "", work, NOTHING_ELSE)
@@ -173,7 +171,7 @@ class _Assembly:
             raw,
             vertices=vertices.tobytes(),
             units="mm",
-            surface_tolerance=0.0 if flat else self._options.chord(CHORD),
+            surface_tolerance=0.0 if flat else self._options["chord_tolerance"],
         )
 
     def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
@@ -225,7 +223,7 @@ class _Assembly:
         if faceted:
             message = (
                 f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
-                f"by up to about {self._options.chord(CHORD):g} mm (--chord-tolerance)"
+                f"by up to about {self._options['chord_tolerance']:g} mm (--read chord-tolerance)"
             )
             yield "faceted", message
 

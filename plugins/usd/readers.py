@@ -4,11 +4,24 @@ geometric prim, named by its path."""
 from __future__ import annotations
 
 import os
+import sys
+from typing import Annotated, Literal
+
+from msgspec import Meta
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
 from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import File, Reader
+from satcheck.scene.read_options import GEOMETRY, Option
+
+_MOST = sys.float_info.max
+TIME = Option("time", Annotated[float, Meta(ge=-_MOST, le=_MOST)], "the time code")
+PURPOSE = Option(
+    "purpose",
+    Annotated[tuple[Literal["render", "proxy", "guide"], ...], Meta(min_length=1)],
+    "what is drawn: render, proxy, guide",
+)
 
 
 def read_usd(file: File) -> RawScene:
@@ -31,7 +44,7 @@ READERS = (
         (".usd", ".usda", ".usdc", ".usdz"),
         "satcheck.plugins.usd.readers:read_usd",
         kind="document",
-        options=("time", "geometry", "purpose"),
+        options=(TIME, GEOMETRY, PURPOSE),
         marks=(b"PK\x03\x04",),
         by_name=True,
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
@@ -24,7 +25,6 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.issue import CODES
-from satcheck.scene.read_options import ReadOptions
 
 # Approximations that reach out of the mesh.
 _LARGER = (UsdPhysics.Tokens.boundingCube, UsdPhysics.Tokens.boundingSphere)
@@ -32,13 +32,13 @@ _NOT_TURNED = Gf.Matrix4d(1.0)
 Content = RawMesh | Primitive | Refusal
 
 
-def read_scene(stage: Stage, options: ReadOptions) -> RawScene:
+def read_scene(stage: Stage, options: Mapping[str, Any]) -> RawScene:
     """Raises Refused if the stage has no body."""
     return _Reading(stage, options).scene()
 
 
 class _Reading:
-    def __init__(self, stage: Stage, options: ReadOptions) -> None:
+    def __init__(self, stage: Stage, options: Mapping[str, Any]) -> None:
         self._stage = stage
         self._choice = Choice(options)
         self._said = Remarks()
@@ -92,7 +92,9 @@ class _Reading:
         if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
             return []
         first, last = self._stage.sampled
-        message = f"bodies stand as at the first of the time codes {first:g} to {last:g} (--time)"
+        message = (
+            f"bodies stand as at the first of the time codes {first:g} to {last:g} (--read time=T)"
+        )
         return [("time-sampled", message)]
 
     def _take(self, placed: PlacedPrim) -> None:

@@ -59,7 +59,7 @@ def read_gltf(file: File) -> RawScene:
     Raises Refused without a file name, and NeedsChild if the data need an isolated process
     and this one is not.
     """
-    geometry = file.options.geometry
+    geometry = file.options["geometry"]
     data = memoryview(file.data)
     text, chunk = split_glb(data) if file.format == "glb" else (data, None)
     document = parse_document(text)

@@ -15,11 +15,18 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.files import limits
 from satcheck.scene.files.raw_mesh import Block, RawScene
 from satcheck.scene.paths import NOTHING_ELSE, Permitted, suffix_of
-from satcheck.scene.plugins import function_at, others, own
-from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.plugins import failures, function_at, others, own
+from satcheck.scene.read_options import (
+    GEOMETRY,
+    GeometryKind,
+    Option,
+    OptionValue,
+    ReadOptions,
+)
 
 if TYPE_CHECKING:
     from satcheck.scene.files.reading_children import ReadingChildren
@@ -42,7 +49,7 @@ class File(Struct, frozen=True):
     `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
     tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
     process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
-    packages: of a robot, see `robot.FilePlaces`.
+    packages: of a robot, see `robot.FilePlaces`. options: all that its reader declares, by name.
     """
 
     format: str
@@ -50,7 +57,7 @@ class File(Struct, frozen=True):
     name: str
     data: Block
     size: int
-    options: ReadOptions = ReadOptions()
+    options: Mapping[str, Any] = {}
     whole: bool = False
     permitted: Permitted = NOTHING_ELSE
     isolated: bool = False
@@ -72,13 +79,20 @@ class ReadLimits(Struct, frozen=True):
     """Limits and options for reading one file, which may itself have a quarter of the megabytes.
 
     permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
+    options: those that are given, of any reader.
     """
 
     seconds: float = DEFAULT_SECONDS_PER_FILE
     megabytes: int = DEFAULT_MEGABYTES_PER_FILE
     permitted: Permitted = NOTHING_ELSE
     hashed: bool = True
-    options: ReadOptions = ReadOptions()
+    options: ReadOptions = {}
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Return what can be a key, the same for equal limits."""
+        limits = self.seconds, self.megabytes, self.permitted, self.hashed
+        return (*limits, *sorted(self.options.items()))
 
     @property
     def file_bytes(self) -> int:
@@ -96,13 +110,13 @@ class Reader(Struct, frozen=True):
     read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
     Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
-    reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
-    may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
-    byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
-    read in this process, all others, and all of other packages, in a child process. by_name: it
-    opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.
-    up: the axis that points up, if the format says so. complete: False: the reader may leave
-    something out without a word, so that no pair is proven apart.
+    reader of the robot reads. options: what the user may choose; `File.options` has their values.
+    marks: with which its content may begin, of those in `opening.py`. text: "plain": the reader is
+    shown UTF-8 without a byte order mark; "own": its parser decodes the text. here: files up to
+    this size, in bytes, are read in this process, all others, and all of other packages, in a child
+    process. by_name: it opens the file itself. up: the axis that points up, if the format says so.
+    complete: False: the reader may leave something out without a word, so that no pair is proven
+    apart.
     """
 
     name: str
@@ -110,19 +124,13 @@ class Reader(Struct, frozen=True):
     endings: tuple[str, ...]
     read: str
     kind: Literal["mesh", "document", "robot"] = "mesh"
-    options: tuple[str, ...] = ()
+    options: tuple[Option, ...] = ()
     marks: tuple[bytes, ...] = ()
     text: Literal["none", "plain", "own"] = "none"
     here: float = 0
     by_name: bool = False
-    chord: float | None = None
     up: Literal["y", "z"] | None = None
     complete: bool = True
-
-    def __post_init__(self) -> None:
-        unknown = {*self.options} - {*ReadOptions.__struct_fields__}
-        if unknown:
-            raise ValueError(f"no options of readers: {', '.join(sorted(unknown))}")
 
     def scene(self, file: File) -> RawScene:
         """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
@@ -141,7 +149,8 @@ class RobotFile(Struct, frozen=True):
     """An XML file of a robot, and what its reader may ask for.
 
     places: where the files that it names are looked for. packages: as given. geometry: which
-    elements of links become bodies. allowed, children: for readers that need a child process.
+    elements of links become bodies. options: as of a `File`. allowed, children: for readers that
+    need a child process.
     """
 
     places: FilePlaces
@@ -149,15 +158,16 @@ class RobotFile(Struct, frozen=True):
     geometry: GeometryKind
     allowed: ReadLimits
     children: ReadingChildren
+    options: Mapping[str, Any] = {}
 
 
 class RobotReader(Struct, frozen=True):
     """A format of robots in XML.
 
-    name, title, endings: as of a `Reader`. roots: tags of the outermost element. read: "module:
-    function". The function takes this element and a `RobotFile`, and returns the robot and issues;
-    it raises Refused. marks: files of its endings in a folder are robots if they hold one of
-    these, or one of the roots; None: all of them are.
+    name, title, endings, options: as of a `Reader`. roots: tags of the outermost element. read:
+    "module:function". The function takes this element and a `RobotFile`, and returns the robot and
+    issues; it raises Refused. marks: files of its endings in a folder are robots if they hold one
+    of these, or one of the roots; None: all of them are.
     """
 
     name: str
@@ -166,6 +176,7 @@ class RobotReader(Struct, frozen=True):
     roots: tuple[str, ...]
     read: str
     marks: tuple[bytes, ...] | None = None
+    options: tuple[Option, ...] = ()
 
     def function(self) -> Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]:
         return cast(
@@ -187,7 +198,7 @@ def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
         title,
         (f".{name}",),
         "satcheck.scene.files.gltf:read_gltf",
-        options=("geometry",),
+        options=(GEOMETRY,),
         marks=marks,
         text="plain" if name == "gltf" else "none",
         here=limits.IN_PROCESS_BYTES,
@@ -295,22 +306,61 @@ def is_complete(format_name: str) -> bool:
 
 def options_of(formats: Iterable[str]) -> set[str]:
     """Return the names of the options that count for files of these formats."""
-    return {name for each in _known(formats) for name in each.options}
+    known = filter(None, map(reader_named, formats))
+    return {option.name for reader in known for option in reader.options}
 
 
-def stated_options(options: ReadOptions, formats: Iterable[str]) -> dict[str, Any] | None:
-    """Return the options that count for files of these formats, by name; None: no option counts.
-    The chord tolerance is None if these formats have different ones."""
-    formats = set(formats)
-    values = options.named(options_of(formats))
-    chords = {options.chord(r.chord) for r in _known(formats) if r.chord is not None}
-    if len(chords) == 1:
-        values["chord_tolerance"] = chords.pop()
-    return values if any(value is not None for value in values.values()) else None
+def values_of(reader: Reader | RobotReader, given: ReadOptions) -> dict[str, OptionValue | None]:
+    """Return the values of all options of a reader. Raises SatcheckError."""
+    return {
+        option.name: option.converted(given[option.name])
+        if option.name in given
+        else option.default
+        for option in reader.options
+    }
 
 
-def _known(formats: Iterable[str]) -> list[Reader]:
-    return [reader for name in formats if (reader := reader_named(name)) is not None]
+def stated_options(given: ReadOptions, formats: Iterable[str]) -> dict[str, OptionValue] | None:
+    """Return the options with which files of these formats are read, those that are given and the
+    defaults on which all these formats agree; None: there is none."""
+    defaults: dict[str, set[OptionValue | None]] = {}
+    for reader in filter(None, map(reader_named, formats)):
+        for option in reader.options:
+            defaults.setdefault(option.name, set()).add(option.default)
+    stated = dict(given)
+    for name, values in defaults.items():
+        (value, *others), is_given = values, name in given
+        if not (is_given or others or value is None):
+            stated[name] = value
+    return stated or None
+
+
+def option_named(name: str) -> Option:
+    """Return an option of a reader. Raises SatcheckError if no reader has it."""
+    known = options()
+    if name not in known:
+        _registry().add(map(_isolated, others("readers", KINDS)))
+        known = options()
+    if name not in known:
+        there = ", ".join(f"{each} ({', '.join(known[each][1])})" for each in sorted(known))
+        failed = failures("readers", KINDS)
+        message = f"no reader has the option {name}; there are {there}{failed}"
+        raise SatcheckError("bad-argument", message)
+    return known[name][0]
+
+
+def options() -> dict[str, tuple[Option, list[str]]]:
+    """Return all options by name, each with the titles of the formats that have it."""
+    found: dict[str, tuple[Option, list[str]]] = {}
+    registry = _registry()
+    readers: list[Reader | RobotReader] = [*registry.by_name.values()]
+    readers += dict.fromkeys(registry.robots.values())
+    for reader in readers:
+        for option in reader.options:
+            titles = found.setdefault(option.name, (option, []))[1]
+            if reader.title not in titles:
+                titles.append(reader.title)
+    return found
 
 
 def _found(among: Mapping[str, T], key: str) -> T | None:

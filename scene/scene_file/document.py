@@ -5,13 +5,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Iterable
+from contextlib import suppress
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from msgspec import UNSET, Meta, UnsetType, field
+from msgspec import UNSET, Meta, UnsetType, defstruct, field
 
+from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
+from satcheck.scene.files.readers import option_named, options
 from satcheck.scene.planar.outline import Outline
-from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import Severity
 from satcheck.scene.scene_file.form import LARGEST, Table
 from satcheck.scene.units import LENGTH_PATTERN
@@ -216,22 +219,39 @@ class Motion(Table, frozen=True):
     path: Annotated[tuple[Waypoint, ...], Meta(min_length=2)] | UnsetType = UNSET
 
 
-class Reading(Table, frozen=True):
-    """How mesh files are read where their format leaves a choice. Options of the command line
-    override it.
+def reading_table() -> type[Table]:
+    """Return the table of the options that readers declare."""
+    known = {name: option for name, (option, _) in sorted(options().items())}
+    about = "\n".join(f"    {name}: {option.help.capitalize()}." for name, option in known.items())
+    table: Any = defstruct(
+        "Reading",
+        [(name, option.type | UnsetType, UNSET) for name, option in known.items()],
+        bases=(Table,),
+        module=__name__,
+        namespace={"__doc__": f"{_OF_READING}\n\n{about}\n"},
+        kw_only=True,
+    )
+    made: type[Table] = table
+    return made
 
-    time: The time code of USD files.
-    geometry: Of USD.
-    purpose: Of USD prims that are drawn.
-    chord_tolerance: Millimetres.
-    angular_tolerance: Radians.
-    """
 
-    time: Number | UnsetType = UNSET
-    geometry: GeometryKind | UnsetType = UNSET
-    purpose: Annotated[tuple[Purpose, ...], Meta(min_length=1)] | UnsetType = UNSET
-    chord_tolerance: Positive | UnsetType = UNSET
-    angular_tolerance: Positive | UnsetType = UNSET
+def reading_table_for(names: Iterable[str]) -> type[Table]:
+    """Return this table, also with the options of other packages if one of these names needs it."""
+    unknown = [name for name in names if name not in Reading.__struct_fields__]
+    if not unknown:
+        return Reading
+    for name in unknown:
+        with suppress(SatcheckError):  # the table says so, and what was meant
+            option_named(name)
+    return reading_table()
+
+
+_OF_READING = """How mesh files are read where their format leaves a choice. Options of the command
+    line override it."""
+if TYPE_CHECKING:
+    Reading = Table
+else:
+    Reading = reading_table()
 
 
 class Scene(Table, frozen=True):

@@ -13,8 +13,8 @@ from msgspec import UNSET, Struct, ValidationError, convert
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.readers import options
 from satcheck.scene.planar.outline import Shape
-from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import SEVERITIES
 from satcheck.scene.words import meant
 
@@ -38,9 +38,8 @@ _SHAPES = get_args(Shape)
 # Keys whose value is one of some words.
 _CHOICES: dict[str, tuple[str, ...]] = {
     "severity": SEVERITIES,
-    "geometry": get_args(GeometryKind),
-    "purpose": get_args(Purpose),
     "type": tuple(shape.__struct_config__.tag for shape in _SHAPES),
+    **{name: option.choices for name, (option, _) in options().items()},
 }
 
 

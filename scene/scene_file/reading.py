@@ -139,7 +139,8 @@ def _read(
         with problems.at("statics"):
             terms = _terms(converted(inner["statics"], document.Statics), units)
     with problems.at("reading"):
-        reading = converted(inner.get("reading", {}), document.Reading)
+        stated = inner.get("reading", {})
+        reading = converted(stated, document.reading_table_for(stated))
     problems.raise_any()
     ignored = frozenset(top.ignore_within_groups)
     return SceneFile(
