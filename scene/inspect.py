@@ -18,8 +18,8 @@ from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
 from satcheck.scene.bodies import MeshFile
+from satcheck.scene.document import RawMesh
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import RawMesh
 from satcheck.scene.files.readers import File
 from satcheck.scene.health import examine, examine_bytes
 from satcheck.scene.issue import issue

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.bodies import Scene
-from satcheck.scene.document import Document, Item, Kind
+from satcheck.scene.document import COMPONENT_MARK, Document, Item, Kind, plain_ids
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.nodes import Split
 from satcheck.scene.files.readers import (
@@ -27,7 +27,6 @@ from satcheck.scene.input_kind import InputKind, kind_of, reader_of_robot
 from satcheck.scene.issue import UNUSED_OPTION, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import ANYWHERE, Permitted, name_of
-from satcheck.scene.plain_ids import COMPONENT_MARK, plain_ids
 from satcheck.scene.read_options import (
     GEOMETRY,
     GeometryKind,
@@ -159,11 +158,10 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
     def _given_reading(self) -> dict[str, OptionValue]:
         """The options of readers that are given. Raises SatcheckError for one that none has, and
         for a value that it does not take."""
-        return {
-            name: option_named(name).converted(value)
-            for name, value in {**self.reading, "geometry": self.geometry}.items()
-            if value is not None
-        }
+        given = dict(self.reading)
+        if self.geometry is not None:
+            given[GEOMETRY.name] = self.geometry
+        return {name: option_named(name).converted(value) for name, value in given.items()}
 
 
 def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> dict[str, str]:

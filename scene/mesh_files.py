@@ -19,10 +19,9 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.document import Document, FilePart, Item
+from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.nodes import Split, document_of
-from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import (
     File,
     NeedsChild,
@@ -38,7 +37,6 @@ from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
 from satcheck.scene.paths import StrPath, suffix_of
-from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
 from satcheck.scene.read_options import GEOMETRY, GeometryKind
 from satcheck.scene.words import meant
 
@@ -97,7 +95,7 @@ class MeshFiles:
             file = open_file(path, location, self.allowed, whole=split == "none")
             return document_of(file, self._read(file), split)
 
-    def _read(self, file: File) -> RawScene:
+    def _read(self, file: File) -> Document:
         """In this process, or in the child process, as its reader says."""
         reader = reader_named(file.format)
         if reader is not None and file.size <= reader.here:
@@ -106,7 +104,7 @@ class MeshFiles:
         if reader is not None and reader.by_name:
             file = replace(file, data=b"")
         place = f"{read.__module__}:{read.__name__}"
-        return read_in_child(file, place, RawScene, self._children, self.allowed)
+        return read_in_child(file, place, Document, self._children, self.allowed)
 
     def item(self, named: FilePart) -> Item:
         """Return one body of a file. A part may end in "#" and the number of a component, or in the
@@ -139,7 +137,7 @@ class MeshFiles:
     def mesh(self, named: FilePart) -> MeshFile | Refused:
         """Return the mesh of a file, or of a part of it."""
         shape = self.item(named).shape
-        assert not isinstance(shape, FilePart)  # a file names parts of others, or has its own
+        assert not isinstance(shape, FilePart | int)  # a file names parts of others, or has its own
         return shape if isinstance(shape, MeshFile | Refused) else self.shape(shape, named.path)
 
     def _hull(self, named: FilePart) -> Item:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from satcheck.core import Mesh
-    from satcheck.scene.files.raw_mesh import NumberFormat, RawMesh
+    from satcheck.scene.document import NumberFormat, RawMesh
 
 FLOAT16_STEP = 2.0**-10  # spacing of float16 numbers relative to their power of two
 FLOAT32_STEP = 2.0**-23  # the same of float32

@@ -18,7 +18,7 @@ from satcheck.scene.common_units import (
     scaled_mesh,
     scaled_world,
 )
-from satcheck.scene.document import Document, FilePart, Item
+from satcheck.scene.document import Document, FilePart, Item, UniqueNames
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import multiply
 from satcheck.scene.files.readers import mesh_reader
@@ -26,7 +26,6 @@ from satcheck.scene.half_spaces import with_reach
 from satcheck.scene.issue import BLOCKING, Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.paths import suffix_of
-from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.entries import SceneFile
 from satcheck.scene.scene_file.joined import JoinedScenes
@@ -120,7 +119,7 @@ class SceneBuilder:
         match item.shape:
             case MeshFile() | Refused() as file:
                 pass
-            case FilePart():
+            case FilePart() | int():
                 raise AssertionError("a file names parts of others, or has its own")
             case exact:
                 # A report states it by its sizes, and no node of a file.

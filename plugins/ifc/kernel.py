@@ -16,8 +16,8 @@ from msgspec import Struct
 from satcheck.core.transform import Transform
 from satcheck.plugins.ifc.elements import curved_bodies, material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in, logged
-from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.raw_mesh import NO_SURFACE, RawMesh, Refusal
+from satcheck.scene.document import NO_SURFACE, RawMesh, Refusal
+from satcheck.scene.files.nodes import concatenate
 
 _METRES = 1e-3  # of a millimetre
 _LIBRARY = "opencascade"

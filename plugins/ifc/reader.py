@@ -15,16 +15,16 @@ from satcheck.plugins.ifc.elements import Elements, elements_of, groups_of, inst
 from satcheck.plugins.ifc.kernel import Shape, shapes_of
 from satcheck.plugins.ifc.model import UNITS, open_model
 from satcheck.plugins.ifc.relations import relations_of
+from satcheck.scene.document import Document, Item, RawPart, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.words import listed
 
 _LONGEST_NAME = 60
 
 
-def read_ifc(file: File) -> RawScene:
+def read_ifc(file: File) -> Document:
     """Return the bodies in metres, z up, sorted by GlobalId. Raises Refused without a file
     name."""
     model = open_model(memoryview(file.data))
@@ -39,16 +39,16 @@ def read_ifc(file: File) -> RawScene:
     groups = groups_of(model, bodies)
     parts, places = _parts(bodies, shapes, paths)
     nodes = (
-        RawNode(
+        Item(
             path=paths[body.id()],
-            part=places[body.id()],
-            matrix=getattr(shapes[body.id()], "matrix", None),
+            shape=places[body.id()],
+            transform=getattr(shapes[body.id()], "matrix", None),
             title=_title(body),
             groups=(*groups[body.id()], *relations.groups.get(body.id(), ())),
         )
         for body in bodies
     )
-    return RawScene(
+    return Document(
         parts,
         tuple(nodes),
         tuple(remarks_on(model, elements, shapes, file.options)),

@@ -9,9 +9,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.plugins.mjcf.readers import ENDING
+from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
-from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import File, RobotFile
 from satcheck.scene.files.reading_children import read_in_child
 from satcheck.scene.files.xml_tree import Element
@@ -62,7 +62,7 @@ def model(file: File) -> Answer:
     return robot_of(read, file.path, file.options)
 
 
-def own_meshes(file: File) -> RawScene:
+def own_meshes(file: File) -> Document:
     """Return the meshes that only MuJoCo reads, in the child process. Raises SatcheckError."""
     if not is_robot(file.location):
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"

@@ -22,9 +22,8 @@ from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, p
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal, UniqueNames
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.robot.model import Collision, Geometry, Link, MeshReference, Robot, State
 
 _GEOM = mujoco.mjtGeom

@@ -10,7 +10,7 @@ from satcheck.plugins.sdf.geometry import HULL, PLANE, facing, geometry_of, shap
 from satcheck.plugins.sdf.places import SHAPE
 from satcheck.plugins.sdf.values import bits, pose_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse

@@ -17,6 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
+from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
 from satcheck.scene.files.gltf_accessors import Accessors
@@ -32,7 +33,6 @@ from satcheck.scene.files.gltf_buffers import (
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.gltf_nodes import placement_of
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.files.readers import File
 from satcheck.scene.paths import NOTHING_ELSE
 from satcheck.scene.words import listed
@@ -50,7 +50,7 @@ class _Part(Struct, frozen=True):
     mesh: int | None
 
 
-def read_step(file: File) -> RawScene:
+def read_step(file: File) -> Document:
     """Return a body for each occurrence of a product that has surfaces, in millimetres.
 
     Raises Refused without a file name.
@@ -100,7 +100,7 @@ class _Assembly:
         self._exchange = exchange
         self._options = options
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         scenes = items(self._document, "scenes")
         roots = items(member(scenes, 0, "scene"), "nodes") if scenes else []
         nodes = instances(
@@ -208,7 +208,7 @@ class _Assembly:
         return planes.issuperset(used)
 
     def _warnings(
-        self, scene: RawScene, curves: list[str], lost: str | None
+        self, scene: Document, curves: list[str], lost: str | None
     ) -> Iterator[tuple[str, str]]:
         if not self._exchange.has_unit:
             message = "the file states no unit of length: its numbers count as millimetres"

@@ -10,7 +10,7 @@ from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.walk import PlacedPrim, type_of
-from satcheck.scene.files.raw_mesh import NO_SURFACE, Refusal
+from satcheck.scene.document import NO_SURFACE, Refusal
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
 _WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}

@@ -9,9 +9,9 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
+from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
-from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import File, Reader
 from satcheck.scene.read_options import GEOMETRY, Option
 
@@ -24,7 +24,7 @@ PURPOSE = Option(
 )
 
 
-def read_usd(file: File) -> RawScene:
+def read_usd(file: File) -> Document:
     """Return the bodies of a stage. Raises Refused."""
     os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
     tf = imported("pxr.Tf", "usd", "USD files")

@@ -16,6 +16,16 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import (
+    NO_SURFACE,
+    Document,
+    Item,
+    RawMesh,
+    RawPart,
+    RawRule,
+    Refusal,
+    UniqueNames,
+)
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.gltf_accessors import Accessors
@@ -33,18 +43,8 @@ from satcheck.scene.files.gltf_meshes import Meshes, Shape, Skin
 from satcheck.scene.files.gltf_nodes import NodeGraph, parse_document, trs_placement
 from satcheck.scene.files.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
 from satcheck.scene.files.placing import Instance, multiply, raw_scene, tidy_name
-from satcheck.scene.files.raw_mesh import (
-    NO_SURFACE,
-    RawMesh,
-    RawNode,
-    RawPart,
-    RawRule,
-    RawScene,
-    Refusal,
-)
 from satcheck.scene.files.readers import File
 from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.words import listed
 
 # Extensions that move all of the geometry even where they are optional.
@@ -52,7 +52,7 @@ _MOVING = frozenset({"CESIUM_RTC"})
 _ANIMATED = ("time-sampled", "the file is animated; checked as stored")
 
 
-def read_gltf(file: File) -> RawScene:
+def read_gltf(file: File) -> Document:
     """Return the default scene of a glTF or GLB file: its meshes, and the nodes that have one; for
     the geometry `collision` its colliders, and the nodes that have one.
 
@@ -135,7 +135,7 @@ class _Scene:
         self._meshes = meshes
         self._copied = 0
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         paths = UniqueNames()
         placed = [
             Instance(self._shape(node.key), matrix, paths.unique(path))
@@ -153,7 +153,7 @@ class _Scene:
         message = f"{listed(bare)} without triangles: lines, points or nothing"
         return replace(scene, warnings=(("left-out", message),))
 
-    def colliders(self, colliders: Colliders) -> RawScene:
+    def colliders(self, colliders: Colliders) -> Document:
         """The colliders of the nodes. Those of one rigid body may touch each other."""
         placed = self._graph.placed(colliders.has)
         if not placed:
@@ -165,13 +165,13 @@ class _Scene:
             body = self._graph.nearest(one.key, colliders.moves)
             parts.append(RawPart(f"collider{number}", content))
             groups = () if body is None else (f"rigid body {body}",)
-            nodes.append(RawNode(one.path, number, matrix, groups=groups))
+            nodes.append(Item(number, one.path, matrix, groups=groups))
         bodies = dict.fromkeys(group for node in nodes for group in node.groups)
         rules = [
             RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
         ]
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
-        return RawScene(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
+        return Document(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
 
     def _content(
         self, collider: Collider, matrix: Transform | None

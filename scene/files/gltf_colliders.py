@@ -14,10 +14,10 @@ from msgspec import Struct
 from satcheck.core.curved.placed import curved_shape
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
 from satcheck.core.transform import Transform
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_buffers import extension, integer, items, member
 from satcheck.scene.files.gltf_vocabulary import KHR_BODIES, KHR_SHAPES, OMI_BODIES, OMI_SHAPES
-from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.vocabulary import Names
 

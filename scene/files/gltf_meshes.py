@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
-from satcheck.scene.errors import Refused
-from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.gltf_accessors import Accessors, Columns
-from satcheck.scene.files.gltf_buffers import Work, extension, integer, items, member
-from satcheck.scene.files.gltf_vocabulary import DRACO
-from satcheck.scene.files.raw_mesh import (
+from satcheck.scene.document import (
     NO_SURFACE,
     Block,
     RawMesh,
     fan_triangles,
     strip_triangles,
 )
+from satcheck.scene.errors import Refused
+from satcheck.scene.files.gltf_accessors import Accessors, Columns
+from satcheck.scene.files.gltf_buffers import Work, extension, integer, items, member
+from satcheck.scene.files.gltf_vocabulary import DRACO
+from satcheck.scene.files.nodes import concatenate
 from satcheck.scene.files.readers import NeedsChild
 
 if TYPE_CHECKING:

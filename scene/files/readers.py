@@ -16,8 +16,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.document import Block, Document
 from satcheck.scene.files import limits
-from satcheck.scene.files.raw_mesh import Block, RawScene
 from satcheck.scene.paths import NOTHING_ELSE, Permitted, suffix_of
 from satcheck.scene.plugins import failures, function_at, others, own
 from satcheck.scene.read_options import (
@@ -107,7 +107,7 @@ class Reader(Struct, frozen=True):
     """A format of files with meshes.
 
     name: in reports. title: for people. endings: of the names of its files, in small letters.
-    read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
+    read: "module:function". The function takes a `File` and returns a `Document`; it raises
     Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
     reader of the robot reads. options: what the user may choose; `File.options` has their values.
@@ -132,9 +132,9 @@ class Reader(Struct, frozen=True):
     up: Literal["y", "z"] | None = None
     complete: bool = True
 
-    def scene(self, file: File) -> RawScene:
+    def scene(self, file: File) -> Document:
         """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
-        scene = cast("RawScene", function_at(self.read)(file))
+        scene = cast("Document", function_at(self.read)(file))
         scene.check()
         if self.complete:
             return scene
@@ -285,7 +285,7 @@ def reader_named(name: str) -> Reader | None:
     return _registry().by_name.get(name)
 
 
-def read(file: File) -> RawScene:
+def read(file: File) -> Document:
     """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
     # A child process has not looked for the readers of other packages.
     reader = reader_named(file.format) or reader_of(suffix_of(file.name))

@@ -24,8 +24,8 @@ from satcheck.core.worker_errors import (
     WorkerOutOfMemory,
     WorkerTimeout,
 )
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.readers import File, ReadLimits
 from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES

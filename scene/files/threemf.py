@@ -24,9 +24,9 @@ from msgspec.structs import replace
 
 from satcheck._native import readers
 from satcheck.core.transform import Transform
+from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import instances, raw_scene, tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.files.readers import File, mesh_reader
 from satcheck.scene.files.slicer_config import CONFIGS, SIDE_FILES, Volume, volumes
 from satcheck.scene.files.threemf_vocabulary import (
@@ -72,7 +72,7 @@ _OTHER_GEOMETRY = frozenset(
 )
 
 
-def read_3mf(file: File) -> RawScene:
+def read_3mf(file: File) -> Document:
     """Return the objects that the build of a 3MF package places. Raises Refused without a
     file name."""
     with opened_zip(memoryview(file.data), "a 3MF file") as package:
@@ -92,7 +92,7 @@ class _Package:
         self._settings: list[str] = []
         self._unknown = UnknownNames()
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         start = self._start_part()
         root = self._model(start)
         self._apply_config(root)

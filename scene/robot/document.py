@@ -11,8 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body
 from satcheck.scene.common_units import InOneUnit
-from satcheck.scene.document import Document
-from satcheck.scene.files.raw_mesh import RawJoint
+from satcheck.scene.document import Document, RawJoint
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.assembly import RobotBody, SceneRobot
 from satcheck.scene.robot.joint_forest import Edge, Moves, trees_of

@@ -16,7 +16,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal
 from satcheck.scene.files.readers import RobotFile
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue

@@ -16,8 +16,8 @@ from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import Refused, Scene, load_scene
-from satcheck.scene.files.flatten import flattened
-from satcheck.scene.files.raw_mesh import RawScene, Refusal
+from satcheck.scene.document import Document, Refusal
+from satcheck.scene.files.nodes import flattened
 from satcheck.scene.files.readers import File
 from satcheck.scene.files.reading_children import Reply, Request, serve
 from satcheck.scene.mesh_files import MeshFiles
@@ -51,7 +51,7 @@ def read_in_this_process(path: Path) -> None:
     file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
     request = Request.about(file, "satcheck.scene.files.readers:read")
     reply = serve(msgspec.msgpack.encode(request))
-    content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
+    content = msgspec.msgpack.decode(reply, type=Reply[Document]).content
     if isinstance(content, Refusal):
         raise Refused(content.code, content.message)
     flattened(content)

@@ -12,7 +12,7 @@ import pytest
 
 from satcheck.core import largest_placed, largest_stretch
 from satcheck.scene import Body, load_scene
-from satcheck.scene.files.raw_mesh import RawMesh
+from satcheck.scene.document import RawMesh
 from satcheck.scene.resolution import (
     FLOAT32_STEP,
     FLOAT64_STEP,

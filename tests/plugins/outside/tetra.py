@@ -13,7 +13,7 @@ from msgspec import Meta
 from satcheck.cli.commands import Plugin
 from satcheck.cli.formats.registry import Format, Reports
 from satcheck.scene import Refused
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.document import Document, RawMesh, alone
 from satcheck.scene.files.readers import File, Reader
 from satcheck.scene.read_options import Option
 
@@ -25,7 +25,7 @@ COMMAND = Plugin("corners", "Count the corners of a tetrahedron.", "tetra:comman
 _FACES = (0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
 
 
-def read(file: File) -> RawScene:
+def read(file: File) -> Document:
     """Return the tetrahedron of a file: a line for each corner, three numbers each."""
     try:
         scale = file.options[SCALE.name]
