@@ -10,20 +10,26 @@ from msgspec import Struct
 
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
+from satcheck.core.mesh_health import MeshHealth
 from satcheck.core.transform import Transform
-from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
 from satcheck.scene.planar.outline import Outline, Shape
-from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.resolution import FLOAT64_STEP
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
+    from satcheck.scene.read_options import ReadOptions
     from satcheck.scene.robot import Posture, SceneRobot
     from satcheck.scene.robot.joint_path import JointPath
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
+# Coordinates in float64 are rounded where they are stored and where they were computed, at least by
+# a rotation R and a shift t: by u = 2^-53 of each of the products, of both sums of products, and of
+# the sum with t. Let c be the largest coordinate. A vertex p of a body that has the origin of its
+# own frame within its box is at most r = 2 sqrt(3) c from it. The products move the vertex by
+# at most u sqrt(3) r, as the squares of all entries of R sum up to 3, the sums by u (r + r), and
+# the last sum by u sqrt(3) c: by less than 16 u c in all.
+FLOAT64_STEP = 2.0**-49
 UNITS_UNKNOWN = "units-unknown"
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 

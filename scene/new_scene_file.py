@@ -15,7 +15,6 @@ from msgspec import to_builtins
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
-from satcheck.scene.common_units import scaled_mesh, scaled_world
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
@@ -24,7 +23,7 @@ from satcheck.scene.paths import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
 from satcheck.scene.scene_file.document import SCENE_1
 from satcheck.scene.scene_file.text import is_toml
-from satcheck.scene.units import ratio, stated_unit, unit_in
+from satcheck.scene.units import ratio, scaled_mesh, scaled_world, stated_unit, unit_in
 
 Vector = tuple[float, float, float]
 Entries = list[dict[str, Any]]

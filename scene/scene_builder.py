@@ -11,13 +11,6 @@ from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import IDENTITY, Body, Entry, MeshFile, Scene, Unreadable
-from satcheck.scene.common_units import (
-    InOneUnit,
-    Input,
-    in_one_unit,
-    scaled_mesh,
-    scaled_world,
-)
 from satcheck.scene.document import Document, FilePart, Item, UniqueNames
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import multiply
@@ -29,7 +22,16 @@ from satcheck.scene.paths import suffix_of
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.entries import SceneFile
 from satcheck.scene.scene_file.joined import JoinedScenes
-from satcheck.scene.units import RESCALED, ratio, stated_unit
+from satcheck.scene.units import (
+    RESCALED,
+    InOneUnit,
+    Input,
+    in_one_unit,
+    ratio,
+    scaled_mesh,
+    scaled_world,
+    stated_unit,
+)
 
 if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape

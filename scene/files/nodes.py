@@ -27,8 +27,7 @@ from satcheck.scene.document import (
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File, reader_named
-from satcheck.scene.health import CRACK_WIDTH
-from satcheck.scene.inspect import errors_of, mesh_file, resolution_of
+from satcheck.scene.inspect import CRACK_WIDTH, errors_of, mesh_file, resolution_of
 from satcheck.scene.issue import BLOCKING, issue
 from satcheck.scene.paths import name_of
 

@@ -18,7 +18,7 @@ from satcheck.core.shapes import Curved, is_curved
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.errors import Refused
 from satcheck.scene.half_spaces import is_half_space
-from satcheck.scene.health import examine
+from satcheck.scene.inspect import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.planar.fills import covers
 from satcheck.scene.planar.region import (

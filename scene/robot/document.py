@@ -10,13 +10,12 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body
-from satcheck.scene.common_units import InOneUnit
 from satcheck.scene.document import Document, RawJoint
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.assembly import RobotBody, SceneRobot
 from satcheck.scene.robot.joint_forest import Edge, Moves, trees_of
 from satcheck.scene.robot.model import Limits, Link, Robot
-from satcheck.scene.units import ratio
+from satcheck.scene.units import InOneUnit, ratio
 
 _WORLD = ""
 
