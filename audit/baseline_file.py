@@ -11,9 +11,7 @@ import msgspec
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import SCHEMA, Baseline
-from satcheck.scene.files_read import Signature, note, signature
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import followed
+from satcheck.scene.opening import Signature, followed, note, read_whole, signature
 
 MOST_BYTES = 1 << 28
 

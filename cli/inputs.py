@@ -19,15 +19,19 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.files.nodes import Split
 from satcheck.scene.files.readers import (
-    DEFAULT_MEGABYTES_PER_FILE,
-    DEFAULT_SECONDS_PER_FILE,
+    GeometryKind,
     ReadLimits,
+    ReadOptions,
+    kind_of,
 )
-from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.paths import ANYWHERE, is_folder
-from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.opening import (
+    ANYWHERE,
+    DEFAULT_MEGABYTES_PER_FILE,
+    DEFAULT_SECONDS_PER_FILE,
+    is_folder,
+)
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(

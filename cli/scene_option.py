@@ -12,9 +12,8 @@ import click
 
 from satcheck.cli.option import DEFAULTS, seconds, together
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.files.readers import option_named, options
-from satcheck.scene.paths import is_folder
-from satcheck.scene.read_options import GEOMETRY, GeometryKind, OptionValue
+from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
+from satcheck.scene.opening import is_folder
 from satcheck.scene.units import MICROMETRES
 
 

@@ -18,8 +18,7 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.inspect import shape_file
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import Permitted
+from satcheck.scene.opening import Permitted, read_whole
 from satcheck.scene.planar.outline import shape_from
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from satcheck.plugins.sdf import places as sdf
 from satcheck.plugins.step import exchange as step
 from satcheck.plugins.usd import names as usd
 from satcheck.scene.files import gltf_colliders, gltf_vocabulary, threemf_vocabulary
-from satcheck.scene.files.readers import options
-from satcheck.scene.read_options import GEOMETRY
+from satcheck.scene.files.readers import GEOMETRY, options
 from satcheck.scene.robot import srdf, urdf_places
 from satcheck.scene.robot.slips import Place
 from satcheck.scene.vocabulary import Names

@@ -11,6 +11,7 @@ from msgspec import Struct
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_health import MeshHealth
+from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
@@ -18,7 +19,7 @@ from satcheck.scene.planar.outline import Outline, Shape
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
-    from satcheck.scene.read_options import ReadOptions
+    from satcheck.scene.files.readers import ReadOptions
     from satcheck.scene.robot import Posture, SceneRobot
     from satcheck.scene.robot.joint_path import JointPath
     from satcheck.scene.statics import BodyRule, StaticsTerms
@@ -117,6 +118,10 @@ class Body(Struct, frozen=True):
         if not off or given.transform is None:
             return off
         return off * largest_stretch(given.transform)
+
+
+def is_half_space(body: Body) -> bool:
+    return isinstance(body.shape, HalfSpace)
 
 
 class Unreadable(Struct, frozen=True):

@@ -19,7 +19,8 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue
-from satcheck.scene.paths import name_of
+from satcheck.scene.opening import Block as Block
+from satcheck.scene.opening import name_of
 
 # "scene": it places bodies. "rules": a scene file without bodies.
 Kind = Literal["mesh", "scene", "robot", "rules"]
@@ -34,11 +35,10 @@ if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot.model import Robot
 
-    Block = bytes | memoryview
     Held: TypeAlias = "int | MeshFile | FilePart | Shape | Refused"
 else:
     # What msgspec decodes: a child process numbers its meshes, and has nothing of the others.
-    Block, Held = memoryview, int
+    Held = int
     Entry = Robot = Any
 
 

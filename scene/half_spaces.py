@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from satcheck.core import largest_stretch
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
-from satcheck.scene.bodies import IDENTITY, Body, Scene
+from satcheck.scene.bodies import IDENTITY, Body, Scene, is_half_space
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.motion import Motion, PosePath, Rotation
 
@@ -30,10 +30,6 @@ Box = tuple["Vector", "Vector"]  # the least and the greatest corner
 # reach.
 _ROOM = 6.0
 _LARGEST = 2.0**146  # a placed body reaches no farther than 2e44
-
-
-def is_half_space(body: Body) -> bool:
-    return isinstance(body.shape, HalfSpace)
 
 
 def with_reach(scene: Scene, room: float = 1.0) -> Scene:

@@ -23,21 +23,31 @@ from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePar
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.nodes import Split, document_of
 from satcheck.scene.files.readers import (
+    GEOMETRY,
     File,
+    GeometryKind,
     NeedsChild,
     ReadLimits,
     RobotFile,
     read,
     reader_named,
     reader_of,
+    required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
-from satcheck.scene.paths import StrPath, suffix_of
-from satcheck.scene.read_options import GEOMETRY, GeometryKind
+from satcheck.scene.opening import (
+    LARGE_FILE_BYTES,
+    FilesRead,
+    StrPath,
+    files_read,
+    note,
+    note_lost_reader,
+    open_file,
+    size_of,
+    suffix_of,
+)
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -69,7 +79,7 @@ class MeshFiles:
 
     def close(self) -> None:
         # An error that is kept holds this object in a cycle, which may live for long.
-        if self._known is None:
+        if self._known is None and "_children" in vars(self):
             self._children.close()
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
@@ -92,7 +102,7 @@ class MeshFiles:
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), errors_of(path):
-            file = open_file(path, location, self.allowed, whole=split == "none")
+            file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
             return document_of(file, self._read(file), split)
 
     def _read(self, file: File) -> Document:

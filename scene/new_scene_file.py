@@ -19,7 +19,7 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation
-from satcheck.scene.paths import followed, is_file
+from satcheck.scene.opening import followed, is_file
 from satcheck.scene.rules import KEYS, Rule, Selector, stated_keys
 from satcheck.scene.scene_file.document import SCENE_1
 from satcheck.scene.scene_file.text import is_toml

@@ -21,7 +21,7 @@ from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
-from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.bodies import is_half_space
 from satcheck.scene.robot import Joint, JointPath
 from satcheck.scene.robot.assembly import link_frames
 from satcheck.scene.robot.kinematics import motion

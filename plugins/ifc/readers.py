@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader
-from satcheck.scene.read_options import facets
+from satcheck.scene.files.readers import Reader, facets
 
 CHORD = 1.0  # millimetres: buildings are drawn to about that
 

@@ -12,10 +12,9 @@ from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
-from satcheck.scene.files.readers import File, RobotFile
+from satcheck.scene.files.readers import File, RobotFile, is_robot
 from satcheck.scene.files.reading_children import read_in_child
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.input_kind import is_robot
 from satcheck.scene.issue import Issue
 from satcheck.scene.robot.model import Robot
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader, RobotReader
-from satcheck.scene.read_options import Option
+from satcheck.scene.files.readers import Option, Reader, RobotReader
 
 ENDING = ".xml"
 MESH_HULLS = Option("mesh_hulls", bool, "true: hulls of meshes, as in MuJoCo", False)

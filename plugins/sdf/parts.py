@@ -11,8 +11,8 @@ from satcheck.plugins.sdf.places import SHAPE
 from satcheck.plugins.sdf.values import bits, pose_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.files.xml_tree import Element, RefusedElement
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import DRAWN_PLANE, Collision
 from satcheck.scene.robot.slips import Slips

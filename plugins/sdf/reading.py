@@ -18,10 +18,9 @@ from satcheck.plugins.sdf.includes import Includes
 from satcheck.plugins.sdf.joints import JointEntry, moves_of
 from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.readers import RobotFile
+from satcheck.scene.files.readers import GeometryKind, RobotFile
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.issue import Issue
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_forest import Edge, trees_of
 from satcheck.scene.robot.joint_tree import check_mimics
 from satcheck.scene.robot.model import Exemption, Link, Robot

@@ -34,7 +34,7 @@ from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.gltf_nodes import placement_of
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.files.readers import File
-from satcheck.scene.paths import NOTHING_ELSE
+from satcheck.scene.opening import NOTHING_ELSE
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF

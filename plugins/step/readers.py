@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader
-from satcheck.scene.read_options import facets
+from satcheck.scene.files.readers import Reader, facets
 
 # Millimetres. In machines press fits of 0.02 mm are common, and facets hide overlaps up to twice
 # their tolerance.

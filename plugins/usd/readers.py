@@ -12,8 +12,7 @@ from msgspec import Meta
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.extras import imported
-from satcheck.scene.files.readers import File, Reader
-from satcheck.scene.read_options import GEOMETRY, Option
+from satcheck.scene.files.readers import GEOMETRY, File, Option, Reader
 
 _MOST = sys.float_info.max
 TIME = Option("time", Annotated[float, Meta(ge=-_MOST, le=_MOST)], "the time code")

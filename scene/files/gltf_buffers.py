@@ -10,8 +10,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.gltf_vocabulary import MESHOPT
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.files_read import note
-from satcheck.scene.paths import Permitted, followed, is_file
+from satcheck.scene.opening import Permitted, followed, is_file, note
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
 _CHUNK_HEADER = 8  # length, type

@@ -29,7 +29,7 @@ from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File, reader_named
 from satcheck.scene.inspect import CRACK_WIDTH, errors_of, mesh_file, resolution_of
 from satcheck.scene.issue import BLOCKING, issue
-from satcheck.scene.paths import name_of
+from satcheck.scene.opening import name_of
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]

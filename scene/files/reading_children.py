@@ -17,6 +17,7 @@ import msgspec
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import function_at
 from satcheck.core.worker_errors import (
     WorkerCrashed,
     WorkerError,
@@ -27,10 +28,15 @@ from satcheck.core.worker_errors import (
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import File, ReadLimits
-from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.paths import ANYWHERE, NOTHING_ELSE, Permitted
-from satcheck.scene.plugins import function_at
+from satcheck.scene.opening import (
+    ANYWHERE,
+    NOTHING_ELSE,
+    Permitted,
+    files_read,
+    note,
+    note_lost_reader,
+)
 
 if TYPE_CHECKING:
     from satcheck.core.worker import Worker

@@ -16,7 +16,7 @@ from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.files.readers import GeometryKind
 
 UrdfJointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 JointKind = UrdfJointKind | Literal["ball", "free"]

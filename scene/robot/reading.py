@@ -23,8 +23,7 @@ from satcheck.scene.files.xml_tree import (
     read_elements,
 )
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import StrPath
+from satcheck.scene.opening import StrPath, read_whole
 from satcheck.scene.robot.model import Robot
 
 _MAX_BYTES = 64 << 20

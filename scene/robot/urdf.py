@@ -17,10 +17,9 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, HalfSpace, Primitive, S
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal
-from satcheck.scene.files.readers import RobotFile
+from satcheck.scene.files.readers import GeometryKind, RobotFile
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import facing, from_quaternion, from_rpy
 from satcheck.scene.robot.model import (

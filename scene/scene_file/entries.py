@@ -11,9 +11,8 @@ from msgspec.structs import replace
 
 from satcheck.scene.document import Document, FilePart, Item
 from satcheck.scene.files.readers import mesh_reader, readers
-from satcheck.scene.files_read import note
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.paths import Permitted, followed, is_file
+from satcheck.scene.opening import Permitted, followed, is_file, note
 from satcheck.scene.scene_file.form import Wrong, shown
 from satcheck.scene.units import is_unit
 from satcheck.scene.words import meant

@@ -64,10 +64,6 @@ class JoinedScenes:
             for motion in scene.motions
         ]
 
-    @property
-    def are_none(self) -> bool:
-        return not self._scenes
-
     def accepted(self, *, alone: bool) -> tuple[Accepted, ...]:
         """Issues that may stay. alone: no input stands beside the file. What a file without bodies
         accepts counts for all, as its rules do."""

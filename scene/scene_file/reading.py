@@ -17,7 +17,7 @@ from satcheck.scene.bodies import Entry
 from satcheck.scene.document import Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.motion import Motion
-from satcheck.scene.paths import NOTHING_ELSE, Permitted
+from satcheck.scene.opening import NOTHING_ELSE, Permitted
 from satcheck.scene.rules import LENGTHS, Rule
 from satcheck.scene.scene_file import document, simple
 from satcheck.scene.scene_file.document import RULES_FILE_KEYS, SCENE_1

@@ -20,7 +20,7 @@ from msgspec.structs import replace
 from satcheck.scene.bodies import Entry
 from satcheck.scene.document import Item
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.paths import ANYWHERE
+from satcheck.scene.opening import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.document import Matrix, Text, Texts
 from satcheck.scene.scene_file.entries import (

@@ -13,7 +13,7 @@ from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_nodes import parse_document
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.files.readers import GeometryKind
 from tests.scene import files
 from tests.scene.loading import refusal
 

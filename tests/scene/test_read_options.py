@@ -12,8 +12,7 @@ from satcheck.audit.batch.options import CheckOptions
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import option_named, stated_options
-from satcheck.scene.read_options import facets
+from satcheck.scene.files.readers import facets, option_named, stated_options
 from tests.cli.process import SAMPLES, satcheck
 from tests.plugin_marks import needs
 

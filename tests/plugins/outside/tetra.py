@@ -14,8 +14,7 @@ from satcheck.cli.commands import Plugin
 from satcheck.cli.formats.registry import Format, Reports
 from satcheck.scene import Refused
 from satcheck.scene.document import Document, RawMesh, alone
-from satcheck.scene.files.readers import File, Reader
-from satcheck.scene.read_options import Option
+from satcheck.scene.files.readers import File, Option, Reader
 
 SCALE = Option("tetra_scale", Annotated[float, Meta(gt=0)], "the factor of all corners", 1.0)
 READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", options=(SCALE,), text="plain")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Issue, Refused
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import Robot
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
