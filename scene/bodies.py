@@ -219,6 +219,15 @@ class Scene(Struct, frozen=True):
             message = f"{flat.file.path}: {flat.id} is an outline, which is flat: {instead}"
             raise SatcheckError("planar-only", message)
 
+    def reaching(self, room: float = 1.0) -> Scene:
+        """Return the scene with half spaces that reach beyond its bodies. room: how many times as
+        far."""
+        if not any(map(is_half_space, self.bodies)):
+            return self
+        from satcheck.scene.half_spaces import with_reach
+
+        return with_reach(self, room)
+
     def in_order(self) -> list[Body | Unreadable]:
         """All bodies, readable or not. Bodies that `order` does not name come last."""
         rank = {id_: number for number, id_ in enumerate(self.order)}

@@ -37,8 +37,6 @@ def with_reach(scene: Scene, room: float = 1.0) -> Scene:
     limits of their joints allow, and on their ways. Blocks that do so already stay. room: how many
     times as far they reach."""
     floors = [body for body in scene.bodies if is_half_space(body)]
-    if not floors:
-        return scene
     radius = room * _radius_of(scene)
     fitted = {body.id: _fitted(body, radius) for body in floors}
     if all(fitted[body.id] is body for body in floors):

@@ -7,14 +7,14 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace
-from satcheck.scene.bodies import IDENTITY, Body, Entry, MeshFile, Scene, Unreadable, is_half_space
+from satcheck.scene.bodies import IDENTITY, Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.document import (
     COMPONENT_MARK,
     Document,
@@ -331,14 +331,6 @@ def is_mesh(path: str) -> bool:
     return kind_of(path) == "mesh"
 
 
-class Added(Struct, frozen=True):
-    """A document in the check. ids: of its items. groups: in the file -> in the check."""
-
-    document: Document
-    ids: tuple[str, ...]
-    groups: Mapping[str, str]
-
-
 class SceneBuilder:
     """Takes documents one by one; `scene` returns their scene.
 
@@ -352,7 +344,6 @@ class SceneBuilder:
         self._groups = UniqueNames()
         self._shared_groups: dict[str, str] = {}  # of documents that are no scene files or robots
         self._inputs: list[Input] = []
-        self._added: list[Added] = []
         self._rule_files: set[str] = set()
         self._parted: set[str] = set()  # files of which a part is named
         self._entries: dict[str, Entry] = {}
@@ -366,13 +357,12 @@ class SceneBuilder:
             if place in self._rule_files:
                 return
             self._rule_files.add(place)
-        declares, is_rules = document.units, document.kind == "rules"
-        unit = stated_unit(declares) or (None if is_rules else self._given_units)
-        self._inputs.append(Input(document.kind, document.name, document.path, declares, unit))
+        given = None if document.kind == "rules" else self._given_units
+        unit = stated_unit(document.units) or given
+        own = Input(document, unit, self._groups_of(document))
+        self._inputs.append(own)
         self._issues.extend(document.issues)
-        groups = self._groups_of(document)
-        ids = tuple(self._add(item, document, groups) for item in document.items)
-        self._added.append(Added(document, ids, groups))
+        own.ids += [self._add(item, own) for item in document.items]
 
     def add_srdf(self, srdf: Srdf) -> None:
         self._srdfs.append(srdf)
@@ -401,15 +391,15 @@ class SceneBuilder:
                 groups[group] = self._shared_groups[group]
         return groups
 
-    def _add(self, item: Item, document: Document, groups: Mapping[str, str]) -> str:
-        """Adds a body and returns its id. groups: from `_groups_of`."""
+    def _add(self, item: Item, own: Input) -> str:
+        """Adds a body of this input and returns its id."""
         id_ = self._ids.unique(item.id)
-        path = document.path
+        path = own.path
         if item.entry is not None:
             self._entries[id_] = item.entry
             path = item.entry.file
         if isinstance(item.shape, FilePart):
-            path, item = item.shape.path, self._in_other_file(item, item.shape)
+            path, item = item.shape.path, self._in_other_file(item, item.shape, own.unit)
         exact: Shape | None = None
         node = item.path
         match item.shape:
@@ -420,13 +410,13 @@ class SceneBuilder:
             case exact:
                 # A report states it by its sizes, and no node of a file.
                 file, node = self._files.shape(exact, path), None
-        groups_here = tuple(groups[group] for group in item.groups)
+        groups_here = tuple(own.groups[group] for group in item.groups)
         if isinstance(file, Refused):
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if exact is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
             lost = Unreadable(id_, path, reason, groups_here, node, item.static)
-            self._inputs[-1].bodies.append(lost)
+            own.bodies.append(lost)
             return id_
         is_floor = isinstance(exact, HalfSpace)
         body = Body(
@@ -439,15 +429,16 @@ class SceneBuilder:
             exact,
             node,
             item.pinned or is_floor,
-            stated_unit(item.units or file.units) or self._inputs[-1].unit,
+            stated_unit(item.units or file.units) or own.unit,
             surface_tolerance=item.surface_tolerance,
         )
-        self._inputs[-1].bodies.append(body)
+        own.bodies.append(body)
         return id_
 
-    def _in_other_file(self, item: Item, named: FilePart) -> Item:
-        """The item with the mesh that it names, where both files together place it. What blocks a
-        pass about a file is said once, whoever names a part of it."""
+    def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
+        """The item with the mesh that it names, where both files together place it. own: the unit
+        of its document. What blocks a pass about a file is said once, whoever names a part of
+        it."""
         found = self._files.item(named)
         if named.part is not None and named.location not in self._parted:
             self._parted.add(named.location)
@@ -457,7 +448,7 @@ class SceneBuilder:
             message = "`units` cannot override the unit of this file: leave it out"
             lost = Refused("unsupported-feature", message, file=named.path)
             return replace(item, path=named.part, shape=lost)
-        place, own = item.transform, self._inputs[-1].unit
+        place = item.transform
         if isinstance(found.shape, MeshFile) and own is not None:
             scale = ratio(stated_unit(item.units or found.shape.units) or own, own)
             if found.transform is None:
@@ -473,14 +464,14 @@ class SceneBuilder:
         common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
         bodies = {body.id: body for each in self._inputs for body in each.readable}
-        robots = [_robot(each, bodies) for each in self._added if each.document.robot]
+        robots = [_robot(each, bodies) for each in self._inputs if each.document.robot]
         jointed = [
             (each.document, dict(_links(each)))
-            for each in self._added
+            for each in self._inputs
             if any(joint.kind != "fixed" for joint in each.document.joints)
         ]
         if not robots and not self._srdfs and not jointed:
-            return _with_reach(scene)
+            return scene.reaching()
         from satcheck.scene.robot import permissions, posed, with_srdfs
         from satcheck.scene.robot.document import robots_of_documents
 
@@ -498,7 +489,7 @@ class SceneBuilder:
             rules=(*allowed, *scene.rules),  # so that a rule can take a permission back
             issues=tuple(issues),
         )
-        return _with_reach(posed(scene, {}))
+        return posed(scene, {}).reaching()
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
         inputs = [each for each in self._inputs if each.kind != "rules"]
@@ -512,27 +503,25 @@ class SceneBuilder:
             *common.issues,
         ]
         scene = Scene(
-            name=" ".join(each.name for each in inputs),
+            name=" ".join(each.document.name for each in inputs),
             units=common.label,
             bodies=common.bodies,
             unreadable=tuple(lost),
             order=tuple(body.id for body in everyone),
-            rules=tuple(rule for each in self._added for rule in _rules(each)),
+            rules=tuple(rule for each in self._inputs for rule in _rules(each)),
             entries=self._entries,
             reading=self._files.allowed.options,
             composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        files = [
-            (file, each) for each in self._added if (file := _scene_file(each.document)) is not None
-        ]
+        files = [each for each in self._inputs if _scene_file(each.document) is not None]
         if not files:
             return scene
         from satcheck.scene.scene_file.joined import JoinedScenes
 
         stated = JoinedScenes()
-        for file, each in files:
-            stated.add(file, each.ids, each.groups)
+        for each in files:
+            stated.add(cast("SceneFile", each.document), each.ids, each.groups)
         return _as_stated(scene, stated, common.scales, alone=len(inputs) == 1)
 
 
@@ -545,16 +534,7 @@ def _scene_file(document: Document) -> SceneFile | None:
     return document if isinstance(document, SceneFile) else None
 
 
-def _with_reach(scene: Scene) -> Scene:
-    """The scene with half spaces that reach beyond its bodies."""
-    if not any(map(is_half_space, scene.bodies)):
-        return scene
-    from satcheck.scene.half_spaces import with_reach
-
-    return with_reach(scene)
-
-
-def _robot(added: Added, bodies: Mapping[str, Body]) -> SceneRobot:
+def _robot(added: Input, bodies: Mapping[str, Body]) -> SceneRobot:
     """bodies: that can be used, by id, as the file places them in their links."""
     from satcheck.scene.robot import RobotBody, SceneRobot
 
@@ -567,14 +547,14 @@ def _robot(added: Added, bodies: Mapping[str, Body]) -> SceneRobot:
     return SceneRobot(document.robot, tuple(own), groups=added.groups)
 
 
-def _links(added: Added) -> Iterator[tuple[str, str]]:
+def _links(added: Input) -> Iterator[tuple[str, str]]:
     """The bodies of rigid bodies: (id, link)."""
     for item, id_ in zip(added.document.items, added.ids, strict=True):
         if item.link:
             yield id_, item.link
 
 
-def _rules(added: Added) -> Iterator[Rule]:
+def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
     ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))

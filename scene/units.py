@@ -23,7 +23,7 @@ from satcheck.scene.issue import Issue, issue
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
-    from satcheck.scene.document import Kind
+    from satcheck.scene.document import Document, Kind
 
 # Micrometres in one unit. They are whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
@@ -126,16 +126,25 @@ def is_unit(declared: str) -> bool:
 
 
 class Input(Struct):
-    """One input. kind: "rules": a file of rules, without bodies. declares: its units as it writes
-    them. unit: the unit meant by that, or the unit given for inputs that declare none; None:
-    unknown."""
+    """A document in the check.
 
-    kind: Kind
-    name: str
-    path: str
-    declares: str | None
+    unit: meant by the units that it declares, or given for inputs that declare none; None: unknown.
+    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items.
+    """
+
+    document: Document
     unit: str | None
+    groups: Mapping[str, str]
+    ids: list[str] = []
     bodies: list[Body | Unreadable] = []
+
+    @property
+    def kind(self) -> Kind:
+        return self.document.kind
+
+    @property
+    def path(self) -> str:
+        return self.document.path
 
     @property
     def readable(self) -> list[Body]:
@@ -182,7 +191,8 @@ def in_one_unit(inputs: Sequence[Input]) -> InOneUnit:
         for source in inputs
         if source.kind == kind and source.unit and unit
     }
-    declared = [each.declares for each in sorted(inputs, key=lambda each: each.kind == "rules")]
+    in_turn = sorted(inputs, key=lambda each: each.kind == "rules")
+    declared = [each.document.units for each in in_turn]
     issues = (*_conversions(owned), *_unknown(owned, inputs))
     return InOneUnit(bodies, unit, _label(bodies, declared, unit), scales, issues)
 
