@@ -11,8 +11,7 @@ from msgspec.structs import replace
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
-from satcheck.scene.files.readers import File, RobotFile, is_robot
+from satcheck.scene.files.readers import File, RobotFile, imported, is_robot
 from satcheck.scene.files.reading_children import read_in_child
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.issue import Issue

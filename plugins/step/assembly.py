@@ -19,7 +19,6 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
 from satcheck.scene.files.gltf_accessors import Accessors
 from satcheck.scene.files.gltf_buffers import (
     BufferViews,
@@ -33,7 +32,7 @@ from satcheck.scene.files.gltf_buffers import (
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.gltf_nodes import placement_of
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
-from satcheck.scene.files.readers import File
+from satcheck.scene.files.readers import File, imported
 from satcheck.scene.opening import NOTHING_ELSE
 from satcheck.scene.words import listed
 

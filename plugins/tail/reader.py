@@ -18,9 +18,8 @@ import numpy as np
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
 from satcheck.scene.files.placing import Instance, raw_scene
-from satcheck.scene.files.readers import File
+from satcheck.scene.files.readers import File, imported
 from satcheck.scene.units import unit_of
 
 _MOST_VERTICES = 2**32  # they are numbered in 32 bits

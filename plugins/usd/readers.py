@@ -11,8 +11,7 @@ from msgspec import Meta
 
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
-from satcheck.scene.files.readers import GEOMETRY, File, Option, Reader
+from satcheck.scene.files.readers import GEOMETRY, File, Option, Reader, imported
 
 _MOST = sys.float_info.max
 TIME = Option("time", Annotated[float, Meta(ge=-_MOST, le=_MOST)], "the time code")

@@ -29,9 +29,9 @@ from satcheck.scene.files.nodes import flattened
 from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.files.polygons import triangles_of
 from satcheck.scene.files.readers import File
-from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.files.xml_tree import Element, read_elements
 from satcheck.scene.units import RESCALED, unit_of
+from satcheck.scene.vocabulary import UnknownNames
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -44,7 +44,7 @@ from satcheck.scene.files.gltf_nodes import NodeGraph, parse_document, trs_place
 from satcheck.scene.files.gltf_vocabulary import ANIMATING, EXTENSIONS, INSTANCING, look_at
 from satcheck.scene.files.placing import Instance, multiply, raw_scene, tidy_name
 from satcheck.scene.files.readers import File
-from satcheck.scene.files.unknown_names import UnknownNames
+from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 
 # Extensions that move all of the geometry even where they are optional.

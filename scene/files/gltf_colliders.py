@@ -18,8 +18,7 @@ from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_buffers import extension, integer, items, member
 from satcheck.scene.files.gltf_vocabulary import KHR_BODIES, KHR_SHAPES, OMI_BODIES, OMI_SHAPES
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 
 # Takes z to y, exactly.
 UPRIGHT: Transform = (1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1)

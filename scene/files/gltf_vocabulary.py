@@ -10,8 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 
 DRACO = "KHR_draco_mesh_compression"
 INSTANCING = "EXT_mesh_gpu_instancing"

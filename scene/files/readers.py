@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from sys import float_info
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
@@ -484,3 +485,15 @@ def _first_elements(location: Path) -> list[str]:
     from satcheck.scene.robot.reading import first_tags
 
     return first_tags(head, 2) or [""]
+
+
+def imported(module: str, extra: str, kind: str) -> Any:
+    """The module. extra: of satcheck, which installs it. kind: of file, such as "IFC files"."""
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name is None or not module.startswith(error.name):
+            raise
+        library = module.partition(".")[0]
+        message = f"{kind} need {library}: pip install 'satcheck[{extra}]'"
+        raise Refused("missing-extra", message) from None

@@ -44,7 +44,6 @@ from satcheck.scene.files.threemf_vocabulary import (
     short,
     short_element,
 )
-from satcheck.scene.files.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.files.xml_tree import (
     UNDECLARED,
     UnboundPrefix,
@@ -55,6 +54,7 @@ from satcheck.scene.files.xml_tree import (
     with_declared_prefixes,
 )
 from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
@@ -141,7 +141,7 @@ class _Package:
     def _apply_config(self, root: Model) -> None:
         """Leave out the volumes that the config of a slicer makes settings; refuse an object that
         one of them is taken away from."""
-        refuse_misspelt(SIDE_FILES, self._names, "the package")
+        SIDE_FILES.refuse_misspelt(self._names, "the package")
         shown = [name for name in self._names if name.startswith("metadata/") or _is_mesh(name)]
         self._unknown.look(SIDE_FILES, shown, "part", "the package")
         for name in fnmatch.filter(self._names, CONFIGS):
@@ -462,7 +462,7 @@ class _ModelReader:
 
     def _on_setting(self, name: str, place: str) -> None:
         key = name.rpartition(":")[2]
-        refuse_misspelt(CURA_VOLUMES, [key], place)
+        CURA_VOLUMES.refuse_misspelt([key], place)
         if CURA_VOLUMES.knows(key):
             message = f"{place}: {name} is not read; it may make a body none"
             self._unknown.note(("metadata", name), message)
