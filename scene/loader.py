@@ -215,16 +215,8 @@ def load_scene(
     known: KnownMeshes | None = None,
     **options: Any,
 ) -> Scene:
-    """Return the scene of these files; `LoadOptions.load` says what each kind of file gives.
-
-    paths: mesh files, scene files, robots, USD and IFC files; each a text or a Path. hashed:
-    compute the SHA-256 of each file, which some reports contain. known: meshes that earlier scenes
-    have read. options: those of `LoadOptions` (split, packages, geometry, folders, allow_outside,
-    units, rules, between, reading, seconds_per_file, megabytes_per_file).
-
-    A file that cannot be used becomes an `Unreadable` with an error issue. Raises Refused for an
-    invalid scene file or robot, and SatcheckError for an option that cannot be.
-    """
+    """Return the scene of these files. options: of `LoadOptions`; its `load` says what each kind of
+    file gives, and what is raised. hashed, known: as there."""
     return LoadOptions(**options).load(paths, hashed=hashed, known=known)
 
 

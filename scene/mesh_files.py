@@ -10,7 +10,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -189,25 +189,13 @@ class MeshFiles:
         }
         if len(waiting) < 2 or is_careful():
             return
-        queue = list(waiting.values())
+        from concurrent.futures import ThreadPoolExecutor
 
-        def read() -> None:
-            while queue:
-                try:
-                    self.document(*queue.pop(), "none")
-                except Exception:  # noqa: BLE001 reported when the file is used
-                    continue
-
-        threads: list[Thread] = []
-        try:
-            for _ in range(min(len(queue), os.cpu_count() or 1)):
-                thread = Thread(target=read)
-                thread.start()
-                threads.append(thread)
-        except RuntimeError:
-            pass  # no further threads: the remaining files are read when they are used
-        for thread in threads:
-            thread.join()
+        # Without a further thread the remaining files are read when they are used. An error of a
+        # file, too, is reported then.
+        with suppress(RuntimeError), ThreadPoolExecutor(os.cpu_count()) as pool:
+            for path, location in waiting.values():
+                pool.submit(self.document, path, location, "none")
 
     def robot(
         self,
