@@ -27,17 +27,18 @@ def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict
     read: dict[str, OptionValue] = {}
     for text in texts:
         spelling, equals, value = text.partition("=")
-        name = spelling.replace("-", "_")
         if not equals:
             raise click.BadParameter(f"{text!r} should be NAME=VALUE")
-        if name == GEOMETRY.name:
-            raise click.BadParameter("--geometry gives the geometry")
-        if name in read:
-            raise click.BadParameter(f"{spelling} is given twice")
         try:
-            read[name] = option_named(name).parsed(value)
+            option = option_named(spelling)
+            stated = option.parsed(value)
         except SatcheckError as error:
             raise click.BadParameter(error.message) from None
+        if option is GEOMETRY:
+            raise click.BadParameter("--geometry gives the geometry")
+        if option.name in read:
+            raise click.BadParameter(f"{spelling} is given twice")
+        read[option.name] = stated
     return read
 
 

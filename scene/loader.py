@@ -189,7 +189,8 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         given = dict(self.reading)
         if self.geometry is not None:
             given[GEOMETRY.name] = self.geometry
-        return {name: option_named(name).converted(value) for name, value in given.items()}
+        options = [(option_named(name), value) for name, value in given.items()]
+        return {option.name: option.converted(value) for option, value in options}
 
 
 def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> dict[str, str]:
@@ -200,9 +201,10 @@ def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> di
     for path in robots:
         reader = reader_of_robot(Path(path))
         counting |= {GEOMETRY.name, *(each.name for each in (reader.options if reader else ()))}
-    theirs = f"they have {', '.join(sorted(counting))}" if counting else "they have none"
+    spelled = sorted(name.replace("_", "-") for name in counting)
+    theirs = f"they have {', '.join(spelled)}" if spelled else "they have none"
     return {
-        name: f"no reader of these files has the option {name}: {theirs}"
+        name: f"no reader of these files has the option {name.replace('_', '-')}: {theirs}"
         for name in reading
         if name not in counting
     }

@@ -399,15 +399,17 @@ def stated_options(given: ReadOptions, formats: Iterable[str]) -> dict[str, Opti
 
 
 def option_named(name: str) -> Option:
-    """Return an option of a reader. Raises SatcheckError if no reader has it."""
+    """Return an option of a reader; - may stand for _ in its name. Raises SatcheckError if no
+    reader has it."""
+    name = name.replace("-", "_")
     known = options()
     if name not in known:
         _registry().add(map(_isolated, others("readers", KINDS)))
         known = options()
     if name not in known:
-        there = ", ".join(f"{each} ({', '.join(known[each][1])})" for each in sorted(known))
+        named = [f"{option.spelling} ({', '.join(titles)})" for option, titles in known.values()]
         failed = failures("readers", KINDS)
-        message = f"no reader has the option {name}; there are {there}{failed}"
+        message = f"no reader has the option {name}; there are {', '.join(sorted(named))}{failed}"
         raise SatcheckError("bad-argument", message)
     return known[name][0]
 

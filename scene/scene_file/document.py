@@ -222,7 +222,9 @@ class Motion(Table, frozen=True):
 def reading_table() -> type[Table]:
     """Return the table of the options that readers declare."""
     known = {name: option for name, (option, _) in sorted(options().items())}
-    about = "\n".join(f"    {name}: {option.help.capitalize()}." for name, option in known.items())
+    about = "\n".join(
+        f"    {name}: {option.help[0].upper()}{option.help[1:]}." for name, option in known.items()
+    )
     table: Any = defstruct(
         "Reading",
         [(name, option.type | UnsetType, UNSET) for name, option in known.items()],

@@ -152,7 +152,7 @@ def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[st
     [
         (("--read", "tetra-scale=0"), "tetra-scale: not '0', but the factor of all corners"),
         (("--read", "tetra-skale=2"), "there are"),
-        (("box.obj", "--read", "tetra-scale=2"), "has the option tetra_scale: they have none"),
+        (("box.obj", "--read", "tetra-scale=2"), "has the option tetra-scale: they have none"),
     ],
 )
 def test_what_is_wrong_with_its_option_is_said(

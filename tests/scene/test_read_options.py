@@ -91,7 +91,7 @@ def test_an_option_without_effect_is_told(tmp_path: Path) -> None:
     given = ("--read", "chord-tolerance=1mm")
     ran = satcheck(*given, *meshes)
     assert ran.code == 2
-    assert "no reader of these files has the option chord_tolerance: they have none" in ran.err
+    assert "no reader of these files has the option chord-tolerance: they have none" in ran.err
     # Where the option may be about other files, a note says so.
     (tmp_path / "satcheck.toml").write_text('read = ["chord-tolerance=1mm"]\n')
     config = ("--config", str(tmp_path / "satcheck.toml"), "--format", "json")
