@@ -34,7 +34,7 @@ def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict
             stated = option.parsed(value)
         except SatcheckError as error:
             raise click.BadParameter(error.message) from None
-        if option is GEOMETRY:
+        if option.name == GEOMETRY.name:
             raise click.BadParameter("--geometry gives the geometry")
         if option.name in read:
             raise click.BadParameter(f"{spelling} is given twice")

@@ -97,8 +97,9 @@ def test_an_option_without_effect_is_told(tmp_path: Path) -> None:
     config = ("--config", str(tmp_path / "satcheck.toml"), "--format", "json")
     codes = [issue["code"] for issue in satcheck(*config, *meshes).document["issues"]]
     assert "unused-option" in codes
-    (scene,) = (load_scene(meshes, reading={"chord_tolerance": 1.0}),)
+    scene = load_scene(meshes, reading={"chord-tolerance": 1.0})
     assert [issue.code for issue in scene.issues] == ["unused-option"]
+    assert scene.reading == {"chord_tolerance": 1.0}
 
 
 @pytest.mark.parametrize(
