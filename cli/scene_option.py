@@ -19,7 +19,8 @@ from satcheck.scene.units import MICROMETRES
 
 def _spelled_options() -> str:
     known = options().values()
-    return ", ".join(sorted(option.spelling for option, _ in known if option is not GEOMETRY))
+    spelled = sorted(option.spelling for option, _ in known if option is not GEOMETRY)
+    return f": {', '.join(spelled)}" if spelled else ""
 
 
 def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, OptionValue]:
@@ -70,7 +71,7 @@ reading = together(
         multiple=True,
         metavar="NAME=VALUE",
         callback=_read,
-        help=f"An option of the readers of some formats: {_spelled_options()}. Repeatable.",
+        help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
     ),
 )
 split = click.option(

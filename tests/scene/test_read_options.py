@@ -108,8 +108,14 @@ def test_an_option_without_effect_is_told(tmp_path: Path) -> None:
         (["flop=1"], "no reader has the option flop; there are"),
         (["time"], "should be NAME=VALUE"),
         (["geometry=visual"], "--geometry gives the geometry"),
-        (["chord-tolerance=1", "chord_tolerance=2"], "given twice"),
-        (["chord-tolerance=0"], "chord-tolerance: not '0', but how far facets may be off"),
+        pytest.param(
+            ["chord-tolerance=1", "chord_tolerance=2"], "given twice", marks=needs("step")
+        ),
+        pytest.param(
+            ["chord-tolerance=0"],
+            "chord-tolerance: not '0', but how far facets may be off",
+            marks=needs("step"),
+        ),
     ],
 )
 def test_what_is_wrong_on_the_command_line_is_said(given: list[str], said: str) -> None:
