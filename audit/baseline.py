@@ -30,9 +30,7 @@ from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
 from satcheck.report.values import Interval
 from satcheck.report.verdict import fails, summarise
-from satcheck.scene.files_read import Signature, note, signature
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import followed
+from satcheck.scene.opening import Signature, followed, note, read_whole, signature
 
 # Of the file of a baseline.
 MOST_BYTES = 1 << 28

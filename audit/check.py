@@ -37,7 +37,6 @@ from satcheck.report.report import (
     all_allowed,
 )
 from satcheck.report.verdict import summarise, truncated_of
-from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
     from satcheck.audit.joint_path.movers import JointMovers
@@ -161,7 +160,7 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
             seconds_per_file=settings.seconds_per_file,
             megabytes_per_file=settings.megabytes_per_file,
         )
-    scene = with_reach(scene)
+    scene = scene.reaching()
     if settings.planar is None:
         scene.require_in_space("add --planar xy")
         return scene

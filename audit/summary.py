@@ -109,8 +109,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
 
 def stated_reading(scene: Scene) -> StatedReading | None:
     """The options that count for the formats of the files in the scene."""
-    stated = stated_options(scene.reading, {body.file.format for body in scene.bodies})
-    return None if stated is None else StatedReading(**stated)
+    return stated_options(scene.reading, {body.file.format for body in scene.bodies})
 
 
 def stated_shape(shape: Shape | None) -> StatedShape | None:

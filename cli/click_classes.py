@@ -23,11 +23,11 @@ _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
     "What to check": "bodies pairs manifest shard exclude changed_since split merge planar units "
-    "allow_open package packages geometry purpose time mesh_hulls pose state "
+    "allow_open package packages geometry read pose state "
     "joint_path sample seed root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",
-    "Tolerances and rules": "clearance tolerance surface_tolerance chord_tolerance "
-    "angular_tolerance rules between baseline fail_on accept exit_zero pins",
+    "Tolerances and rules": "clearance tolerance surface_tolerance "
+    "rules between baseline fail_on accept exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",
     "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "

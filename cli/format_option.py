@@ -20,9 +20,9 @@ from satcheck.cli.formats.registry import (
 )
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import Document, Page
+from satcheck.core.plugins import failures
 from satcheck.report.json import document as json_document
 from satcheck.scene.files.readers import reader_of
-from satcheck.scene.plugins import failures
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

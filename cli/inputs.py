@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import click
+from click.core import ParameterSource
 from msgspec import Struct
 
 from satcheck.cli.formats.words import counted, issue_line
@@ -18,20 +19,18 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.files.nodes import Split
 from satcheck.scene.files.readers import (
-    DEFAULT_MEGABYTES_PER_FILE,
-    DEFAULT_SECONDS_PER_FILE,
+    GeometryKind,
     ReadLimits,
-    reader_of,
+    ReadOptions,
+    kind_of,
 )
-from satcheck.scene.input_kind import kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.paths import ANYWHERE, is_folder
-from satcheck.scene.read_options import (
-    ANGULAR_TOLERANCE,
-    GeometryKind,
-    Purpose,
-    ReadOptions,
+from satcheck.scene.opening import (
+    ANYWHERE,
+    DEFAULT_MEGABYTES_PER_FILE,
+    DEFAULT_SECONDS_PER_FILE,
+    is_folder,
 )
 
 # Issues about what has no body.
@@ -59,11 +58,7 @@ class Inputs(Struct, frozen=True):
     rules: tuple[Path, ...] = ()
     between: tuple[tuple[str, str], ...] = ()
     joint_path: str | None = None
-    time: float | None = None
-    purpose: tuple[Purpose, ...] = ()
-    mesh_hulls: bool = False
-    chord_tolerance: float | None = None
-    angular_tolerance: float = ANGULAR_TOLERANCE
+    read: ReadOptions = {}
     merge: bool = False
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
@@ -83,16 +78,6 @@ class Inputs(Struct, frozen=True):
         }
 
     @property
-    def reading(self) -> ReadOptions:
-        return ReadOptions(
-            time=self.time,
-            purpose=self.purpose or None,
-            mesh_hulls=self.mesh_hulls or None,
-            chord_tolerance=self.chord_tolerance,
-            angular_tolerance=self.angular_tolerance,
-        )
-
-    @property
     def load_options(self) -> LoadOptions:
         return LoadOptions(
             split=self.split,
@@ -103,7 +88,7 @@ class Inputs(Struct, frozen=True):
             units=self.units,
             rules=tuple(map(str, self.rules)),
             between=self.between,
-            reading=self.reading,
+            reading=self.read,
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,
         )
@@ -166,11 +151,9 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
-    if inputs.time is not None and not any(map(_may_have_times, paths)):
-        raise click.UsageError("--time is about USD files")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
-        scene = inputs.load_options.load(paths, hashed=hashed)
+        scene = inputs.load_options.load(paths, hashed=hashed, must_count=_typed(inputs.read))
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
@@ -191,10 +174,12 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     return scene
 
 
-def _may_have_times(path: str) -> bool:
-    """A scene may place a part of a file that has times."""
-    reader = reader_of(Path(path).suffix)
-    return kind_of(path) == "scene" or (reader is not None and "time" in reader.options)
+def _typed(read: ReadOptions) -> ReadOptions:
+    """Return the options of readers if the call gives them, and not a config file, which is about
+    other files, too."""
+    ctx = click.get_current_context(silent=True)
+    source = ctx and ctx.get_parameter_source("read")
+    return read if source is ParameterSource.COMMANDLINE else {}
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

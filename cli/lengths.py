@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import click
-from msgspec.structs import replace
 
 from satcheck.audit import Settings
 from satcheck.audit.request.in_units import length_in_units, settings_in_units
@@ -20,15 +19,6 @@ def length(text: str) -> Length:
         return parse_length(text)
     except ValueError as error:
         raise click.BadParameter(str(error)) from None
-
-
-def millimetres(text: str) -> float:
-    """A click parameter type: a length > 0 of which a plain number is in millimetres."""
-    given = length(str(text))
-    value = replace(given, unit=given.unit or "mm").in_units_of("mm")
-    if value == 0:
-        raise click.BadParameter(f"{text!r} should be more than 0")
-    return value
 
 
 def in_units_of(value: Length, declared: str | None, option: str) -> float:

@@ -5,28 +5,42 @@ Help lists the options of a group in the order of the group.
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import get_args
 
 import click
 
-from satcheck.cli.lengths import millimetres
 from satcheck.cli.option import DEFAULTS, seconds, together
-from satcheck.scene.files.readers import readers
-from satcheck.scene.paths import is_folder
-from satcheck.scene.read_options import (
-    ANGULAR_TOLERANCE,
-    GeometryKind,
-    Purpose,
-)
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
+from satcheck.scene.opening import is_folder
 from satcheck.scene.units import MICROMETRES
 
 
-def _chords() -> str:
-    """The chord tolerances of the formats that have one."""
-    formats = {r.title: r.chord for r in readers().values() if r.chord is not None}
-    return ", ".join(f"{title}: {chord:g}mm" for title, chord in formats.items())
+def _spelled_options() -> str:
+    known = options().values()
+    spelled = sorted(option.spelling for option, _ in known if option is not GEOMETRY)
+    return f": {', '.join(spelled)}" if spelled else ""
+
+
+def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, OptionValue]:
+    """The values of options of readers, by name."""
+    read: dict[str, OptionValue] = {}
+    for text in texts:
+        spelling, equals, value = text.partition("=")
+        if not equals:
+            raise click.BadParameter(f"{text!r} should be NAME=VALUE")
+        try:
+            option = option_named(spelling)
+            stated = option.parsed(value)
+        except SatcheckError as error:
+            raise click.BadParameter(error.message) from None
+        if option.name == GEOMETRY.name:
+            raise click.BadParameter("--geometry gives the geometry")
+        if option.name in read:
+            raise click.BadParameter(f"{spelling} is given twice")
+        read[option.name] = stated
+    return read
 
 
 SPLITS = ("nodes", "components", "none")
@@ -53,18 +67,11 @@ reading = together(
         help="The most memory for reading a mesh file; the file may be a quarter as large.",
     ),
     click.option(
-        "--chord-tolerance",
-        type=millimetres,
-        metavar="LENGTH",
-        help=f"How far facets of curved faces may be off [{_chords()}].",
-    ),
-    click.option(
-        "--angular-tolerance",
-        type=click.FloatRange(0, math.pi, min_open=True),
-        metavar="RADIANS",
-        default=ANGULAR_TOLERANCE,
-        show_default=True,
-        help="The largest angle between them.",
+        "--read",
+        multiple=True,
+        metavar="NAME=VALUE",
+        callback=_read,
+        help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
     ),
 )
 split = click.option(
@@ -126,39 +133,11 @@ package = click.option(
 )
 
 
-def _time(_: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
-    if value is not None and not math.isfinite(value):
-        raise click.BadParameter("a finite number", param=parameter)
-    return value
-
-
-# That choose between the geometries of a file.
-geometry = together(
-    click.option(
-        "--geometry",
-        type=click.Choice(get_args(GeometryKind)),
-        metavar="KIND",
-        help="collision (default: robots) or visual (default: USD).",
-    ),
-    click.option(
-        "--purpose",
-        multiple=True,
-        type=click.Choice(get_args(Purpose)),
-        metavar="NAME",
-        help="The drawn prims of USD: render (default), proxy, guide.",
-    ),
-    click.option(
-        "--time",
-        type=float,
-        metavar="TIME",
-        callback=_time,
-        help="The time code of USD files.",
-    ),
-    click.option(
-        "--mesh-hulls",
-        is_flag=True,
-        help="Check the hulls of MJCF meshes, as MuJoCo does.",
-    ),
+geometry = click.option(
+    "--geometry",
+    type=click.Choice(get_args(GeometryKind)),
+    metavar="KIND",
+    help="collision (default: robots) or visual (default: USD).",
 )
 # That pose robots.
 poses = together(

@@ -19,7 +19,7 @@ from satcheck.cli.commands import COMMANDS, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.files.readers import mesh_reader
-from satcheck.scene.paths import exists, is_file, is_folder
+from satcheck.scene.opening import exists, is_file, is_folder
 
 if TYPE_CHECKING:
     import click

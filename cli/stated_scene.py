@@ -18,10 +18,8 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.inspect import shape_file
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import Permitted
+from satcheck.scene.opening import Permitted, read_whole
 from satcheck.scene.planar.outline import shape_from
-from satcheck.scene.read_options import as_stated
 
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
@@ -38,9 +36,8 @@ def stated_scene(
 ) -> tuple[Scene, list[Issue]]:
     """The bodies that can be read, and what is not as it was when the report was made: a body
     whose file has changed is there as it is now. root: where the paths in the report start."""
-    reading = as_stated(to_builtins(report.reading))
     permitted = Permitted(anywhere=allow_outside)
-    files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
+    files = MeshFiles(ReadLimits(permitted=permitted, options=report.reading or {}))
     bodies: list[Body] = []
     issues: list[Issue] = []
     for entry in report.bodies:

@@ -16,6 +16,7 @@ from satcheck.plugins.sdf import places as sdf
 from satcheck.plugins.step import exchange as step
 from satcheck.plugins.usd import names as usd
 from satcheck.scene.files import gltf_colliders, gltf_document, threemf_vocabulary
+from satcheck.scene.files.readers import GEOMETRY, options
 from satcheck.scene.robot import srdf, urdf_places
 from satcheck.scene.robot.slips import Place
 from satcheck.scene.vocabulary import Names
@@ -72,7 +73,15 @@ def step_names() -> Iterator[str]:
     yield from _item("refused if the file has no other faces", step.TESSELLATED)
 
 
+def options_of_readers() -> Iterator[str]:
+    for option, titles in options().values():
+        if option is not GEOMETRY:
+            item = f"- `{option.spelling}` ({', '.join(titles)}): {option.help}"
+            yield from _WRAPPER.wrap(item)
+
+
 LISTS: Mapping[str, Callable[[], Iterator[str]]] = {
+    "options": options_of_readers,
     "gltf": gltf,
     "3mf": threemf,
     "urdf": urdf,

@@ -6,9 +6,9 @@ SDFormat; `scene.robot` poses them). A mesh file that cannot be used is reported
 warnings about the others are `Issue`s with the stable codes of `CODES`.
 """
 
+from satcheck.core.mesh_health import MeshHealth
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.errors import Refused
-from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import CODES, Code, Issue
 from satcheck.scene.loader import load_scene
 from satcheck.scene.mesh_files import MeshFiles

@@ -11,11 +11,9 @@ from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import mesh_reader, robots_of
+from satcheck.scene.files.readers import SCENE_SUFFIXES, is_robot, mesh_reader, robots_of
 from satcheck.scene.foreign_formats import is_foreign
-from satcheck.scene.input_kind import SCENE_SUFFIXES, is_robot
-from satcheck.scene.opening import size_of
-from satcheck.scene.paths import exists, is_folder
+from satcheck.scene.opening import exists, is_folder, size_of
 
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.

@@ -10,20 +10,27 @@ from msgspec import Struct
 
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
+from satcheck.core.mesh_health import MeshHealth
+from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
-from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
 from satcheck.scene.planar.outline import Outline, Shape
-from satcheck.scene.read_options import ReadOptions
-from satcheck.scene.resolution import FLOAT64_STEP
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
+    from satcheck.scene.files.readers import ReadOptions
     from satcheck.scene.robot import Posture, SceneRobot
     from satcheck.scene.robot.joint_path import JointPath
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
+# Coordinates in float64 are rounded where they are stored and where they were computed, at least by
+# a rotation R and a shift t: by u = 2^-53 of each of the products, of both sums of products, and of
+# the sum with t. Let c be the largest coordinate. A vertex p of a body that has the origin of its
+# own frame within its box is at most r = 2 sqrt(3) c from it. The products move the vertex by
+# at most u sqrt(3) r, as the squares of all entries of R sum up to 3, the sums by u (r + r), and
+# the last sum by u sqrt(3) c: by less than 16 u c in all.
+FLOAT64_STEP = 2.0**-49
 UNITS_UNKNOWN = "units-unknown"
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
@@ -113,6 +120,10 @@ class Body(Struct, frozen=True):
         return off * largest_stretch(given.transform)
 
 
+def is_half_space(body: Body) -> bool:
+    return isinstance(body.shape, HalfSpace)
+
+
 class Unreadable(Struct, frozen=True):
     """A body that could not be loaded, and why."""
 
@@ -154,9 +165,10 @@ class Scene(Struct, frozen=True):
     motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
     entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
-    reading: the options with which the files were read. body_rules: questions about the support of
-    single bodies. statics: gravity and friction, as stated; None: not stated. joint_path: along
-    which the robots move; they stand in its first pose. accept: issues that block no pass.
+    reading: the options that were given for reading the files. body_rules: questions about the
+    support of single bodies. statics: gravity and friction, as stated; None: not stated.
+    joint_path: along which the robots move; they stand in its first pose. accept: issues that block
+    no pass.
     """
 
     name: str
@@ -173,7 +185,7 @@ class Scene(Struct, frozen=True):
     entries: Mapping[str, Entry] = {}
     robots: tuple[SceneRobot, ...] = ()
     posture: Posture | None = None
-    reading: ReadOptions = ReadOptions()
+    reading: ReadOptions = {}
     body_rules: tuple[BodyRule, ...] = ()
     statics: StaticsTerms | None = None
     joint_path: JointPath | None = None
@@ -206,6 +218,15 @@ class Scene(Struct, frozen=True):
         if flat is not None:
             message = f"{flat.file.path}: {flat.id} is an outline, which is flat: {instead}"
             raise SatcheckError("planar-only", message)
+
+    def reaching(self, room: float = 1.0) -> Scene:
+        """Return the scene with half spaces that reach beyond its bodies. room: how many times as
+        far."""
+        if not any(map(is_half_space, self.bodies)):
+            return self
+        from satcheck.scene.half_spaces import with_reach
+
+        return with_reach(self, room)
 
     def in_order(self) -> list[Body | Unreadable]:
         """All bodies, readable or not. Bodies that `order` does not name come last."""

@@ -15,9 +15,8 @@ from xml.sax.saxutils import escape
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
-from satcheck.scene.files.readers import readers
-from satcheck.scene.input_kind import SCENE_SUFFIXES, robot_endings
-from satcheck.scene.paths import followed
+from satcheck.scene.files.readers import SCENE_SUFFIXES, readers, robot_endings
+from satcheck.scene.opening import followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))

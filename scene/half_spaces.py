@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from satcheck.core import largest_stretch
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
-from satcheck.scene.bodies import IDENTITY, Body, Scene
+from satcheck.scene.bodies import IDENTITY, Body, Scene, is_half_space
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.motion import Motion, PosePath, Rotation
 
@@ -32,17 +32,11 @@ _ROOM = 6.0
 _LARGEST = 2.0**146  # a placed body reaches no farther than 2e44
 
 
-def is_half_space(body: Body) -> bool:
-    return isinstance(body.shape, HalfSpace)
-
-
 def with_reach(scene: Scene, room: float = 1.0) -> Scene:
     """The scene with blocks that reach beyond its bodies: as they are placed, in all poses that the
     limits of their joints allow, and on their ways. Blocks that do so already stay. room: how many
     times as far they reach."""
     floors = [body for body in scene.bodies if is_half_space(body)]
-    if not floors:
-        return scene
     radius = room * _radius_of(scene)
     fitted = {body.id: _fitted(body, radius) for body in floors}
     if all(fitted[body.id] is body for body in floors):

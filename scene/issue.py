@@ -11,6 +11,7 @@ from typing import Literal
 from msgspec import Struct
 
 Severity = Literal["error", "warning", "note"]
+UNUSED_OPTION = "unused-option"
 
 
 class Code(Struct, frozen=True):
@@ -128,6 +129,7 @@ _ALL = (
     Code("bad-rule", "error", "A rule of a scene is malformed or has no effect."),
     Code("bad-motion", "error", "A motion of a scene is malformed, or moves a body twice."),
     Code("unknown-key", "warning", "A key at the top of the scene is unknown.", blocks=True),
+    Code(UNUSED_OPTION, "note", "No reader of the files has an option that is given."),
     Code("up-axis", "note", "The file says which axis points up: that turns nothing."),
     Code(
         "axes-unclear",

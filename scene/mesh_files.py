@@ -10,7 +10,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -19,27 +19,35 @@ from msgspec.structs import replace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.document import Document, FilePart, Item
+from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.nodes import Split, document_of
-from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import (
+    GEOMETRY,
     File,
+    GeometryKind,
     NeedsChild,
     ReadLimits,
     RobotFile,
     read,
     reader_named,
     reader_of,
+    required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import errors_of, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, size_of
-from satcheck.scene.paths import StrPath, suffix_of
-from satcheck.scene.plain_ids import COMPONENT_MARK, HULL_MARK
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.opening import (
+    LARGE_FILE_BYTES,
+    FilesRead,
+    StrPath,
+    files_read,
+    note,
+    note_lost_reader,
+    open_file,
+    size_of,
+    suffix_of,
+)
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -60,6 +68,7 @@ class MeshFiles:
         known: KnownMeshes | None = None,
     ) -> None:
         self.allowed = allowed
+        self._terms = allowed.key
         self._known = known
         self._made: dict[Hashable, Any] = {}
 
@@ -70,7 +79,7 @@ class MeshFiles:
 
     def close(self) -> None:
         # An error that is kept holds this object in a cycle, which may live for long.
-        if self._known is None:
+        if self._known is None and "_children" in vars(self):
             self._children.close()
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
@@ -78,7 +87,7 @@ class MeshFiles:
         key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
-            load = partial(self._known.recall, (path, key, self.allowed), load)
+            load = partial(self._known.recall, (path, key, *self._terms), load)
         made: Document | Refused = self._once(key, load)
         return made
 
@@ -93,10 +102,10 @@ class MeshFiles:
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), errors_of(path):
-            file = open_file(path, location, self.allowed, whole=split == "none")
+            file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
             return document_of(file, self._read(file), split)
 
-    def _read(self, file: File) -> RawScene:
+    def _read(self, file: File) -> Document:
         """In this process, or in the child process, as its reader says."""
         reader = reader_named(file.format)
         if reader is not None and file.size <= reader.here:
@@ -105,7 +114,7 @@ class MeshFiles:
         if reader is not None and reader.by_name:
             file = replace(file, data=b"")
         place = f"{read.__module__}:{read.__name__}"
-        return read_in_child(file, place, RawScene, self._children, self.allowed)
+        return read_in_child(file, place, Document, self._children, self.allowed)
 
     def item(self, named: FilePart) -> Item:
         """Return one body of a file. A part may end in "#" and the number of a component, or in the
@@ -131,14 +140,14 @@ class MeshFiles:
         hint = meant(part, filter(None, by_path))
         message = f"there is no part {part!r} in the file{hint}"
         reader = reader_of(suffix_of(location))
-        if reader is not None and "geometry" in reader.options:
-            message += "; --geometry, --purpose and `reading` of a scene choose its parts"
+        if reader is not None and GEOMETRY in reader.options:
+            message += "; --geometry, --read and `reading` of a scene choose its parts"
         return Item(Refused("unknown-part", message, file=path), part)
 
     def mesh(self, named: FilePart) -> MeshFile | Refused:
         """Return the mesh of a file, or of a part of it."""
         shape = self.item(named).shape
-        assert not isinstance(shape, FilePart)  # a file names parts of others, or has its own
+        assert not isinstance(shape, FilePart | int)  # a file names parts of others, or has its own
         return shape if isinstance(shape, MeshFile | Refused) else self.shape(shape, named.path)
 
     def _hull(self, named: FilePart) -> Item:
@@ -160,6 +169,13 @@ class MeshFiles:
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
 
+    def options(self) -> set[str]:
+        """Return the names of the options that count for the files that are read."""
+        keys = (key for key in self._made if isinstance(key, tuple))
+        suffixes = {suffix_of(place) for place, *_ in keys if isinstance(place, str)}
+        readers = filter(None, map(reader_of, suffixes))
+        return {option.name for reader in readers for option in reader.options}
+
     def read_ahead(self, given: Iterable[tuple[str, StrPath]]) -> None:
         """Reads the large ones of these files in parallel, as a whole.
 
@@ -173,25 +189,13 @@ class MeshFiles:
         }
         if len(waiting) < 2 or is_careful():
             return
-        queue = list(waiting.values())
+        from concurrent.futures import ThreadPoolExecutor
 
-        def read() -> None:
-            while queue:
-                try:
-                    self.document(*queue.pop(), "none")
-                except Exception:  # noqa: BLE001 reported when the file is used
-                    continue
-
-        threads: list[Thread] = []
-        try:
-            for _ in range(min(len(queue), os.cpu_count() or 1)):
-                thread = Thread(target=read)
-                thread.start()
-                threads.append(thread)
-        except RuntimeError:
-            pass  # no further threads: the remaining files are read when they are used
-        for thread in threads:
-            thread.join()
+        # Without a further thread the remaining files are read when they are used. An error of a
+        # file, too, is reported then.
+        with suppress(RuntimeError), ThreadPoolExecutor(os.cpu_count()) as pool:
+            for path, location in waiting.values():
+                pool.submit(self.document, path, location, "none")
 
     def robot(
         self,

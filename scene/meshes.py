@@ -11,11 +11,10 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import MeshLike, arrays_of, numbers, refused, require_finite
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
+from satcheck.scene.document import NumberFormat, RawMesh
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import NumberFormat, RawMesh
 from satcheck.scene.files.readers import File
-from satcheck.scene.inspect import mesh_file
-from satcheck.scene.resolution import STEPS
+from satcheck.scene.inspect import STEPS, mesh_file
 
 if TYPE_CHECKING:
     import numpy as np

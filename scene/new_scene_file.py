@@ -15,18 +15,17 @@ from msgspec import to_builtins
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
-from satcheck.scene.common_units import scaled_mesh, scaled_world
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation, Waypoint
-from satcheck.scene.paths import followed, is_file
+from satcheck.scene.opening import followed, is_file
 from satcheck.scene.rules import PLACE, Rule, Selector
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
 from satcheck.scene.scene_file.text import is_toml
 from satcheck.scene.statics import BodyRule, stated_terms
-from satcheck.scene.units import ratio, stated_unit, unit_in
+from satcheck.scene.units import ratio, scaled_mesh, scaled_world, stated_unit, unit_in
 
 Vector = tuple[float, float, float]
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -62,12 +61,12 @@ def new_scene_file(
                     static=body.static,
                 )
             )
-    of_formats = options_of({body.file.format for body in scene.bodies})
-    reading = document.Reading(**scene.reading.changed(of_formats))
+    counting = options_of({body.file.format for body in scene.bodies})
+    reading = {name: value for name, value in scene.reading.items() if name in counting}
     stated = document.Scene(
         schema=SCENE_1,
         units=scene.units or None,
-        reading=reading if reading.stated() else None,
+        reading=document.Reading(**reading) if reading else None,
         check_static=scene.check_static and any(body.static for body in scene.in_order()),
         ignore_within_groups=tuple(sorted(scene.ignore_within_groups)),
         accept=tuple(each.text for each in scene.accept if each.about is None),

@@ -1,5 +1,12 @@
-"""Opens the files of inputs: regular files only, no larger than a limit, each noted for whoever
-keeps results. Of a mesh file it reads the bytes once, hashes them, and checks suffix and content.
+"""The files of inputs: what is there, which files an input may name, and how they are opened.
+
+Only regular files are opened, no larger than a limit. Whatever opens an input, or asks whether it
+is there, notes it for callers that keep results of a check; nothing depends on whether anybody
+listens. A child process cannot note for its parent: its answer names what it has read. Of a mesh
+file the bytes are read once, hashed, and its suffix and content are checked.
+
+`Path.is_dir` and its siblings raise OSError for a name that is too long, and for one in a folder
+that may not be searched. Those here say no, and whatever reads or writes the path says why.
 """
 
 from __future__ import annotations
@@ -8,22 +15,272 @@ import codecs
 import hashlib
 import os
 import stat
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from io import BufferedReader, FileIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+from msgspec import Struct
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import (
-    KINDS,
-    File,
-    Reader,
-    ReadLimits,
-    mesh_reader,
-    reader_of,
-    readers,
+from satcheck.scene.files import limits
+
+if TYPE_CHECKING:
+    from satcheck.scene.files.readers import Reader, ReadOptions
+
+    Block = bytes | memoryview
+else:
+    Block = memoryview  # the type that msgspec decodes to
+
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
+
+# With folders that hold packages, models or files.
+_VARIABLES = (
+    "ROS_PACKAGE_PATH",
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
 )
-from satcheck.scene.files_read import note
-from satcheck.scene.paths import StrPath, suffix_of
-from satcheck.scene.plugins import failures
+_AMENT = "AMENT_PREFIX_PATH"  # the packages are in `share` of its folders
+
+StrPath = str | os.PathLike[str]
+is_folder = os.path.isdir
+is_file = os.path.isfile
+exists = os.path.exists
+
+
+def name_of(path: StrPath) -> tuple[str, str]:
+    """Return the stem and the suffix of the last name, as `Path` does in ten times the time."""
+    name = os.path.basename(os.fspath(path).rstrip("/"))  # noqa: PTH119
+    dot = name.rfind(".")
+    return (name[:dot], name[dot:]) if 0 < dot < len(name) - 1 else (name, "")
+
+
+def suffix_of(path: StrPath) -> str:
+    return name_of(path)[1]
+
+
+def followed(path: Path) -> Path:
+    """The path without links. `Path.resolve` raises for a path that leads in a circle, and for one
+    that no system accepts. Here they stay as they are: they cannot be opened."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError:
+        return path.absolute()
+
+
+def search_path() -> tuple[str, ...]:
+    """The values of these variables."""
+    return tuple(os.environ.get(name, "") for name in (_AMENT, *_VARIABLES))
+
+
+def folders_of_environment() -> list[Path]:
+    ament, *others = (text.split(os.pathsep) for text in search_path())
+    plain = [Path(entry) for entries in others for entry in entries if entry]
+    return plain + [Path(entry) / "share" for entry in ament if entry]
+
+
+class Permitted(Struct, frozen=True):
+    """A file may name what lies in its own folder, and in these folders, which are without links.
+
+    anywhere: all other files too.
+    """
+
+    folders: tuple[str, ...] = ()
+    anywhere: bool = False
+
+    @classmethod
+    def around(
+        cls,
+        paths: Iterable[str | Path],
+        given: Sequence[str | Path],
+        *,
+        anywhere: bool = False,
+    ) -> Self:
+        """given: folders that the user named. Those count that one of these files lies in, so that
+        no answer depends on what else is checked."""
+        if anywhere or not given:
+            return cls(anywhere=anywhere)
+        places = [followed(Path(path).parent) for path in paths]
+        folders = dict.fromkeys(followed(Path(folder)) for folder in given)
+        around = [each for each in folders if any(place.is_relative_to(each) for place in places)]
+        return cls(tuple(sorted(map(str, around))))
+
+    def has(self, place: Path, own: Path) -> bool:
+        """own: the folder of the file that names it, without links."""
+        if self.anywhere:
+            return True
+        real = followed(place)
+        return real.is_relative_to(own) or any(map(real.is_relative_to, self.folders))
+
+    def beyond(self, own: str) -> str:
+        """Return where a file lies that is not permitted. own: the folder in words."""
+        given = " and ".join(self.folders)
+        return f"outside {own}, and of {given}" if given else f"outside {own}"
+
+
+NOTHING_ELSE = Permitted()
+ANYWHERE = Permitted(anywhere=True)
+
+
+# Of a file: what changes when its content does; the last two are times. None: nothing is there, or
+# nobody may look.
+Signature = tuple[int, ...] | None
+# A file that changed this recently may change again within the grain of its times.
+_GRAIN_NS = 2_000_000_000
+_status = os.stat
+
+
+class FilesRead:
+    """The files that a check has read or looked for, in that order. `folder/` stands for the names
+    of the folders in it."""
+
+    def __init__(self) -> None:
+        self._signatures: dict[str, Signature] = {}
+        self._lost = False
+        self._began_ns = time.time_ns()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._signatures)
+
+    def signature(self, name: str) -> Signature:
+        """When it was noted."""
+        return self._signatures[name]
+
+    def add(self, name: str) -> None:
+        if name not in self._signatures:
+            self._signatures[name] = signature(name)
+
+    def lose(self) -> None:
+        self._lost = True
+
+    def are_certain(self) -> bool:
+        """Whether these are all files, and none has changed since it was noted."""
+        known = self._signatures.items()
+        return not self._lost and all(signature(name) == at for name, at in known)
+
+    def are_settled(self) -> bool:
+        """Whether they are certain, and each later change will show in a signature."""
+        return all(map(self.is_settled, self)) and self.are_certain()
+
+    def is_settled(self, name: str) -> bool:
+        at = self._signatures[name]
+        return at is None or max(at[-2:]) < self._began_ns - _GRAIN_NS
+
+    def note_again(self) -> None:
+        for name in self:
+            note(name)
+
+
+_listening: list[FilesRead] = []
+
+
+def note(location: str | Path) -> None:
+    """location: of a file that the answer depends on, even if it is not there."""
+    for listener in _listening:
+        listener.add(str(location))
+
+
+def note_folders_in(folder: Path) -> None:
+    """The answer depends on the names of the folders in this one."""
+    note(f"{folder}/")
+
+
+def note_lost_reader() -> None:
+    """A process died that may have read files which nobody knows."""
+    for listener in _listening:
+        listener.lose()
+
+
+@contextmanager
+def files_read() -> Iterator[FilesRead]:
+    """The files noted while it lasts."""
+    files = FilesRead()
+    _listening.append(files)
+    try:
+        yield files
+    finally:
+        _listening.remove(files)
+
+
+def signature(name: str) -> Signature:
+    try:
+        status = _status(name)
+    except (OSError, ValueError):
+        return None
+    return (
+        status.st_dev,
+        status.st_ino,
+        status.st_mode,
+        status.st_size,
+        status.st_mtime_ns,
+        status.st_ctime_ns,
+    )
+
+
+class File(Struct, frozen=True):
+    """A file that is open for a reader. It can be sent to a child process.
+
+    directory: that its references are relative to. name: in the directory. data: its bytes, text as
+    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
+    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
+    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
+    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
+    packages: of a robot, see `robot.FilePlaces`. options: all that its reader declares, by name.
+    """
+
+    format: str
+    directory: str
+    name: str
+    data: Block
+    size: int
+    options: Mapping[str, Any] = {}
+    whole: bool = False
+    permitted: Permitted = NOTHING_ELSE
+    isolated: bool = False
+    path: str = ""
+    sha256: str | None = None
+    packages: Mapping[str, str] = {}
+
+    @property
+    def location(self) -> Path:
+        return Path(self.directory, self.name)
+
+    @property
+    def in_pieces(self) -> bool:
+        """Return whether the data are the first bytes alone."""
+        return len(self.data) < self.size
+
+
+class ReadLimits(Struct, frozen=True):
+    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+
+    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
+    options: those that are given, of any reader.
+    """
+
+    seconds: float = DEFAULT_SECONDS_PER_FILE
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+    permitted: Permitted = NOTHING_ELSE
+    hashed: bool = True
+    options: ReadOptions = {}
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Return what can be a key, the same for equal limits."""
+        limits = self.seconds, self.megabytes, self.permitted, self.hashed
+        return (*limits, *sorted(self.options.items()))
+
+    @property
+    def file_bytes(self) -> int:
+        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+
 
 STANDARD_INPUT = "-"
 _ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
@@ -35,12 +292,6 @@ _SPECIAL = (
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
 )
-# Relatives of the formats that are read, and what to do with them.
-_CONVERTIBLE = {
-    ".stpz": "it is a packed STEP file: unpack it and name the .stp file",
-    ".stpx": "it is STEP in XML: export a .stp file",
-    ".stpxz": "it is packed STEP in XML: export a .stp file",
-}
 # The longer marks first: the mark of UTF-32 begins like that of UTF-16.
 _WIDE_MARKS = (
     (codecs.BOM_UTF32_LE, "utf-32-le"),
@@ -140,23 +391,23 @@ def _too_large(most: int) -> Refused:
     return Refused("too-large", f"larger than {most >> 20} MiB, the most for such a file")
 
 
-def open_file(path: str, location: StrPath, allowed: ReadLimits, *, whole: bool = False) -> File:
+def open_file(
+    path: str,
+    location: StrPath,
+    find: Callable[[str], Reader],
+    allowed: ReadLimits,
+    *,
+    whole: bool = False,
+) -> File:
     """Return a mesh file as its reader takes it. Raises Refused, without a file name.
 
-    path: its name in messages and reports. location: on disk. Only a file whose suffix is that of a
-    reader is opened. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
+    path: its name in messages and reports. location: on disk. find: returns the reader of a suffix,
+    or raises Refused. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
     are read here: its reader reads it in pieces. whole: see `File`.
     """
     size = size_of(location)
     most = allowed.file_bytes
-    suffix = suffix_of(location)
-    reader = reader_of(suffix)
-    if reader is None:
-        known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
-        hint = _CONVERTIBLE.get(suffix.lower(), known)
-        failed = failures("readers", KINDS)
-        message = f"unsupported format {suffix!r}: {hint}{failed}"
-        raise Refused("unsupported-format", message)
+    reader = find(suffix_of(location))
     _refuse_large(size, most)
     try:
         in_pieces = reader.name == "stl" and not allowed.hashed
@@ -182,7 +433,7 @@ def open_file(path: str, location: StrPath, allowed: ReadLimits, *, whole: bool 
         name,
         data,
         size,
-        allowed.options,
+        reader.values(allowed.options),
         whole,
         permitted=allowed.permitted,
         path=path,

@@ -8,13 +8,13 @@ read is refused as misspelt.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
 from msgspec import Struct
 
-from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import Refused
 from satcheck.scene.issue import Issue, issue
 
 # Two names of which so much is the same are one, misspelt: `colision`, `transfrom`.
@@ -44,7 +44,7 @@ class Names(Struct, frozen=True):
         file: str | None = None,
     ) -> Iterator[Issue]:
         """Yield an issue that blocks a pass for each name that nobody knows there, once. place:
-        `line 4: <link>`. Raises SatcheckError for a name that is misspelt."""
+        `line 4: <link>`. Raises Refused for a name that is misspelt."""
         for name in dict.fromkeys(names):
             if self.knows(name):
                 continue
@@ -55,13 +55,13 @@ class Names(Struct, frozen=True):
     def refuse_misspelt(
         self, names: Iterable[str], place: str, *, body: str | None = None, file: str | None = None
     ) -> None:
-        """Raises SatcheckError for the first name that is misspelt. Where a format lets everybody
+        """Raises Refused for the first name that is misspelt. Where a format lets everybody
         write names of their own, the others are harmless."""
         for name in names:
             near = [] if self.knows(name) else self._near(name)
             if near:
                 message = f"{place}: unknown {name} (did you mean {near[0]}?)"
-                raise SatcheckError("misspelt", message, file=file, body=body)
+                raise Refused("misspelt", message, file=file, body=body)
 
     def _near(self, name: str) -> list[str]:
         """Return the name that is read and resembles it most. Capitals do not count, and short
@@ -71,3 +71,38 @@ class Names(Struct, frozen=True):
         swapped = [known for known in read if sorted(known) == sorted(low)]
         near = swapped[:1] or get_close_matches(low, read, 1, self.alike)
         return [read[each] for each in near]
+
+
+class UnknownNames:
+    """Unknown names, each once for a kind of place, with its first place."""
+
+    def __init__(self) -> None:
+        self._messages: dict[tuple[str, str], str] = {}
+        self._counts: dict[tuple[str, str], int] = {}
+
+    def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
+        """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
+        Raises Refused for a misspelt name."""
+        if names.read.issuperset(found):
+            return
+        for name in found:
+            key = kind, name
+            if key in self._counts:
+                self._counts[key] += 1
+                continue
+            for unread in names.unread([name], place):
+                self.note(key, unread.message)
+
+    def note(self, key: tuple[str, str], message: str) -> None:
+        """Take something that blocks a pass and is no single name. key: what is named once."""
+        if key not in self._counts:
+            self._messages[key] = message
+        self._counts[key] = self._counts.get(key, 0) + 1
+
+    def warnings(self) -> tuple[tuple[str, str], ...]:
+        """Return (code, message) for each name."""
+        return tuple(
+            ("unread", message + (f" ({count} times)" if count > 1 else ""))
+            for key, message in self._messages.items()
+            for count in (self._counts[key],)
+        )

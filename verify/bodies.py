@@ -19,14 +19,13 @@ from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
 from satcheck.scene.document import FilePart
-from satcheck.scene.files.readers import ReadLimits
+from satcheck.scene.files.readers import ReadLimits, ReadOptions
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.paths import Permitted
+from satcheck.scene.opening import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
-from satcheck.scene.read_options import ReadOptions
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Point, Rejected, point, sub
 from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
@@ -132,7 +131,7 @@ class Bodies:
         *,
         allow_open: bool = False,
         allow_outside: bool = False,
-        reading: ReadOptions = ReadOptions(),  # noqa: B008  it is frozen
+        reading: ReadOptions = {},  # noqa: B006  nobody changes it
     ) -> None:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)

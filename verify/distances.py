@@ -18,7 +18,7 @@ from satcheck.report.certificate import Certificate
 from satcheck.report.judge import named
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
-from satcheck.scene.health import MOST_AROUND
+from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot

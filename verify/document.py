@@ -7,7 +7,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET, to_builtins
+from msgspec import UNSET
 
 from satcheck._version import __version__
 from satcheck.report.report import (
@@ -21,7 +21,6 @@ from satcheck.report.report import (
 from satcheck.report.request import Request, request_of
 from satcheck.report.rule_book import RuleBook
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
-from satcheck.scene.read_options import as_stated
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.coverage import CERTIFIED, uncovered
@@ -96,7 +95,7 @@ class _Report:
             root,
             allow_open=report.settings.allow_open,
             allow_outside=allow_outside,
-            reading=as_stated(to_builtins(report.reading)),
+            reading=report.reading or {},
         )
         placed = reader.place_all(report.bodies, report.settings.planar)
         self.bodies = {body.id: body for body in placed}

@@ -24,7 +24,7 @@ from satcheck.report.verdict import summarise
 from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
-from satcheck.scene.paths import exists, is_folder
+from satcheck.scene.opening import exists, is_folder
 
 # Why a file that is as it should be has no body that can collide.
 _NO_BODY = "no-body"

@@ -17,8 +17,7 @@ from satcheck._version import __version__
 from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.report.assets import InputFile
-from satcheck.scene.files_read import FilesRead, Signature
-from satcheck.scene.paths import Permitted, search_path
+from satcheck.scene.opening import FilesRead, Permitted, Signature, search_path
 
 _MOST_DIGESTS = 5_000
 _BLOCK_BYTES = 1 << 18

@@ -17,8 +17,7 @@ from satcheck.core.curved.placed import CurvedShape, curved_shape
 from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
-from satcheck.scene.bodies import resolution_in_world
-from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.bodies import is_half_space, resolution_in_world
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError

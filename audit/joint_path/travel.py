@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.scene import Scene
-from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.bodies import is_half_space
 from satcheck.scene.robot import Joint, JointPath
 from satcheck.scene.robot.kinematics import link_frames, motion, placements, poses_of, within
 

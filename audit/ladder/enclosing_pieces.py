@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.scene.health import MOST_AROUND
+from satcheck.scene.inspect import MOST_AROUND
 
 if TYPE_CHECKING:
     from satcheck.core.conventions import Vector

@@ -21,7 +21,6 @@ from satcheck.audit.resolve.pair_state import PairState, state_of
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.half_spaces import with_reach
 
 if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
@@ -55,7 +54,7 @@ class Layout:
         """settings: they ask for the depth. meter: needed where rules limit the volume of
         overlaps."""
         self._meter = meter
-        self._bodies = place(with_reach(scene, room=ROOM), settings)
+        self._bodies = place(scene.reaching(ROOM), settings)
         self._planner = Planner(settings, self._bodies.book, scene.composed)
         self._index = sorted(self._bodies.placed, key=self._bodies.ids.__getitem__)
         self.home = [self._bodies.placed[index] for index in self._index]

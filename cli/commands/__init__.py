@@ -1,5 +1,5 @@
 """The registry of sub-commands. Those of this package are a file each: `command` in the module of
-its name is the click command. Plug-ins and other packages register theirs (`scene/plugins.py`)."""
+its name is the click command. Plug-ins and other packages register theirs (`core/plugins.py`)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 from msgspec import Struct
 
-from satcheck.scene.plugins import function_at, others, own
+from satcheck.core.plugins import function_at, others, own
 
 if TYPE_CHECKING:
     import click

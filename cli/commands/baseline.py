@@ -23,7 +23,7 @@ from satcheck.cli.stated_scene import read_report
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
-from satcheck.scene.paths import exists
+from satcheck.scene.opening import exists
 
 file_argument = click.argument("file", metavar="BASELINE", type=click.Path(path_type=Path))
 reports_argument = click.argument(

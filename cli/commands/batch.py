@@ -33,9 +33,9 @@ from satcheck.cli.output import talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.worlds import asset_names, check_options, tell_foreign
 from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import function_at
 from satcheck.report.assets import ASSET_VERDICTS, AssetVerdict, worst_verdict
 from satcheck.scene.asset_files import NO_ASSETS
-from satcheck.scene.plugins import function_at
 
 # What is about one world, or about one report.
 _NOT_HERE = (

@@ -24,7 +24,7 @@ from satcheck.cli.progress import Bar
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.input_kind import SCENE_SUFFIXES, kind_of
+from satcheck.scene.files.readers import SCENE_SUFFIXES, kind_of
 from satcheck.scene.loader import is_rules
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file, stray_mesh
 from satcheck.scene.units import Length
@@ -166,7 +166,7 @@ def _written(
             [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
-            reading=inputs.reading,
+            reading=inputs.read,
             geometry=inputs.geometry,
         )
     except SatcheckError:

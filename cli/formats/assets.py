@@ -30,7 +30,7 @@ from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, worst_verd
 from satcheck.report.assets import counted as counts_of
 from satcheck.report.json import render_assets
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
-from satcheck.scene.paths import is_folder
+from satcheck.scene.opening import is_folder
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.ci.problems import Problem

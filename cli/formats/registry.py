@@ -1,6 +1,6 @@
 """The registry of formats: in what a report is written.
 
-Plug-ins and other packages register their formats as those here are (`scene/plugins.py`). What
+Plug-ins and other packages register their formats as those here are (`core/plugins.py`). What
 writes a format is imported when a report is written in it.
 """
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
 from msgspec import Struct
 
-from satcheck.scene.plugins import function_at, others, own
+from satcheck.core.plugins import function_at, others, own
 
 if TYPE_CHECKING:
     from satcheck.report.report import Report

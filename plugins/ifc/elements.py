@@ -12,9 +12,8 @@ from typing import Any
 
 from msgspec import Struct
 
+from satcheck.scene.document import Refusal, UniqueNames
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import Refusal
-from satcheck.scene.plain_ids import UniqueNames
 
 _BODIES = ("IfcElement", "IfcProxy")
 # A projection adds material to its host, and the kernel does not join it.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -16,10 +16,8 @@ from msgspec import Struct
 from satcheck.core.transform import Transform
 from satcheck.plugins.ifc.elements import curved_bodies, material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in, logged
-from satcheck.plugins.ifc.readers import CHORD
-from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.raw_mesh import NO_SURFACE, RawMesh, Refusal
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.document import NO_SURFACE, RawMesh, Refusal
+from satcheck.scene.files.nodes import concatenate
 
 UNITS = "m"  # the kernel converts all lengths
 _METRES = 1e-3  # of a millimetre
@@ -41,7 +39,7 @@ class Shape(Struct, frozen=True):
 
 
 def shapes_of(
-    model: Any, bodies: Sequence[Any], options: ReadOptions
+    model: Any, bodies: Sequence[Any], options: Mapping[str, Any]
 ) -> dict[int, Shape | Refusal]:
     """The number of each instance -> its shape, or why it has none."""
     made: dict[int, list[_Made]] = {body.id(): [] for body in bodies}
@@ -53,20 +51,20 @@ def shapes_of(
             made[element.id].append((geometry.verts_buffer, geometry.faces_buffer, matrix))
     failures = failures_in(model, logged(), made)
     curved = curved_bodies(model, bodies)
-    chord = options.chord(CHORD) * _METRES
+    chord = options["chord_tolerance"] * _METRES
     return {
         number: _whole(body, made[number], failures, decimals, chord if number in curved else 0.0)
         for number, body in ((body.id(), body) for body in bodies)
     }
 
 
-def _elements(model: Any, bodies: Sequence[Any], options: ReadOptions) -> Iterator[Any]:
+def _elements(model: Any, bodies: Sequence[Any], options: Mapping[str, Any]) -> Iterator[Any]:
     """The shapes of the representations of the bodies, as the kernel finishes them."""
     from ifcopenshell import geom
 
     settings = geom.settings()
-    settings.set("mesher-linear-deflection", options.chord(CHORD) * _METRES)
-    settings.set("mesher-angular-deflection", options.angular_tolerance)
+    settings.set("mesher-linear-deflection", options["chord_tolerance"] * _METRES)
+    settings.set("mesher-angular-deflection", options["angular_tolerance"])
     settings.set("no-normals", True)
     settings.set("apply-default-materials", False)
     threads = min(os.cpu_count() or 1, _MOST_THREADS)

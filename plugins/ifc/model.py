@@ -14,7 +14,7 @@ from msgspec import Struct
 from satcheck.plugins.ifc.elements import declared, instances_of
 from satcheck.plugins.ifc.failures import Message, logged, start_log
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
+from satcheck.scene.files.readers import imported
 from satcheck.scene.files.zip_guard import open_part, opened_zip
 
 _ZIP = b"PK\x03\x04"

@@ -14,19 +14,17 @@ from typing import Any
 from satcheck.plugins.ifc.elements import Elements, elements_of, groups_of, instances_of, path_names
 from satcheck.plugins.ifc.kernel import UNITS, Shape, shapes_of
 from satcheck.plugins.ifc.model import open_model
-from satcheck.plugins.ifc.readers import CHORD
 from satcheck.plugins.ifc.relations import relations_of
+from satcheck.scene.document import Document, Item, RawMesh, RawPart, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
-from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.words import listed
 
 _LONGEST_NAME = 60
 
 
-def read_ifc(file: File) -> RawScene:
+def read_ifc(file: File) -> Document:
     """Return the bodies in metres, z up, sorted by GlobalId. Raises Refused without a file
     name."""
     model = open_model(memoryview(file.data))
@@ -40,7 +38,7 @@ def read_ifc(file: File) -> RawScene:
     rules, named = relations_of(model, bodies, paths, shapes)
     groups = groups_of(model, bodies)
     parts: list[RawPart] = []
-    nodes: list[RawNode] = []
+    nodes: list[Item] = []
     places: dict[RawMesh, int] = {}  # bodies with the same mesh share a part
     for body in bodies:
         number, shape, matrix = body.id(), shapes[body.id()], None
@@ -52,9 +50,9 @@ def read_ifc(file: File) -> RawScene:
             if part == len(parts):
                 parts.append(RawPart(paths[number], shape.mesh))
         of_body = (*groups[number], *named.get(number, ()))
-        nodes.append(RawNode(paths[number], part, matrix, _title(body), of_body))
+        nodes.append(Item(part, paths[number], matrix, _title(body), of_body))
     said = remarks_on(model, elements, shapes, file.options)
-    return RawScene(tuple(parts), tuple(nodes), tuple(said), UNITS, rules)
+    return Document(tuple(parts), tuple(nodes), tuple(said), UNITS, rules)
 
 
 def _title(body: Any) -> str:
@@ -66,7 +64,7 @@ def remarks_on(
     model: Any,
     elements: Elements,
     shapes: Mapping[int, Shape | Refusal],
-    options: ReadOptions,
+    options: Mapping[str, Any],
 ) -> Iterator[tuple[str, str]]:
     """(code, message) of each. shapes: of the bodies."""
     left_out = [*_counts(elements.left_out), *_wholes(elements)]
@@ -84,7 +82,7 @@ def remarks_on(
         yield (
             "faceted",
             f"curved surfaces of {count} bodies are checked as facets, up to about "
-            f"{options.chord(CHORD):g} mm off (--chord-tolerance)",
+            f"{options['chord_tolerance']:g} mm off (--read chord-tolerance)",
         )
 
 

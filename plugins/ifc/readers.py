@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader
+from satcheck.scene.files.readers import Reader, facets
 
 CHORD = 1.0  # millimetres: buildings are drawn to about that
 
@@ -13,9 +13,8 @@ READERS = (
         (".ifc", ".ifczip", ".ifcxml"),
         "satcheck.plugins.ifc.reader:read_ifc",
         kind="document",
-        options=("chord_tolerance", "angular_tolerance"),
+        options=facets(CHORD),
         marks=(b"ISO-10303-21;", b"PK\x03\x04"),
         text="own",
-        chord=CHORD,
     ),
 )

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from satcheck.plugins.ifc.elements import instances_of, parts_of
 from satcheck.plugins.ifc.kernel import Shape
-from satcheck.scene.files.raw_mesh import RawRule, Refusal, RuleSeverity
+from satcheck.scene.document import RawRule, Refusal, RuleSeverity
 
 _NOTE: RuleSeverity = "note"
 _BARS, _CONCRETE = "reinforcement", "reinforced"

@@ -9,13 +9,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.plugins.mjcf.readers import ENDING
+from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
-from satcheck.scene.files.raw_mesh import RawScene
-from satcheck.scene.files.readers import File, RobotFile
+from satcheck.scene.files.readers import File, RobotFile, imported, is_robot
 from satcheck.scene.files.reading_children import read_in_child
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.input_kind import is_robot
 from satcheck.scene.issue import Issue
 from satcheck.scene.robot.model import Robot
 
@@ -45,7 +43,7 @@ def read_mjcf(root: Element, robot: RobotFile) -> tuple[Robot, tuple[Issue, ...]
         location.name,
         b"",
         0,
-        replace(allowed.options, geometry=robot.geometry),
+        {**robot.options, "geometry": robot.geometry},
         permitted=allowed.permitted,
         path=path,
         packages={name: str(place) for name, place in robot.packages.items()},
@@ -62,7 +60,7 @@ def model(file: File) -> Answer:
     return robot_of(read, file.path, file.options)
 
 
-def own_meshes(file: File) -> RawScene:
+def own_meshes(file: File) -> Document:
     """Return the meshes that only MuJoCo reads, in the child process. Raises SatcheckError."""
     if not is_robot(file.location):
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"

@@ -17,10 +17,9 @@ import numpy as np
 
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.plugins.mjcf.files import ModelFiles
+from satcheck.scene.document import COMPONENT_MARK, Document, Item, RawMesh, RawPart, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File
-from satcheck.scene.plain_ids import COMPONENT_MARK
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import MeshReference
 from satcheck.scene.robot.packages import FilePlaces
@@ -229,12 +228,12 @@ def pose_of(at: Any, turn: Any) -> Transform:
     return placed(quaternion_matrix(x, y, z, w), numbers(at))
 
 
-def own_meshes_of(read: Compiled) -> RawScene:
+def own_meshes_of(read: Compiled) -> Document:
     """Return the meshes that only MuJoCo reads, in the coordinates of the compiled model. Raises
     Refused."""
     m = read.model
     parts: list[RawPart] = []
-    nodes: list[RawNode] = []
+    nodes: list[Item] = []
     for k in range(m.nmesh):
         name = m.mesh(k).name
         if name in read.refused or name in read.file_meshes:
@@ -242,11 +241,11 @@ def own_meshes_of(read: Compiled) -> RawScene:
         vertices = m.mesh_vert[m.mesh_vertadr[k] :][: m.mesh_vertnum[k]].astype("<f8")
         faces = m.mesh_face[m.mesh_faceadr[k] :][: m.mesh_facenum[k]].astype("<u4")
         mesh = RawMesh(vertices.tobytes(), faces.tobytes(), "float32", units="m")
-        nodes.append(RawNode(part_name(m, k), len(parts)))
+        nodes.append(Item(len(parts), part_name(m, k)))
         parts.append(RawPart(part_name(m, k), mesh))
     if not parts:
         raise Refused("unknown-part", "it has no mesh of its own")
-    return RawScene(tuple(parts), tuple(nodes))
+    return Document(tuple(parts), tuple(nodes))
 
 
 def part_name(model: Any, mesh: int) -> str:

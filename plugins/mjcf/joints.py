@@ -11,7 +11,7 @@ import numpy as np
 from satcheck.core.transform import Transform, compose, placed
 from satcheck.plugins.mjcf.compiling import Key, numbers
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.document import UniqueNames
 from satcheck.scene.robot.model import FREEDOMS, Joint, JointKind, Limits, Link
 
 _UNTURNED = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)

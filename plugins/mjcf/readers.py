@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader, RobotReader
+from satcheck.scene.files.readers import Option, Reader, RobotReader
 
 ENDING = ".xml"
+MESH_HULLS = Option("mesh_hulls", bool, "true: hulls of meshes, as in MuJoCo", False)
 
 READERS = (
     RobotReader(
-        "mjcf", "MJCF", (ENDING,), ("mujoco",), "satcheck.plugins.mjcf.child:read_mjcf", marks=()
+        "mjcf",
+        "MJCF",
+        (ENDING,),
+        ("mujoco",),
+        "satcheck.plugins.mjcf.child:read_mjcf",
+        marks=(),
+        options=(MESH_HULLS,),
     ),
     Reader(
         "mjcf",

@@ -7,7 +7,7 @@ unreadable body.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,10 +23,8 @@ from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, p
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal, UniqueNames
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.read_options import ReadOptions
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import Collision, Geometry, Link, MeshReference, Robot, State
 
@@ -34,7 +32,7 @@ _GEOM = mujoco.mjtGeom
 _FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
-def robot_of(read: Compiled, path: str, options: ReadOptions) -> Answer:
+def robot_of(read: Compiled, path: str, options: Mapping[str, Any]) -> Answer:
     """The robot, and issues. Raises Refused if a number is not finite.
 
     path: of the file. options: geometry: "collision": geoms whose contype or conaffinity is not 0,
@@ -45,13 +43,13 @@ def robot_of(read: Compiled, path: str, options: ReadOptions) -> Answer:
 
 
 class _Reader:
-    def __init__(self, read: Compiled, path: str, options: ReadOptions) -> None:
+    def __init__(self, read: Compiled, path: str, options: Mapping[str, Any]) -> None:
         m = self._model = read.model
         self._read = read
         self._path = path
-        self._geometry = options.geometry or "collision"
+        self._geometry = options["geometry"]
         is_solid = self._geometry == "collision"
-        self._hulls = bool(options.mesh_hulls) and is_solid
+        self._hulls = options["mesh_hulls"] and is_solid
         self._bodies = self._names("body", m.nbody)
         self._geoms = self._names("geom", m.ngeom)
         self._joints = self._names("joint", m.njnt)
@@ -178,7 +176,8 @@ class _Reader:
     def _which_is_checked(self) -> str:
         if self._hulls:
             return "the convex hulls of meshes are checked, as in MuJoCo, not their triangles"
-        return "the triangles of meshes are checked; MuJoCo uses their convex hulls (--mesh-hulls)"
+        triangles = "the triangles of meshes are checked; MuJoCo uses their convex hulls"
+        return f"{triangles} (--read mesh-hulls=true)"
 
     def _has_spring(self) -> bool:
         """Whether a spring of a joint or tendon pulls bodies out of qpos0."""

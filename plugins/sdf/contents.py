@@ -13,8 +13,8 @@ from satcheck.plugins.sdf.joints import JointEntry
 from satcheck.plugins.sdf.parts import frame_named
 from satcheck.plugins.sdf.values import boolean, flag, pose_of, text_of
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.model import Collision
 from satcheck.scene.robot.slips import Slips

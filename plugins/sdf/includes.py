@@ -11,7 +11,7 @@ from pathlib import Path
 from satcheck.plugins.sdf.readers import ROOTS
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.paths import is_file, is_folder
+from satcheck.scene.opening import is_file, is_folder
 from satcheck.scene.robot.packages import MODEL_MANIFESTS, FilePlaces
 from satcheck.scene.robot.reading import read_tree
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NoReturn
 
 import numpy as np
@@ -17,18 +17,15 @@ from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
-from satcheck.plugins.step.readers import CHORD
+from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
 from satcheck.scene.files.gltf import placement_of
 from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
 from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive, checked
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.files.readers import File
-from satcheck.scene.paths import NOTHING_ELSE
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.files.readers import File, imported
+from satcheck.scene.opening import NOTHING_ELSE
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF
@@ -54,7 +51,7 @@ class _Part(Struct, frozen=True):
     mesh: int | None
 
 
-def read_step(file: File) -> RawScene:
+def read_step(file: File) -> Document:
     """Return a body for each occurrence of a product that has surfaces, in millimetres.
 
     Raises Refused without a file name.
@@ -71,13 +68,13 @@ def read_step(file: File) -> RawScene:
     return _Assembly(document, chunk, exchange, options).read()
 
 
-def _tessellated(data: bytes, options: ReadOptions) -> bytes:
+def _tessellated(data: bytes, options: Mapping[str, Any]) -> bytes:
     """The glTF document that OpenCascade makes of the file. One thread: the same facets in every
     run."""
     glb: bytes = imported("cascadio", "step", "STEP files").load(
         data,
-        tol_linear=options.chord(CHORD),
-        tol_angular=options.angular_tolerance,
+        tol_linear=options["chord_tolerance"],
+        tol_angular=options["angular_tolerance"],
         use_parallel=False,
         include_brep=True,
     )
@@ -92,7 +89,7 @@ class _Assembly:
         document: GltfDocument,
         chunk: memoryview | None,
         exchange: Exchange,
-        options: ReadOptions,
+        options: Mapping[str, Any],
     ) -> None:
         work = Work(isolated=True)
         self._accessors = Accessors(document, chunk, "", work, NOTHING_ELSE)
@@ -103,7 +100,7 @@ class _Assembly:
         self._exchange = exchange
         self._options = options
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         scenes = self._document.scenes
         roots = scenes[0].nodes if scenes else ()
         nodes = instances(
@@ -174,7 +171,7 @@ class _Assembly:
             raw,
             vertices=vertices.tobytes(),
             units="mm",
-            surface_tolerance=0.0 if flat else self._options.chord(CHORD),
+            surface_tolerance=0.0 if flat else self._options["chord_tolerance"],
         )
 
     def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
@@ -209,7 +206,7 @@ class _Assembly:
         return planes.issuperset(used)
 
     def _warnings(
-        self, scene: RawScene, curves: list[str], lost: str | None
+        self, scene: Document, curves: list[str], lost: str | None
     ) -> Iterator[tuple[str, str]]:
         if not self._exchange.has_unit:
             message = "the file states no unit of length: its numbers count as millimetres"
@@ -224,7 +221,7 @@ class _Assembly:
         if faceted:
             message = (
                 f"{faceted} of {len(scene.parts)} products have curved faces: their facets are off "
-                f"by up to about {self._options.chord(CHORD):g} mm (--chord-tolerance)"
+                f"by up to about {self._options['chord_tolerance']:g} mm (--read chord-tolerance)"
             )
             yield "faceted", message
 

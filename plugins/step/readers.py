@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Reader
+from satcheck.scene.files.readers import Reader, facets
 
 # Millimetres. In machines press fits of 0.02 mm are common, and facets hide overlaps up to twice
 # their tolerance.
@@ -14,9 +14,8 @@ READERS = (
         "STEP",
         (".step", ".stp", ".p21"),
         "satcheck.plugins.step.assembly:read_step",
-        options=("chord_tolerance", "angular_tolerance"),
+        options=facets(CHORD),
         marks=(b"ISO-10303-21;",),
         text="own",
-        chord=CHORD,
     ),
 )

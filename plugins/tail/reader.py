@@ -16,17 +16,16 @@ from typing import Any
 import numpy as np
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.extras import imported
 from satcheck.scene.files.placing import Instance, raw_scene
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.files.readers import File
+from satcheck.scene.files.readers import File, imported
 from satcheck.scene.units import unit_of
 
 _MOST_VERTICES = 2**32  # they are numbered in 32 bits
 
 
-def read_tail(file: File) -> RawScene:
+def read_tail(file: File) -> Document:
     """Return the meshes of a file where trimesh places them. Raises Refused without a file
     name."""
     trimesh = imported("trimesh", "tail", f"{file.format.upper()} files")
@@ -60,7 +59,7 @@ def read_tail(file: File) -> RawScene:
     models = len(re.findall(rb"<(?:\w+:)?GeometryModel3D[\s>]", file.data))
     joined = ("unread", f"trimesh makes one body of its {models} models")
     warnings = (joined,) if models > 1 and file.format == "xaml" else ()
-    return RawScene(read.parts, read.nodes, warnings, units)
+    return Document(read.parts, read.items, warnings, units)
 
 
 def _placed(scene: Any, node: str) -> tuple[str, tuple[float, ...]]:

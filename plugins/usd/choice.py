@@ -3,14 +3,14 @@ satcheck does not read: with extent, they are bodies that cannot be checked."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.walk import PlacedPrim, type_of
-from satcheck.scene.files.raw_mesh import NO_SURFACE, Refusal
-from satcheck.scene.read_options import ReadOptions
+from satcheck.scene.document import NO_SURFACE, Refusal
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
 _WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
@@ -26,12 +26,11 @@ class Choice:
     """time: the Usd.TimeCode of all values. purposes: that are drawn. colliders: these are the
     bodies, drawn or not."""
 
-    def __init__(self, options: ReadOptions) -> None:
-        self.time = (
-            Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
-        )
-        self.purposes = frozenset(("default", *(options.purpose or ("render",))))
-        self.colliders = options.geometry == "collision"
+    def __init__(self, options: Mapping[str, Any]) -> None:
+        time = options["time"]
+        self.time = Usd.TimeCode.EarliestTime() if time is None else Usd.TimeCode(time)
+        self.purposes = frozenset(("default", *(options["purpose"] or ("render",))))
+        self.colliders = options["geometry"] == "collision"
         self._hidden: dict[tuple[Any, Any], bool] = {}
 
     def why_not(self, placed: PlacedPrim, *, lost: bool) -> str | None:
@@ -43,7 +42,9 @@ class Choice:
         if self._is_hidden(placed):
             return "invisible"
         purpose = _purpose(placed)
-        return None if purpose in self.purposes else f"of purpose {purpose} (--purpose)"
+        return (
+            None if purpose in self.purposes else f"of purpose {purpose} (--read purpose={purpose})"
+        )
 
     def collides(self, prim: Any) -> bool:
         """Whether colliders are checked, and the prim is an enabled one."""

@@ -13,7 +13,7 @@ from pxr import Sdf, Usd
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.walk import has_geometry_below
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal
 
 # One of these, with primPath, is what a set needs to count.
 _WHOLE = (

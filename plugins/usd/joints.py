@@ -18,7 +18,7 @@ from pxr import Gf, UsdGeom, UsdPhysics
 
 from satcheck.plugins.usd.physics import body_at
 from satcheck.plugins.usd.stage import Remarks, Stage
-from satcheck.scene.files.raw_mesh import RawJoint
+from satcheck.scene.document import RawJoint
 from satcheck.scene.units import ratio
 
 Floats = NDArray[np.float64]

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import UsdGeom
 
+from satcheck.scene.document import NO_SURFACE, NumberFormat, RawMesh
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.polygons import triangles_of
-from satcheck.scene.files.raw_mesh import NO_SURFACE, NumberFormat, RawMesh
 
 Ints = NDArray[np.int64]
 Points = NDArray[np.floating[Any]]

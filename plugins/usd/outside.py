@@ -15,7 +15,7 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.paths import Permitted, followed
+from satcheck.scene.opening import Permitted, followed
 
 
 class Closed:

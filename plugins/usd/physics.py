@@ -11,12 +11,12 @@ from pxr import Usd, UsdPhysics
 
 from satcheck.plugins.usd.stage import Remarks
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, of_prototype
-from satcheck.scene.files.raw_mesh import RawNode, RawRule
+from satcheck.scene.document import Item, RawRule
 
 
 def with_physics(
-    stage: Any, nodes: Sequence[RawNode], prims: Sequence[PlacedPrim], time: Any, said: Remarks
-) -> tuple[tuple[RawNode, ...], tuple[RawRule, ...], tuple[Any, ...]]:
+    stage: Any, nodes: Sequence[Item], prims: Sequence[PlacedPrim], time: Any, said: Remarks
+) -> tuple[tuple[Item, ...], tuple[RawRule, ...], tuple[Any, ...]]:
     """(the nodes with the groups that the rules name, and their rigid bodies, the rules, the prims
     of joints).
 

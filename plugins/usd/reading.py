@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
@@ -21,10 +22,9 @@ from satcheck.plugins.usd.stage import Remarks, Stage, said, unknown_variants
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import Document, Item, RawMesh, RawPart, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.issue import CODES
-from satcheck.scene.read_options import ReadOptions
 
 # Approximations that reach out of the mesh.
 _LARGER = (UsdPhysics.Tokens.boundingCube, UsdPhysics.Tokens.boundingSphere)
@@ -32,25 +32,25 @@ _NOT_TURNED = Gf.Matrix4d(1.0)
 Content = RawMesh | Primitive | Refusal
 
 
-def read_scene(stage: Stage, options: ReadOptions) -> RawScene:
+def read_scene(stage: Stage, options: Mapping[str, Any]) -> Document:
     """Raises Refused if the stage has no body."""
     return _Reading(stage, options).scene()
 
 
 class _Reading:
-    def __init__(self, stage: Stage, options: ReadOptions) -> None:
+    def __init__(self, stage: Stage, options: Mapping[str, Any]) -> None:
         self._stage = stage
         self._choice = Choice(options)
         self._said = Remarks()
         self._skinning = Skinning(self._choice.time)
         self._lost = dict(stage.lost)
         self._parts: list[RawPart] = []
-        self._nodes: list[RawNode] = []
+        self._nodes: list[Item] = []
         self._placed: list[PlacedPrim] = []
         self._read: dict[Any, tuple[int, Any]] = {}
         self._places: dict[object, int] = {}
 
-    def scene(self) -> RawScene:
+    def scene(self) -> Document:
         self._refuse_lost_in_instances()
         look_at_stage(self._stage.stage, self._choice, self._said)
         look_at_layers(self._stage.stage, self._said)
@@ -74,7 +74,7 @@ class _Reading:
         nodes, rules, prims = with_physics(stage.stage, self._nodes, self._placed, time, said)
         joints = Joints(stage, time, said).of(prims)
         said_of = (*warnings, *said.warnings())
-        return RawScene(tuple(self._parts), nodes, said_of, stage.unit, rules, joints)
+        return Document(tuple(self._parts), nodes, said_of, stage.unit, rules, joints)
 
     def _refuse_lost_in_instances(self) -> None:
         """A reference is lost in every instance, and composition names one of them or none."""
@@ -92,7 +92,9 @@ class _Reading:
         if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
             return []
         first, last = self._stage.sampled
-        message = f"bodies stand as at the first of the time codes {first:g} to {last:g} (--time)"
+        message = (
+            f"bodies stand as at the first of the time codes {first:g} to {last:g} (--read time=T)"
+        )
         return [("time-sampled", message)]
 
     def _take(self, placed: PlacedPrim) -> None:
@@ -210,5 +212,5 @@ class _Reading:
         self._node(placed, len(self._parts) - 1)
 
     def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None = None) -> None:
-        self._nodes.append(RawNode(placed.name, part, matrix))
+        self._nodes.append(Item(part, placed.name, matrix))
         self._placed.append(placed)

@@ -14,8 +14,8 @@ from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.walk import type_of
+from satcheck.scene.document import RawMesh
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import RawMesh
 
 # Many programs write rotations and scales as float32. A placement this close to one of a shape is
 # one; a share of the size of the shape.

@@ -12,8 +12,8 @@ import numpy as np
 from msgspec.structs import replace
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
+from satcheck.scene.document import RawMesh
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import RawMesh
 
 
 class Skinning:

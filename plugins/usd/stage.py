@@ -15,10 +15,9 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.usd.clips import missing_clips
 from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed, clips_of, file_of
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import Refusal
-from satcheck.scene.files_read import note
-from satcheck.scene.paths import Permitted
+from satcheck.scene.opening import Permitted, note
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 

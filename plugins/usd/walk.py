@@ -8,9 +8,9 @@ from typing import Any
 from msgspec import Struct
 from pxr import Usd, UsdGeom
 
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.raw_mesh import Refusal
 
 
 class Frame(Struct, frozen=True):

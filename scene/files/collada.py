@@ -16,22 +16,22 @@ from numpy.typing import NDArray
 
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import Refused
-from satcheck.scene.files.collada_vocabulary import look_at
-from satcheck.scene.files.flatten import flattened
-from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
-from satcheck.scene.files.polygons import triangles_of
-from satcheck.scene.files.raw_mesh import (
+from satcheck.scene.document import (
+    Document,
     RawMesh,
-    RawScene,
     alone,
     fan_triangles,
     strip_triangles,
 )
+from satcheck.scene.errors import Refused
+from satcheck.scene.files.collada_vocabulary import look_at
+from satcheck.scene.files.nodes import flattened
+from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
+from satcheck.scene.files.polygons import triangles_of
 from satcheck.scene.files.readers import File
-from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.files.xml_tree import Element, read_elements
 from satcheck.scene.units import RESCALED, unit_of
+from satcheck.scene.vocabulary import UnknownNames
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -51,7 +51,7 @@ _WITHOUT_SURFACE = frozenset({"asset", "extra", "source", "vertices"})
 _AXES = (["X", "Y", "Z"], ["", "", ""])
 
 
-def read_collada(file: File) -> RawScene:
+def read_collada(file: File) -> Document:
     """Return the visual scene of a COLLADA file; one mesh without a placement if it has one node.
     Raises Refused without a file name.
 
@@ -61,7 +61,7 @@ def read_collada(file: File) -> RawScene:
     if root.tag != "COLLADA":
         raise Refused("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
     scene = _Document(root).read()
-    return scene if len(scene.nodes) > 1 else alone(flattened(scene))
+    return scene if len(scene.items) > 1 else alone(flattened(scene))
 
 
 class _Document:
@@ -76,7 +76,7 @@ class _Document:
         self._carriers: dict[Element, bool] = {}
         self._warnings: dict[str, str] = {}
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         units, scaling = self._units()
         scene = self._visual_scene()
         nodes = instances(

@@ -6,9 +6,8 @@ known: programs keep data of their own there.
 
 from __future__ import annotations
 
-from satcheck.scene.files.unknown_names import UnknownNames
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 
 _TEXT = "words about the file"
 _EXTRA = {"extra": "data of a program"}

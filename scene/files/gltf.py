@@ -17,6 +17,16 @@ from satcheck.core import Mesh
 from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import (
+    NO_SURFACE,
+    Document,
+    Item,
+    RawMesh,
+    RawPart,
+    RawRule,
+    Refusal,
+    UniqueNames,
+)
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
@@ -32,29 +42,19 @@ from satcheck.scene.files.gltf_document import (
 )
 from satcheck.scene.files.gltf_meshes import Meshes, Shape, Skin
 from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
-from satcheck.scene.files.raw_mesh import (
-    NO_SURFACE,
-    RawMesh,
-    RawNode,
-    RawPart,
-    RawRule,
-    RawScene,
-    Refusal,
-)
 from satcheck.scene.files.readers import File
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 
 
-def read_gltf(file: File) -> RawScene:
+def read_gltf(file: File) -> Document:
     """Return the default scene of a glTF or GLB file: its meshes, and the nodes that have one; for
     the geometry `collision` its colliders, and the nodes that have one.
 
     Raises Refused without a file name, and NeedsChild if the data need an isolated process
     and this one is not.
     """
-    geometry = file.options.geometry
+    geometry = file.options["geometry"]
     data = memoryview(file.data)
     text, chunk = split_glb(data) if file.format == "glb" else (data, None)
     unknown = UnknownNames()
@@ -101,7 +101,7 @@ class _Scene:
         self._copied = 0
         self._matrix = cache(lambda number: placement_of(self._nodes[number], number))
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         paths = UniqueNames()
         placed = [
             Instance(Shape.of(self._nodes[node.key]), matrix, paths.unique(path))
@@ -119,7 +119,7 @@ class _Scene:
         message = f"{listed(bare)} without triangles: lines, points or nothing"
         return replace(scene, warnings=(("left-out", message),))
 
-    def colliders(self, colliders: Colliders) -> RawScene:
+    def colliders(self, colliders: Colliders) -> Document:
         """The colliders of the nodes. Those of one rigid body may touch each other."""
         placed = self._placed(colliders.has)
         if not placed:
@@ -130,13 +130,13 @@ class _Scene:
             body = next(filter(colliders.moves, (one.key, *self._above(one.key))), None)
             parts.append(RawPart(f"collider{number}", content))
             groups = () if body is None else (f"rigid body {body}",)
-            nodes.append(RawNode(one.path, number, matrix, groups=groups))
+            nodes.append(Item(number, one.path, matrix, groups=groups))
         bodies = dict.fromkeys(group for node in nodes for group in node.groups)
         rules = [
             RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
         ]
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
-        return RawScene(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
+        return Document(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
 
     def left_out(self, unknown: UnknownNames) -> str:
         """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""

@@ -30,8 +30,7 @@ from satcheck.scene.files.gltf_document import (
     SparseValues,
 )
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.files_read import note
-from satcheck.scene.paths import Permitted, followed, is_file
+from satcheck.scene.opening import Permitted, followed, is_file, note
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK_HEADER = struct.Struct("<II")  # length, type

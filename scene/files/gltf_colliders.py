@@ -14,6 +14,7 @@ from msgspec import UNSET, Struct, UnsetType
 from satcheck.core.curved.placed import curved_shape
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, Primitive, Sphere
 from satcheck.core.transform import Transform
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_document import (
     KHR_BODIES,
@@ -28,9 +29,7 @@ from satcheck.scene.files.gltf_document import (
     checked,
 )
 from satcheck.scene.files.gltf_meshes import Shape
-from satcheck.scene.files.raw_mesh import Refusal
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 
 # Takes z to y, exactly.
 UPRIGHT: Transform = (1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1)

@@ -18,8 +18,7 @@ import msgspec
 from msgspec import UNSET, Meta, Struct, UnsetType
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 from satcheck.scene.words import why_unreadable
 
 DRACO = "KHR_draco_mesh_compression"

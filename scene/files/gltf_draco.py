@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_buffers import Accessors
 from satcheck.scene.files.gltf_document import NONE, Attributes, Draco
-from satcheck.scene.resolution import FLOAT32_STEP
+from satcheck.scene.inspect import FLOAT32_STEP
 
 if TYPE_CHECKING:
     from satcheck.scene.files.gltf_buffers import Floats

@@ -10,9 +10,19 @@ from typing import TYPE_CHECKING, Any, Self
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
+from satcheck.scene.document import (
+    NO_SURFACE,
+    Block,
+    RawMesh,
+    fan_triangles,
+    strip_triangles,
+)
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.gltf_buffers import Accessors, Columns, Work
+from satcheck.scene.files.gltf_buffers import (
+    Accessors,
+    Columns,
+    Work,
+)
 from satcheck.scene.files.gltf_document import (
     DRACO,
     NONE,
@@ -22,13 +32,7 @@ from satcheck.scene.files.gltf_document import (
     Node,
     Primitive,
 )
-from satcheck.scene.files.raw_mesh import (
-    NO_SURFACE,
-    Block,
-    RawMesh,
-    fan_triangles,
-    strip_triangles,
-)
+from satcheck.scene.files.nodes import concatenate
 from satcheck.scene.files.readers import NeedsChild
 
 if TYPE_CHECKING:

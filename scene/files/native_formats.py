@@ -5,12 +5,11 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck._native import readers
+from satcheck.scene.document import Document, Item, RawMesh, RawPart, UniqueNames, alone
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, alone
 from satcheck.scene.files.readers import File
-from satcheck.scene.plain_ids import UniqueNames
 
 _READERS = {
     "obj": readers.read_obj,
@@ -20,7 +19,7 @@ _READERS = {
 }
 
 
-def read_native(file: File) -> RawScene:
+def read_native(file: File) -> Document:
     """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
     Refused with line or byte."""
     outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
@@ -43,7 +42,7 @@ def read_native(file: File) -> RawScene:
     return _of_objects(whole, objects) if len(objects) > 1 else alone(whole)
 
 
-def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> RawScene:
+def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> Document:
     if len(objects) > limits.MAX_PLACEMENTS:
         message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
         raise Refused("too-large", message)
@@ -53,8 +52,8 @@ def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -
         path = names.unique(tidy_name(name.decode(errors="replace"), f"object{number}"))
         own = replace(whole, vertices=mesh.vertices, triangles=mesh.triangles, warnings=())
         parts.append(RawPart(path, own))
-    nodes = (RawNode(part.name, number) for number, part in enumerate(parts))
-    return RawScene(tuple(parts), tuple(nodes), whole.warnings)
+    nodes = (Item(number, part.name) for number, part in enumerate(parts))
+    return Document(tuple(parts), tuple(nodes), whole.warnings)
 
 
 def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:

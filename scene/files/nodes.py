@@ -1,27 +1,35 @@
-"""Makes the bodies of a file that is read: one of all of it, one for each node, or one for each
-connected component of these."""
+"""Makes the bodies of a file that is read: one of all of it, for which its meshes are joined, one
+for each node, or one for each connected component of these."""
 
 from __future__ import annotations
 
 from array import array
+from collections.abc import Sequence
+from operator import mul
 from typing import Literal
 
 from msgspec.structs import replace
 
-from satcheck.core import Mesh
+from satcheck.core import Mesh, largest_stretch
 from satcheck.core.shapes import Primitive
+from satcheck.core.transform import Transform
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.document import Document, Item
+from satcheck.scene.document import (
+    COMPONENT_MARK,
+    NO_SURFACE,
+    Block,
+    Document,
+    Item,
+    RawMesh,
+    RawPart,
+    Refusal,
+)
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.flatten import flattened
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.files.readers import File, reader_named
-from satcheck.scene.health import CRACK_WIDTH
-from satcheck.scene.inspect import errors_of, mesh_file, resolution_of
-from satcheck.scene.issue import issue
-from satcheck.scene.paths import name_of
-from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.inspect import CRACK_WIDTH, errors_of, mesh_file, resolution_of
+from satcheck.scene.issue import BLOCKING, issue
+from satcheck.scene.opening import name_of
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]
@@ -31,48 +39,52 @@ _ONLY_DEGENERATE = "only-degenerate"
 CORNER = Mesh.from_bytes(
     array("d", (0, 0, 0, 1, 0, 0, 0, 1, 0)).tobytes(), array("I", (0, 1, 2)).tobytes()
 )
+_SHAPES = "it has exact shapes, which no mesh holds: name one part of the file"
+_SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
 
 
-def document_of(file: File, scene: RawScene, split: Split) -> Document:
-    """Return the bodies of a file.
+def document_of(file: File, read: Document, split: Split) -> Document:
+    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader.
 
     Components are edge-connected, after cracks are closed. They are numbered by their lowest
     corners, so that the order of the triangles in the file does not matter. Raises Refused if
     nothing can be used.
     """
-    reader = reader_named(file.format)
-    whole = Document(
-        path=file.path,
-        name=name_of(file.path)[0] or file.path,
-        kind="scene" if reader is not None and reader.kind == "document" else "mesh",
-        items=(),
-    )
     if split == "none":
-        return _with(whole, Item(mesh_file(file, flattened(scene))))
-    said = list(scene.warnings)
-    shapes = [_shapes_of(file, part, said, apart=split == "components") for part in scene.parts]
-    _refuse_too_many(sum(len(shapes[node.part]) for node in scene.nodes))
-    items = [
-        _placed(f"{node.path or ''}{mark}" or None, shape, node, scene.units, file.path)
-        for node in scene.nodes
-        for mark, shape in shapes[node.part]
-    ]
-    errors = [item.shape for item in items if isinstance(item.shape, Refused)]
-    if len(errors) == len(items):
-        raise errors[0]
-    issues = tuple(issue(code, message, file=file.path) for code, message in said)
-    return replace(_with(whole, *items), issues=issues, pairs=scene.rules, joints=scene.joints)
+        mesh = mesh_file(file, flattened(read))
+        made = Document(items=(Item(mesh),), units=mesh.units)
+    else:
+        made = _inspected(file, read, apart=split == "components")
+    reader = reader_named(file.format)
+    is_scene = reader is not None and reader.kind == "document"
+    name = name_of(file.path)[0] or file.path
+    return replace(made, path=file.path, name=name, kind="scene" if is_scene else "mesh")
 
 
-def _with(document: Document, *items: Item) -> Document:
-    """The document of these items, in the unit of the first one that can be used."""
+def _inspected(file: File, read: Document, *, apart: bool) -> Document:
+    """The document with its meshes in the items. apart: an item for each component of a mesh."""
+    said = list(read.warnings)
+    shapes = [_shapes_of(file, part, said, apart=apart) for part in read.parts]
+    _refuse_too_many(sum(len(shapes[item.number]) for item in read.items))
+    items = []
+    for item in read.items:
+        for mark, shape in shapes[item.number]:
+            path = f"{item.path or ''}{mark}" or None
+            placed = _placed(path, shape, item.transform, file.path)
+            units = None if isinstance(shape, MeshFile) else read.units
+            items.append(replace(item, shape=placed, path=path, units=units))
     usable = (item for item in items if not isinstance(item.shape, Refused))
-    units = next((_units(item) for item in usable), None)
-    return replace(document, items=items, units=units)
-
-
-def _units(item: Item) -> str | None:
-    return item.shape.units if isinstance(item.shape, MeshFile) else item.units
+    first = next(usable, None)
+    if first is None:
+        raise next(item.shape for item in items if isinstance(item.shape, Refused))
+    return replace(
+        read,
+        parts=(),
+        items=tuple(items),
+        warnings=(),
+        issues=tuple(issue(code, message, file=file.path) for code, message in said),
+        units=first.shape.units if isinstance(first.shape, MeshFile) else first.units,
+    )
 
 
 def _refuse_too_many(bodies: int) -> None:
@@ -84,21 +96,18 @@ def _refuse_too_many(bodies: int) -> None:
 def _placed(
     path: str | None,
     shape: MeshFile | Primitive | Refused,
-    raw: RawNode,
-    units: str | None,
+    transform: Transform | None,
     file: str,
-) -> Item:
-    """path: of the item. units: of exact shapes. file: its path, for messages."""
-    if raw.matrix is not None and not isinstance(shape, Refused):
+) -> MeshFile | Primitive | Refused:
+    """The shape, unless it cannot be placed so. path: of the item. file: its path, for messages."""
+    if transform is not None and not isinstance(shape, Refused):
         try:
-            CORNER.transformed(raw.matrix)
+            CORNER.transformed(transform)
         except ValueError as error:
             shape = Refused("singular-transform", f"{path}: {error}", file=file)
         except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
-    own = None if isinstance(shape, MeshFile | Refused) else units
-    link = raw.link
-    return Item(shape, path, raw.matrix, raw.title, raw.groups, raw.static, link, units=own)
+    return shape
 
 
 def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart: bool) -> Marked:
@@ -145,3 +154,81 @@ def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
                 raise
             flat.append(("", error))
     return [*bodies, *flat] if bodies else []
+
+
+def flattened(document: Document) -> RawMesh:
+    """Return one mesh of all nodes.
+
+    A mesh of lines or points only adds a warning. Raises Refused if another mesh cannot be
+    used, or if all together exceed the triangle limit.
+    """
+    if document.items == (Item(0),) and not document.warnings:
+        only = document.parts[0].mesh
+        if isinstance(only, RawMesh):
+            return only
+    said = list(document.warnings)
+    placed: list[tuple[RawMesh, Transform | None]] = []
+    for node in document.items:
+        mesh = document.parts[node.number].mesh
+        if isinstance(mesh, RawMesh):
+            placed.append((mesh, node.transform))
+        elif not isinstance(mesh, Refusal):
+            raise Refused("unsupported-feature", _SHAPES)
+        elif mesh.code == NO_SURFACE and len(document.items) > 1:
+            said.append(("ignored-geometry", mesh.message))
+        else:
+            raise Refused(mesh.code, mesh.message)
+    if not placed:
+        raise Refused("empty-mesh", "empty mesh: no node has a surface")
+    meshes = [mesh for mesh, _ in placed]
+    for most, what, count in (
+        (limits.MAX_TRIANGLES, "triangles", sum(len(mesh.triangles) // 12 for mesh in meshes)),
+        (limits.MAX_VERTICES, "vertices", sum(len(mesh.vertices) // 24 for mesh in meshes)),
+    ):
+        if count > most:
+            message = f"{count} {what} in all instances exceed {most}: {_SPLIT}"
+            raise Refused("too-large", message)
+    vertices, triangles = concatenate(
+        [(mesh.vertices, mesh.triangles, matrix) for mesh, matrix in placed]
+    )
+    said += [warning for mesh in meshes for warning in mesh.warnings]
+    # The last warning of each code, but all that block a pass.
+    once = {(code, text if code in BLOCKING else ""): (code, text) for code, text in said}
+    stretches = [1.0 if matrix is None else largest_stretch(matrix) for _, matrix in placed]
+    return RawMesh(
+        vertices=vertices,
+        triangles=triangles,
+        number_format=meshes[0].number_format,
+        decimals=max(mesh.decimals for mesh in meshes),
+        significant=max(mesh.significant for mesh in meshes),
+        units=meshes[0].units,
+        warnings=tuple(once.values()),
+        surface_tolerance=max(map(mul, stretches, (m.surface_tolerance for m in meshes))),
+        rounding=max(map(mul, stretches, (mesh.rounding for mesh in meshes))),
+    )
+
+
+def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
+    """Return (vertices, triangles) of all parts, each transformed by its matrix.
+
+    parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
+    winding.
+    """
+    if len(parts) == 1 and parts[0][2] is None:
+        return parts[0][:2]
+    if not parts:
+        return b"", b""
+    import numpy as np
+
+    vertices, triangles, before = [], [], 0
+    for points, corners, matrix in parts:
+        mesh = Mesh.from_bytes(points, corners)
+        try:
+            mesh = mesh if matrix is None else mesh.transformed(matrix)
+        except (OverflowError, ValueError) as error:
+            code = "out-of-range" if isinstance(error, OverflowError) else "singular-transform"
+            raise Refused(code, f"a part cannot be placed: {error}") from None
+        vertices.append(mesh.vertices)
+        triangles.append(mesh.triangles + np.uint32(before))
+        before += mesh.vertex_count
+    return np.concatenate(vertices).data.cast("B"), np.concatenate(triangles).data.cast("B")

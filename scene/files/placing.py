@@ -9,10 +9,17 @@ from typing import Generic, TypeVar
 from msgspec import Struct
 
 from satcheck.core.transform import Transform, compose
+from satcheck.scene.document import (
+    COMPONENT_MARK,
+    Document,
+    Item,
+    RawMesh,
+    RawPart,
+    Refusal,
+    UniqueNames,
+)
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
-from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
 _LONGEST_NAME = 80
 _LONGEST_PATH = 200  # characters; of a longer path only the end is kept
@@ -127,13 +134,13 @@ def raw_scene(
     nodes: Sequence[Instance[Key]],
     name: Callable[[Key], str],
     mesh: Callable[[Key], RawMesh | Refusal],
-) -> RawScene:
+) -> Document:
     """A scene with each part once, even if many nodes use it."""
     used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
     names = UniqueNames()
-    return RawScene(
+    return Document(
         parts=tuple(RawPart(names.unique(name(key)), mesh(key)) for key in used),
-        nodes=tuple(RawNode(node.path, used[node.key], node.matrix) for node in nodes),
+        items=tuple(Item(used[node.key], node.path, node.matrix) for node in nodes),
     )
 
 

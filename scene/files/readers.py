@@ -1,7 +1,11 @@
-"""The registry of readers: which files are read, and by what.
+"""The registry of readers: which files are read, by what, and with which options.
 
 Formats of this package are listed here. Plug-ins and other packages register theirs in the same
-way (`plugins.py`). A reader is imported when the first file of its format is read.
+way (`core/plugins.py`). A reader is imported when the first file of its format is read. A reader
+declares as options those choices that its format leaves to the user. They decide the geometry of a
+check, so a report states them, and whoever reads the same files again needs the same ones.
+
+The ending of an input decides its kind; for an unknown ending, the root of its XML does.
 """
 
 from __future__ import annotations
@@ -9,17 +13,22 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
+from sys import float_info
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
-from msgspec import Struct
+from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import replace
 
+from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import failures, function_at, others, own
+from satcheck.scene.document import Document
+from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.raw_mesh import Block, RawScene
-from satcheck.scene.paths import NOTHING_ELSE, Permitted, suffix_of
-from satcheck.scene.plugins import function_at, others, own
-from satcheck.scene.read_options import GeometryKind, ReadOptions
+from satcheck.scene.opening import File as File
+from satcheck.scene.opening import ReadLimits as ReadLimits
+from satcheck.scene.opening import size_of, suffix_of
 
 if TYPE_CHECKING:
     from satcheck.scene.files.reading_children import ReadingChildren
@@ -29,60 +38,113 @@ if TYPE_CHECKING:
     from satcheck.scene.robot.packages import FilePlaces
 
 T = TypeVar("T")
-DEFAULT_SECONDS_PER_FILE = 60.0
-DEFAULT_MEGABYTES_PER_FILE = 2048
 _ZIP = b"PK\x03\x04"
+InputKind = Literal["mesh", "document", "scene", "robot", "srdf"]
+
+SCENE_SUFFIXES = frozenset((".json", ".toml"))
+_SRDF = ".srdf"
+_XACRO = ".xacro"  # expands to a URDF or an SRDF
+# Elements of an SRDF that no URDF has. The outermost element of both is <robot>.
+_SRDF_ELEMENTS = frozenset(
+    ("group", "group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property")
+) | {"disable_collisions", "enable_collisions", "disable_default_collisions"}
+_HEAD_BYTES = 1 << 20
 
 
-class File(Struct, frozen=True):
-    """A file that is open for a reader. It can be sent to a child process.
+GeometryKind = Literal["collision", "visual"]
+OptionValue = bool | int | float | str | tuple[str, ...]
+# By name, those that are not given left out.
+ReadOptions = Mapping[str, OptionValue]
 
-    directory: that its references are relative to. name: in the directory. data: its bytes, text as
-    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
-    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
-    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
-    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
-    packages: of a robot, see `robot.FilePlaces`.
+
+class Option(Struct, frozen=True):
+    """An option of a reader.
+
+    name: in scene files and reports; the command line also takes - for _. type: of its values, with
+    their limits, such as `Annotated[float, Meta(gt=0)]`. help: one sentence, which says what it
+    takes. default: None: the reader decides. is_length: in millimetres; the command line may give
+    another unit. Readers may have options of one name and type, each with its default.
     """
 
-    format: str
-    directory: str
     name: str
-    data: Block
-    size: int
-    options: ReadOptions = ReadOptions()
-    whole: bool = False
-    permitted: Permitted = NOTHING_ELSE
-    isolated: bool = False
-    path: str = ""
-    sha256: str | None = None
-    packages: Mapping[str, str] = {}
+    type: Any
+    help: str
+    default: OptionValue | None = None
+    is_length: bool = False
 
     @property
-    def location(self) -> Path:
-        return Path(self.directory, self.name)
+    def spelling(self) -> str:
+        """Return its name on the command line."""
+        return self.name.replace("_", "-")
 
     @property
-    def in_pieces(self) -> bool:
-        """Return whether the data are the first bytes alone."""
-        return len(self.data) < self.size
+    def choices(self) -> tuple[str, ...]:
+        """Return the words that it takes; (): it takes other values."""
+        return _words(self.type)
+
+    def converted(self, value: OptionValue) -> OptionValue:
+        """Return the value as the reader takes it. Raises SatcheckError."""
+        try:
+            made: OptionValue = convert(value, self.type)
+        except ValidationError:
+            raise self._refused(value) from None
+        return made
+
+    def parsed(self, text: str) -> OptionValue:
+        """Return the value that a text states; a comma separates several. Raises SatcheckError."""
+        try:
+            made: OptionValue = convert(self._stated(text), self.type, strict=False)
+        except ValueError:  # as a ValidationError is, too
+            raise self._refused(text) from None
+        return made
+
+    def _stated(self, text: str) -> float | str | list[str]:
+        if self.is_length:
+            from satcheck.scene.units import parse_length
+
+            return parse_length(text).in_units_of("mm")
+        kind = get_args(self.type)[0] if get_origin(self.type) is Annotated else self.type
+        return text.split(",") if get_origin(kind) is tuple else text
+
+    def _refused(self, value: object) -> SatcheckError:
+        return SatcheckError("bad-argument", f"{self.spelling}: not {value!r}, but {self.help}")
 
 
-class ReadLimits(Struct, frozen=True):
-    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+# `--geometry` gives it.
+GEOMETRY = Option("geometry", GeometryKind, "what is checked: collision or visual")
 
-    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
-    """
 
-    seconds: float = DEFAULT_SECONDS_PER_FILE
-    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
-    permitted: Permitted = NOTHING_ELSE
-    hashed: bool = True
-    options: ReadOptions = ReadOptions()
+def facets(chord: float) -> tuple[Option, Option]:
+    """Return the options of a reader that makes facets of curved faces. chord: its default."""
+    return (
+        Option(
+            "chord_tolerance",
+            Annotated[float, Meta(gt=0, le=float_info.max)],
+            "how far facets may be off, in millimetres, above 0",
+            chord,
+            is_length=True,
+        ),
+        Option(
+            "angular_tolerance",
+            Annotated[float, Meta(gt=0, le=math.pi)],
+            "the largest angle between facets, in radians, up to pi",
+            0.5,
+        ),
+    )
 
-    @property
-    def file_bytes(self) -> int:
-        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+
+def _words(kind: Any) -> tuple[str, ...]:
+    if get_origin(kind) is Literal:
+        return get_args(kind)
+    return tuple(word for inner in get_args(kind) for word in _words(inner))
+
+
+# Relatives of the formats that are read, and what to do with them.
+_CONVERTIBLE = {
+    ".stpz": "it is a packed STEP file: unpack it and name the .stp file",
+    ".stpx": "it is STEP in XML: export a .stp file",
+    ".stpxz": "it is packed STEP in XML: export a .stp file",
+}
 
 
 class NeedsChild(Exception):
@@ -93,16 +155,16 @@ class Reader(Struct, frozen=True):
     """A format of files with meshes.
 
     name: in reports. title: for people. endings: of the names of its files, in small letters.
-    read: "module:function". The function takes a `File` and returns a `RawScene`; it raises
+    read: "module:function". The function takes a `File` and returns a `Document`; it raises
     Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
     each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
-    reader of the robot reads. options: of `ReadOptions` that count. marks: with which its content
-    may begin, of those in `opening.py`. text: "plain": the reader is shown UTF-8 without a
-    byte order mark; "own": its parser decodes the text. here: files up to this size, in bytes, are
-    read in this process, all others, and all of other packages, in a child process. by_name: it
-    opens the file itself. chord: the chord tolerance, if facets are made for it, in millimetres.
-    up: the axis that points up, if the format says so. complete: False: the reader may leave
-    something out without a word, so that no pair is proven apart.
+    reader of the robot reads. options: what the user may choose; `File.options` has their values.
+    marks: with which its content may begin, of those in `opening.py`. text: "plain": the reader is
+    shown UTF-8 without a byte order mark; "own": its parser decodes the text. here: files up to
+    this size, in bytes, are read in this process, all others, and all of other packages, in a child
+    process. by_name: it opens the file itself. up: the axis that points up, if the format says so.
+    complete: False: the reader may leave something out without a word, so that no pair is proven
+    apart.
     """
 
     name: str
@@ -110,23 +172,21 @@ class Reader(Struct, frozen=True):
     endings: tuple[str, ...]
     read: str
     kind: Literal["mesh", "document", "robot"] = "mesh"
-    options: tuple[str, ...] = ()
+    options: tuple[Option, ...] = ()
     marks: tuple[bytes, ...] = ()
     text: Literal["none", "plain", "own"] = "none"
     here: float = 0
     by_name: bool = False
-    chord: float | None = None
     up: Literal["y", "z"] | None = None
     complete: bool = True
 
-    def __post_init__(self) -> None:
-        unknown = {*self.options} - {*ReadOptions.__struct_fields__}
-        if unknown:
-            raise ValueError(f"no options of readers: {', '.join(sorted(unknown))}")
+    def values(self, given: ReadOptions) -> dict[str, OptionValue | None]:
+        """Return the values of its options, for `File.options`. Raises SatcheckError."""
+        return values_of(self, given)
 
-    def scene(self, file: File) -> RawScene:
+    def scene(self, file: File) -> Document:
         """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
-        scene = cast("RawScene", function_at(self.read)(file))
+        scene = cast("Document", function_at(self.read)(file))
         scene.check()
         if self.complete:
             return scene
@@ -141,7 +201,8 @@ class RobotFile(Struct, frozen=True):
     """An XML file of a robot, and what its reader may ask for.
 
     places: where the files that it names are looked for. packages: as given. geometry: which
-    elements of links become bodies. allowed, children: for readers that need a child process.
+    elements of links become bodies. options: as of a `File`. allowed, children: for readers that
+    need a child process.
     """
 
     places: FilePlaces
@@ -149,15 +210,16 @@ class RobotFile(Struct, frozen=True):
     geometry: GeometryKind
     allowed: ReadLimits
     children: ReadingChildren
+    options: Mapping[str, Any] = {}
 
 
 class RobotReader(Struct, frozen=True):
     """A format of robots in XML.
 
-    name, title, endings: as of a `Reader`. roots: tags of the outermost element. read: "module:
-    function". The function takes this element and a `RobotFile`, and returns the robot and issues;
-    it raises Refused. marks: files of its endings in a folder are robots if they hold one of
-    these, or one of the roots; None: all of them are.
+    name, title, endings, options: as of a `Reader`. roots: tags of the outermost element. read:
+    "module:function". The function takes this element and a `RobotFile`, and returns the robot and
+    issues; it raises Refused. marks: files of its endings in a folder are robots if they hold one
+    of these, or one of the roots; None: all of them are.
     """
 
     name: str
@@ -166,6 +228,7 @@ class RobotReader(Struct, frozen=True):
     roots: tuple[str, ...]
     read: str
     marks: tuple[bytes, ...] | None = None
+    options: tuple[Option, ...] = ()
 
     def function(self) -> Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]:
         return cast(
@@ -187,7 +250,7 @@ def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
         title,
         (f".{name}",),
         "satcheck.scene.files.gltf:read_gltf",
-        options=("geometry",),
+        options=(GEOMETRY,),
         marks=marks,
         text="plain" if name == "gltf" else "none",
         here=limits.IN_PROCESS_BYTES,
@@ -262,6 +325,17 @@ def reader_of(ending: str) -> Reader | None:
     return _found(_registry().by_ending, ending.lower())
 
 
+def required_reader(ending: str) -> Reader:
+    """Return the reader of files whose names end so. Raises Refused if there is none."""
+    reader = reader_of(ending)
+    if reader is not None:
+        return reader
+    known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
+    hint = _CONVERTIBLE.get(ending.lower(), known)
+    message = f"unsupported format {ending!r}: {hint}{failures('readers', KINDS)}"
+    raise Refused("unsupported-format", message)
+
+
 def mesh_reader(suffix: str) -> Reader | None:
     """Return the reader of files that are meshes or documents; None: there is none."""
     reader = reader_of(suffix)
@@ -274,7 +348,7 @@ def reader_named(name: str) -> Reader | None:
     return _registry().by_name.get(name)
 
 
-def read(file: File) -> RawScene:
+def read(file: File) -> Document:
     """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
     # A child process has not looked for the readers of other packages.
     reader = reader_named(file.format) or reader_of(suffix_of(file.name))
@@ -295,22 +369,63 @@ def is_complete(format_name: str) -> bool:
 
 def options_of(formats: Iterable[str]) -> set[str]:
     """Return the names of the options that count for files of these formats."""
-    return {name for each in _known(formats) for name in each.options}
+    known = filter(None, map(reader_named, formats))
+    return {option.name for reader in known for option in reader.options}
 
 
-def stated_options(options: ReadOptions, formats: Iterable[str]) -> dict[str, Any] | None:
-    """Return the options that count for files of these formats, by name; None: no option counts.
-    The chord tolerance is None if these formats have different ones."""
-    formats = set(formats)
-    values = options.named(options_of(formats))
-    chords = {options.chord(r.chord) for r in _known(formats) if r.chord is not None}
-    if len(chords) == 1:
-        values["chord_tolerance"] = chords.pop()
-    return values if any(value is not None for value in values.values()) else None
+def values_of(reader: Reader | RobotReader, given: ReadOptions) -> dict[str, OptionValue | None]:
+    """Return the values of all options of a reader. Raises SatcheckError."""
+    return {
+        option.name: option.converted(given[option.name])
+        if option.name in given
+        else option.default
+        for option in reader.options
+    }
 
 
-def _known(formats: Iterable[str]) -> list[Reader]:
-    return [reader for name in formats if (reader := reader_named(name)) is not None]
+def stated_options(given: ReadOptions, formats: Iterable[str]) -> dict[str, OptionValue] | None:
+    """Return the options with which files of these formats are read, those that are given and the
+    defaults on which all these formats agree; None: there is none."""
+    defaults: dict[str, set[OptionValue | None]] = {}
+    for reader in filter(None, map(reader_named, formats)):
+        for option in reader.options:
+            defaults.setdefault(option.name, set()).add(option.default)
+    stated = dict(given)
+    for name, values in defaults.items():
+        (value, *others), is_given = values, name in given
+        if not (is_given or others or value is None):
+            stated[name] = value
+    return stated or None
+
+
+def option_named(name: str) -> Option:
+    """Return an option of a reader; - may stand for _ in its name. Raises SatcheckError if no
+    reader has it."""
+    name = name.replace("-", "_")
+    known = options()
+    if name not in known:
+        _registry().add(map(_isolated, others("readers", KINDS)))
+        known = options()
+    if name not in known:
+        named = [f"{option.spelling} ({', '.join(titles)})" for option, titles in known.values()]
+        failed = failures("readers", KINDS)
+        message = f"no reader has the option {name}; there are {', '.join(sorted(named))}{failed}"
+        raise SatcheckError("bad-argument", message)
+    return known[name][0]
+
+
+def options() -> dict[str, tuple[Option, list[str]]]:
+    """Return all options by name, each with the titles of the formats that have it."""
+    found: dict[str, tuple[Option, list[str]]] = {}
+    registry = _registry()
+    readers: list[Reader | RobotReader] = [*registry.by_name.values()]
+    readers += dict.fromkeys(registry.robots.values())
+    for reader in readers:
+        for option in reader.options:
+            titles = found.setdefault(option.name, (option, []))[1]
+            if reader.title not in titles:
+                titles.append(reader.title)
+    return found
 
 
 def _found(among: Mapping[str, T], key: str) -> T | None:
@@ -323,3 +438,64 @@ def _found(among: Mapping[str, T], key: str) -> T | None:
 def _isolated(reader: Reader | RobotReader) -> Reader | RobotReader:
     """Return the reader of another package, which runs in a child process: it may fail."""
     return replace(reader, here=0) if isinstance(reader, Reader) else reader
+
+
+def kind_of(path: str) -> InputKind:
+    """ "mesh" if no other kind fits. Its reader then reports errors."""
+    suffix = suffix_of(path).lower()
+    if suffix in SCENE_SUFFIXES:
+        return "scene"
+    if suffix == _SRDF:
+        return "srdf"
+    reader = mesh_reader(suffix)
+    if reader is not None:
+        return "document" if reader.kind == "document" else "mesh"
+    if robots_of(suffix) and suffix not in readers():
+        return "robot"
+    root, *below = _first_elements(Path(path))
+    if root == "robot":
+        return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
+    return "robot" if suffix == _XACRO or robot_reader(root) is not None else "mesh"
+
+
+def robot_endings() -> frozenset[str]:
+    """Return the endings of files that are robots, whatever they hold: of no other format."""
+    endings = {ending for reader in robots().values() for ending in reader.endings}
+    return frozenset(endings - readers().keys())
+
+
+def is_robot(location: Path) -> bool:
+    """Return whether the outermost element is that of a robot."""
+    return reader_of_robot(location) is not None
+
+
+def reader_of_robot(location: Path) -> RobotReader | None:
+    """Return the reader of robots with this outermost element; None: it is none of a robot."""
+    return robot_reader(_first_elements(location)[0])
+
+
+def _first_elements(location: Path) -> list[str]:
+    """The names of the root and of its first element; [""] if the file is not XML."""
+    try:
+        size_of(location)
+        with location.open("rb") as file:
+            head = file.read(_HEAD_BYTES)
+    except (SatcheckError, OSError):  # reported when the file is read
+        return [""]
+    if not head.lstrip().startswith((b"<", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
+        return [""]
+    from satcheck.scene.robot.reading import first_tags
+
+    return first_tags(head, 2) or [""]
+
+
+def imported(module: str, extra: str, kind: str) -> Any:
+    """The module. extra: of satcheck, which installs it. kind: of file, such as "IFC files"."""
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name is None or not module.startswith(error.name):
+            raise
+        library = module.partition(".")[0]
+        message = f"{kind} need {library}: pip install 'satcheck[{extra}]'"
+        raise Refused("missing-extra", message) from None

@@ -1,8 +1,8 @@
 """The child processes that read the files of a run.
 
 A file of a large parser is untrusted input. All of its reading, checks included, happens in
-`serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
-and msgspec checks their types. A child reads many files, because importing its large parsers takes
+`serve`, with a time limit and a memory limit. The answer is a MessagePack message, and msgspec
+checks its type. A child reads many files, because importing its large parsers takes
 longer than reading most files. If a file stops or kills its child, only this file fails, and the
 next file gets a new child.
 """
@@ -10,13 +10,15 @@ next file gets a new child.
 from __future__ import annotations
 
 import os
+import pickle
 from pathlib import Path
-from typing import TYPE_CHECKING, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import msgspec
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import function_at
 from satcheck.core.worker_errors import (
     WorkerCrashed,
     WorkerError,
@@ -24,13 +26,15 @@ from satcheck.core.worker_errors import (
     WorkerOutOfMemory,
     WorkerTimeout,
 )
+from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.files.readers import File, ReadLimits
-from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.paths import ANYWHERE, NOTHING_ELSE, Permitted
-from satcheck.scene.plugins import function_at
+from satcheck.scene.opening import (
+    files_read,
+    note,
+    note_lost_reader,
+)
 
 if TYPE_CHECKING:
     from satcheck.core.worker import Worker
@@ -79,41 +83,6 @@ class ReadingChildren:
         return self._workers[module]
 
 
-class Request(msgspec.Struct, frozen=True):
-    """A file to read, without its names: these are bytes, as those of some files are no UTF-8.
-
-    read: "module:function", which takes the file. folders: that the file may name files in, beside
-    its own; None: all.
-    """
-
-    read: str
-    directory: bytes
-    name: bytes
-    path: bytes
-    folders: tuple[bytes, ...] | None
-    file: File
-
-    @classmethod
-    def about(cls, file: File, read: str) -> Self:
-        may = file.permitted
-        folders = None if may.anywhere else tuple(map(os.fsencode, may.folders))
-        directory = os.fsencode(Path(file.directory).absolute())
-        names = directory, os.fsencode(file.name), os.fsencode(file.path)
-        blank = {"directory": "", "name": "", "path": "", "permitted": NOTHING_ELSE}
-        return cls(read, *names, folders, replace(file, **blank, isolated=True))
-
-    def named(self) -> File:
-        """Return the file with its names."""
-        folders = self.folders
-        return replace(
-            self.file,
-            directory=os.fsdecode(self.directory),
-            name=os.fsdecode(self.name),
-            path=os.fsdecode(self.path),
-            permitted=ANYWHERE if folders is None else Permitted(tuple(map(os.fsdecode, folders))),
-        )
-
-
 class Reply(msgspec.Struct, Generic[Content], frozen=True):
     """files: those that the file refers to, read or looked for."""
 
@@ -126,9 +95,9 @@ def read_in_child(
 ) -> Content:
     """Return what a function, "module:name", makes of a file in a child process: an object of this
     kind. Raises Refused."""
-    request = Request.about(file, read)
+    directory = str(Path(file.directory).absolute())
     try:
-        sent = msgspec.msgpack.encode(request)
+        sent = pickle.dumps((read, replace(file, directory=directory, isolated=True)))
         reply = children.ask(__name__, sent, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply[kind])  # type: ignore[valid-type]
     except WorkerError as error:
@@ -138,7 +107,7 @@ def read_in_child(
         message = "the reader's answer is damaged"
         raise Refused("reader-failed", message, file=file.path) from None
     for name in answer.files:
-        note(_as_given(Path(os.fsdecode(name)), os.fsdecode(request.directory), file.directory))
+        note(_as_given(Path(os.fsdecode(name)), directory, file.directory))
     content: Content | Refusal = answer.content
     if isinstance(content, Refusal):
         code = content.code if content.code in CODES else "reader-failed"
@@ -175,9 +144,9 @@ def _one_line(text: str) -> str:
 
 def serve(message: bytes) -> bytes:
     """Runs in the child process. The answer may be a Refusal."""
-    request = msgspec.msgpack.decode(message, type=Request)
+    read, file = pickle.loads(message)
     with files_read() as files:
-        content = _content(request.named(), request.read)
+        content = _content(file, read)
     return msgspec.msgpack.encode(Reply(content, tuple(map(os.fsencode, files))))
 
 

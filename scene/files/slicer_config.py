@@ -10,9 +10,8 @@ from __future__ import annotations
 from msgspec import Struct
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, UnknownNames
 
 CONFIGS = "metadata/*model*.config"  # in lower case
 # The parts of a package, in lower case. Programs put their own into folders of their own; those of
@@ -86,9 +85,9 @@ def volumes(config: Element, unknown: UnknownNames) -> list[Volume]:
 
 def _look(element: Element, unknown: UnknownNames) -> None:
     place = f"config of a slicer, line {element.line}: <{element.tag}>"
-    refuse_misspelt(_ATTRIBUTES, element.attributes, place)
+    _ATTRIBUTES.refuse_misspelt(element.attributes, place)
     if element.tag == "metadata":
-        refuse_misspelt(_KEYS, [element.attributes.get("key", "")], place)
+        _KEYS.refuse_misspelt([element.attributes.get("key", "")], place)
     if names := _ELEMENTS.get(element.tag):
         unknown.look(names, [child.tag for child in element.children], element.tag, place)
         for child in element.children:

@@ -15,23 +15,23 @@ from collections import Counter
 
 from msgspec.structs import replace
 
+from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import instances, raw_scene
-from satcheck.scene.files.raw_mesh import RawScene
 from satcheck.scene.files.readers import File, mesh_reader
 from satcheck.scene.files.slicer_config import CONFIGS, SIDE_FILES, volumes
 from satcheck.scene.files.threemf_model import ENCODINGS, Model, Object, part_name, read_model
 from satcheck.scene.files.threemf_vocabulary import RELATIONSHIP, RELATIONSHIPS, TYPES
-from satcheck.scene.files.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
 
 
-def read_3mf(file: File) -> RawScene:
+def read_3mf(file: File) -> Document:
     """Return the objects that the build of a 3MF package places. Raises Refused without a
     file name."""
     with opened_zip(memoryview(file.data), "a 3MF file") as package:
@@ -51,7 +51,7 @@ class _Package:
         self._settings: list[str] = []
         self._unknown = UnknownNames()
 
-    def read(self) -> RawScene:
+    def read(self) -> Document:
         start = self._start_part()
         root = self._model(start)
         self._apply_config(root)
@@ -97,7 +97,7 @@ class _Package:
     def _apply_config(self, root: Model) -> None:
         """Leave out the volumes that the config of a slicer makes settings; refuse an object that
         one of them is taken away from."""
-        refuse_misspelt(SIDE_FILES, self._names, "the package")
+        SIDE_FILES.refuse_misspelt(self._names, "the package")
         shown = [name for name in self._names if name.startswith("metadata/") or _is_mesh(name)]
         self._unknown.look(SIDE_FILES, shown, "part", "the package")
         for name in fnmatch.filter(self._names, CONFIGS):

@@ -16,9 +16,9 @@ from urllib.parse import unquote
 
 from satcheck._native import readers
 from satcheck.core.transform import Transform
+from satcheck.scene.document import RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import tidy_name
-from satcheck.scene.files.raw_mesh import RawMesh, Refusal
 from satcheck.scene.files.slicer_config import Volume
 from satcheck.scene.files.threemf_vocabulary import (
     ATTRIBUTES,
@@ -31,13 +31,13 @@ from satcheck.scene.files.threemf_vocabulary import (
     short,
     short_element,
 )
-from satcheck.scene.files.unknown_names import UnknownNames, refuse_misspelt
 from satcheck.scene.files.xml_tree import (
     Element,
     UnboundPrefix,
     read_elements,
     with_declared_prefixes,
 )
+from satcheck.scene.vocabulary import UnknownNames
 
 ENCODINGS = frozenset({"utf-8", "utf-16"})
 # Extensions that a model may require: what they add is read, or looked at where it stands.
@@ -259,7 +259,7 @@ class _ModelReader:
 
     def _on_setting(self, name: str, place: str) -> None:
         key = name.rpartition(":")[2]
-        refuse_misspelt(CURA_VOLUMES, [key], place)
+        CURA_VOLUMES.refuse_misspelt([key], place)
         if CURA_VOLUMES.knows(key):
             message = f"{place}: {name} is not read; it may make a body none"
             self._unknown.note(("metadata", name), message)

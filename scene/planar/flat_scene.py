@@ -15,10 +15,9 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.half_space import plane_of
 from satcheck.core.shape_mesh import mesh_of, sag_of
 from satcheck.core.shapes import Curved, is_curved
-from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable, is_half_space
 from satcheck.scene.errors import Refused
-from satcheck.scene.half_spaces import is_half_space
-from satcheck.scene.health import examine
+from satcheck.scene.inspect import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.planar.fills import covers
 from satcheck.scene.planar.region import (

@@ -12,11 +12,9 @@ from msgspec.structs import replace
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Entry
-from satcheck.scene.document import Document, FilePart, Item
+from satcheck.scene.document import HULL_MARK, Document, FilePart, Item, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.raw_mesh import Refusal
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.plain_ids import HULL_MARK
 from satcheck.scene.robot.kinematics import scaled
 from satcheck.scene.robot.model import Collision, MeshReference, Robot, State
 from satcheck.scene.robot.packages import FilePlaces

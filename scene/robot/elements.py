@@ -19,9 +19,9 @@ from satcheck.core.shapes import (
 )
 from satcheck.core.transform import Transform, compose, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.files.xml_tree import Element, RefusedElement
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot.model import Collision, Geometry, Joint, MeshReference
 
 MESH = "mesh"

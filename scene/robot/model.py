@@ -15,7 +15,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.raw_mesh import Refusal
+from satcheck.scene.document import Refusal
 
 JointKind = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "free"

@@ -21,15 +21,16 @@ from msgspec.structs import replace
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import read_elements
-from satcheck.scene.files_read import note, note_folders_in
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import (
+from satcheck.scene.opening import (
     NOTHING_ELSE,
     Permitted,
     folders_of_environment,
     followed,
     is_file,
     is_folder,
+    note,
+    note_folders_in,
+    read_whole,
 )
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)

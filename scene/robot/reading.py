@@ -11,8 +11,10 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import NoReturn
 
+from msgspec.structs import replace
+
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import RobotFile, robot_reader, robots
+from satcheck.scene.files.readers import GeometryKind, RobotFile, robot_reader, robots, values_of
 from satcheck.scene.files.xml_tree import (
     EXPAND,
     Element,
@@ -21,9 +23,7 @@ from satcheck.scene.files.xml_tree import (
     read_elements,
 )
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.opening import read_whole
-from satcheck.scene.paths import StrPath
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.opening import StrPath, read_whole
 from satcheck.scene.robot.model import Robot
 from satcheck.scene.words import listed
 
@@ -50,7 +50,8 @@ def read_robot(path: str, location: StrPath, file: RobotFile) -> tuple[Robot, tu
     reader = robot_reader(root.tag)
     if reader is None:
         _refuse_root(root, robots())
-    robot, issues = reader.function()(root, file)
+    options = values_of(reader, file.allowed.options)
+    robot, issues = reader.function()(root, replace(file, options=options))
     return robot, (*issues, *_about_geometry(robot, file.geometry))
 
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from msgspec import Struct
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.vocabulary import Names
 
 

@@ -12,14 +12,12 @@ from msgspec.structs import replace
 
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Body
-from satcheck.scene.common_units import InOneUnit
-from satcheck.scene.document import Document
-from satcheck.scene.files.raw_mesh import RawJoint
+from satcheck.scene.document import Document, RawJoint
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.assembly import RobotBody, SceneRobot
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import Joint, Limits, Link, Robot
-from satcheck.scene.units import ratio
+from satcheck.scene.units import InOneUnit, ratio
 from satcheck.scene.words import listed
 
 WORLD = ""

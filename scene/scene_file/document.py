@@ -7,21 +7,23 @@ position, rotation and scale or as a matrix, becomes one transform.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
-from msgspec import Meta, field
+from msgspec import Meta, defstruct, field
 
 from satcheck.core import transform
+from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Box, Curved
 from satcheck.core.transform import Transform, about_fixed_axes, cos_sin, quaternion_matrix
 from satcheck.scene import motion
+from satcheck.scene.files.readers import option_named, options
 from satcheck.scene.planar.outline import Outline
-from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import SELECTED, Length, Selector
 from satcheck.scene.statics import StaticsTerms
-from satcheck.scene.table import Direction, Number, Positive, Table, Text, Texts, Wrong
+from satcheck.scene.table import Direction, Number, Table, Text, Texts, Wrong
 
 SCENE_1: Final = "satcheck.scene/1"
 # A matrix counts as singular if its determinant is smaller than this share of the product of its
@@ -250,22 +252,41 @@ class Motion(Table, frozen=True):
         return motion.PosePath(tuple(point.pose() for point in points))
 
 
-class Reading(Table, frozen=True):
-    """How mesh files are read where their format leaves a choice. Options of the command line
-    override it.
+def reading_table() -> type[Table]:
+    """Return the table of the options that readers declare."""
+    known = {name: option for name, (option, _) in sorted(options().items())}
+    about = "\n".join(
+        f"    {name}: {option.help[0].upper()}{option.help[1:]}." for name, option in known.items()
+    )
+    table: Any = defstruct(
+        "Reading",
+        [(name, option.type | None, None) for name, option in known.items()],
+        bases=(Table,),
+        module=__name__,
+        namespace={"__doc__": f"{_OF_READING}\n\n{about}\n"},
+        kw_only=True,
+    )
+    made: type[Table] = table
+    return made
 
-    time: The time code of USD files.
-    geometry: Of USD.
-    purpose: Of USD prims that are drawn.
-    chord_tolerance: Millimetres.
-    angular_tolerance: Radians.
-    """
 
-    time: Number | None = None
-    geometry: GeometryKind | None = None
-    purpose: Annotated[tuple[Purpose, ...], Meta(min_length=1)] | None = None
-    chord_tolerance: Positive | None = None
-    angular_tolerance: Positive | None = None
+def reading_table_for(names: Iterable[str]) -> type[Table]:
+    """Return this table, also with the options of other packages if one of these names needs it."""
+    unknown = [name for name in names if name not in Reading.__struct_fields__]
+    if not unknown:
+        return Reading
+    for name in unknown:
+        with suppress(SatcheckError):  # the table says so, and what was meant
+            option_named(name)
+    return reading_table()
+
+
+_OF_READING = """How mesh files are read where their format leaves a choice. Options of the command
+    line override it."""
+if TYPE_CHECKING:
+    Reading = Table
+else:
+    Reading = reading_table()
 
 
 class RulesFile(Table, frozen=True, kw_only=True):

@@ -10,8 +10,8 @@ from typing import Any, TypeVar, get_args
 from msgspec import Struct, ValidationError, convert
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.files.readers import options
 from satcheck.scene.planar.outline import Shape
-from satcheck.scene.read_options import GeometryKind, Purpose
 from satcheck.scene.rules import SEVERITIES, Selector
 from satcheck.scene.scene_file.document import Choices, Rotation, Waypoint
 from satcheck.scene.table import LARGEST, Key, Keys, Wrong
@@ -32,9 +32,8 @@ _SHAPES = {shape.__struct_config__.tag: shape for shape in get_args(Shape)}
 # Keys whose value is one of some words.
 _CHOICES: dict[Key, tuple[str, ...]] = {
     "severity": SEVERITIES,
-    "geometry": get_args(GeometryKind),
-    "purpose": get_args(Purpose),
     "type": (*_SHAPES,),
+    **{name: option.choices for name, (option, _) in options().items()},
 }
 _INNER: dict[Key, type[Struct]] = {"rotation": Rotation, "path": Waypoint}  # tables in tables
 

@@ -30,7 +30,7 @@ MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 class SceneFile(Document, frozen=True, kw_only=True):
     """A document whose items have ids, and name mesh files or state shapes. Rules and motions
     refer to bodies of this file only. reading: the options with which its mesh files are read, by
-    their names in `ReadOptions`. accept: issues that may stay."""
+    their names. accept: issues that may stay."""
 
     ignore_within_groups: frozenset[str]
     check_static: bool

@@ -20,10 +20,9 @@ from satcheck.scene.bodies import Entry
 from satcheck.scene.document import FilePart, Item
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_reader, readers
-from satcheck.scene.files_read import note
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.paths import NOTHING_ELSE, Permitted, followed, is_file
+from satcheck.scene.opening import NOTHING_ELSE, Permitted, followed, is_file, note
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1

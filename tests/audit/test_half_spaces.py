@@ -18,7 +18,7 @@ from satcheck.audit.joint_path.search import WIDEST
 from satcheck.audit.samples import check_poses
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.bodies import is_half_space
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import new_scene_file
 from tests.audit.resolve.boxes import resolve

@@ -21,7 +21,7 @@ from satcheck.core.shapes import (
     is_curved,
     support,
 )
-from satcheck.scene.health import examine
+from satcheck.scene.inspect import examine
 
 BOX = Box((1.0, 2.0, 3.0))
 CURVED: dict[Primitive, tuple[float, Callable[..., float], tuple[float, ...]]] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -16,10 +17,10 @@ from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
 from satcheck.scene import Refused, Scene, load_scene
-from satcheck.scene.files.flatten import flattened
-from satcheck.scene.files.raw_mesh import RawScene, Refusal
-from satcheck.scene.files.readers import File
-from satcheck.scene.files.reading_children import Reply, Request, serve
+from satcheck.scene.document import Document, Refusal
+from satcheck.scene.files.nodes import flattened
+from satcheck.scene.files.readers import File, required_reader
+from satcheck.scene.files.reading_children import Reply, serve
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.robot.poses import read_poses
 from satcheck.verify import Rejected, parse, verify
@@ -48,10 +49,11 @@ def refuse_errors(scene: Scene) -> None:
 def read_in_this_process(path: Path) -> None:
     """What a reading child does. Its parent would turn every exception into `reader-failed`."""
     data = path.read_bytes()
-    file = File(path.suffix[1:], str(path.parent), path.name, data, len(data))
-    request = Request.about(file, "satcheck.scene.files.readers:read")
-    reply = serve(msgspec.msgpack.encode(request))
-    content = msgspec.msgpack.decode(reply, type=Reply[RawScene]).content
+    reader = required_reader(path.suffix)
+    options = reader.values({})
+    file = File(reader.name, str(path.parent), path.name, data, len(data), options)
+    reply = serve(pickle.dumps(("satcheck.scene.files.readers:read", file)))
+    content = msgspec.msgpack.decode(reply, type=Reply[Document]).content
     if isinstance(content, Refusal):
         raise Refused(content.code, content.message)
     flattened(content)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.cli.process import satcheck
+from tests.cli.process import SAMPLES, Ran, satcheck
 
 PACKAGE = Path(__file__).parent / "outside" / "tetra.py"
 UNIT = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
@@ -119,14 +120,49 @@ def test_the_line_of_a_refusal_is_said(tmp_path: Path, env: dict[str, str]) -> N
     assert "a.tetra: line 7: not four corners" in ran.err
 
 
-def test_a_reader_with_an_option_that_nobody_has_is_a_failure(
-    tmp_path: Path, env: dict[str, str]
+def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[str, str]) -> None:
+    """By the command, a scene file, a config file and in a batch; the report states it, so that
+    it can be verified."""
+
+    def run(*words: str) -> Ran:
+        return satcheck(*words, cwd=tmp_path, env=env)
+
+    pair = ("a.tetra", "far.tetra")
+    wide = ("--read", "tetra-scale=10")
+    assert run(*pair).code == 0
+    assert run("a.tetra", "b.tetra", "--read", "tetra-scale=0.5").code == 1
+    ran = run("a.tetra", *wide, "--format", "json", "a.tetra", "--certificate", "-o", "r.json")
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["reading"] == {"tetra_scale": 10.0}
+    assert report["findings"][0]["depth"] > 5
+    assert (ran.code, run("verify", "r.json").code) == (1, 0)
+
+    bodies = '[[bodies]]\nid = "a"\nmesh = "a.tetra"\n[[bodies]]\nid = "b"\n'
+    bodies += 'shape = {type = "box", size = [1, 1, 1]}\nposition = [3, 3, 3]\n'
+    for stated, code in (("", 0), ("reading.tetra_scale = 20\n", 1)):
+        (tmp_path / "scene.toml").write_text(f'schema = "satcheck.scene/1"\n{stated}{bodies}')
+        assert run("scene.toml").code == code
+    assert run("scene.toml", "--read", "tetra-scale=1").code == 0
+    for words, code in (((), 1), (("--read", "tetra-scale=1", "--resume"), 0)):
+        assert run("batch", "scene.toml", "-o", "r.jsonl", *words).code == code
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--read", "tetra-scale=0"), "tetra-scale: not '0', but the factor of all corners"),
+        (("--read", "tetra-skale=2"), "there are"),
+        (("box.obj", "--read", "tetra-scale=2"), "has the option tetra-scale: they have none"),
+    ],
+)
+def test_what_is_wrong_with_its_option_is_said(
+    words: tuple[str, ...], said: str, tmp_path: Path, env: dict[str, str]
 ) -> None:
-    module = Path(env["PYTHONPATH"]) / "tetra.py"
-    module.write_text(module.read_text().replace('text="plain"', 'options=("flop",)'))
-    ran = satcheck("a.tetra", "b.tetra", cwd=tmp_path, env=env)
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    files = ("box.obj",) if "box.obj" in words else ("a.tetra", "b.tetra")
+    ran = satcheck(*files, *words, cwd=tmp_path, env=env)
     assert ran.code == 2
-    assert "no options of readers: flop" in ran.err
+    assert said in " ".join(ran.err.split())
 
 
 def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ from satcheck.scene import load_scene
 from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf_document import read_document
-from satcheck.scene.files.unknown_names import UnknownNames
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.files.readers import GeometryKind
+from satcheck.scene.vocabulary import UnknownNames
 from tests.scene import files
 from tests.scene.loading import refusal
 

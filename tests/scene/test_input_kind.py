@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import load_scene
-from satcheck.scene.input_kind import kind_of
+from satcheck.scene.files.readers import kind_of
 from tests.plugin_marks import needs
 from tests.scene.robot.robots import link, robot_of
 

@@ -13,10 +13,9 @@ from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files,
 from satcheck.scene.document import FilePart
 from satcheck.scene.files import limits
 from satcheck.scene.files.native_formats import read_native
-from satcheck.scene.files.readers import ReadLimits
+from satcheck.scene.files.readers import ReadLimits, required_reader
 from satcheck.scene.files.reading_children import ReadingChildren
-from satcheck.scene.opening import open_file
-from satcheck.scene.paths import ANYWHERE
+from satcheck.scene.opening import ANYWHERE, open_file
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]
@@ -126,7 +125,7 @@ def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monke
     if damage == "none":
         assert isinstance(pieces, MeshFile)
         assert isinstance(whole, MeshFile)
-        assert open_file("", path, ReadLimits(1, 100, hashed=False)).in_pieces
+        assert open_file("", path, required_reader, ReadLimits(1, 100, hashed=False)).in_pieces
         assert pieces.sha256 is None
         assert pieces.mesh.to_bytes() == whole.mesh.to_bytes()
         assert (pieces.health, pieces.resolution) == (whole.health, whole.resolution)
@@ -140,7 +139,7 @@ def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, mon
     monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
     path = tmp_path / "fan.stl"
     path.write_bytes(stl_of(300))
-    file = open_file("fan.stl", path, ReadLimits(1, 100, hashed=False))
+    file = open_file("fan.stl", path, required_reader, ReadLimits(1, 100, hashed=False))
     assert file.in_pieces
     path.write_bytes(stl_of(300)[:1000])
     with pytest.raises(Refused, match="byte 1000: truncated while it was read"):

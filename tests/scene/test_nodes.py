@@ -7,10 +7,10 @@ import pytest
 
 from satcheck.core.worker import WorkerTimeout
 from satcheck.scene import load_scene
+from satcheck.scene.document import Document, Item, RawMesh, RawPart
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.flatten import concatenate
-from satcheck.scene.files.raw_mesh import RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.files.nodes import concatenate
 from satcheck.scene.files.reading_children import ReadingChildren
 from tests.scene import files, graphs
 
@@ -420,7 +420,7 @@ def test_a_node_of_collada_is_a_body_where_the_hierarchy_places_it(tmp_path):
 def test_what_no_reader_may_return_is_refused(parts, nodes, said):
     """As one of another package may: a body would vanish without a word."""
     mesh = RawPart("m", RawMesh(b"", b"", "float64"))
-    scene = RawScene((mesh,) * parts, tuple(RawNode(*node) for node in nodes))
+    scene = Document((mesh,) * parts, tuple(Item(number, path) for path, number in nodes))
     with pytest.raises(Refused) as caught:
         scene.check()
     assert caught.value.code == said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.scene.plain_ids import UniqueNames, plain_ids
+from satcheck.scene.document import UniqueNames, plain_ids
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ import pytest
 
 from satcheck.core import largest_placed, largest_stretch
 from satcheck.scene import Body, load_scene
-from satcheck.scene.files.raw_mesh import RawMesh
-from satcheck.scene.resolution import (
+from satcheck.scene.document import RawMesh
+from satcheck.scene.inspect import (
     FLOAT32_STEP,
     FLOAT64_STEP,
     VERTEX,

@@ -13,8 +13,7 @@ from msgspec.structs import replace
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box
-from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.half_spaces import is_half_space
+from satcheck.scene.bodies import IDENTITY, is_half_space
 
 if TYPE_CHECKING:
     import numpy.typing as npt

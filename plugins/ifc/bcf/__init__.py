@@ -6,6 +6,6 @@ One topic for each group of findings, with a view of each pair. Its import raise
 
 from __future__ import annotations
 
-from satcheck.scene.files.extras import imported
+from satcheck.scene.files.readers import imported
 
 imported("bcf", "ifc", "BCF files")

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.plugins.ifc.kernel import Shape
 from satcheck.plugins.ifc.relations import meet_in_a_corner
-from satcheck.scene.files.raw_mesh import RawMesh
+from satcheck.scene.document import RawMesh
 
 TRIANGLE = np.array([0, 1, 2], "<u4").tobytes()
 

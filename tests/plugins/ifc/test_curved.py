@@ -10,7 +10,6 @@ from satcheck.audit import check
 from satcheck.audit.request.settings import Settings
 from satcheck.plugins.ifc.readers import CHORD
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.read_options import ReadOptions
 from tests.plugins.ifc.models import Model
 from tests.plugins.ifc.test_reading import codes
 
@@ -20,7 +19,7 @@ OWN = CHORD / 1000  # metres
 def read(folder: Path, model: Model, **options: float) -> Scene:
     path = folder / "model.ifc"
     path.write_bytes(model.bytes())
-    return load_scene([path], reading=ReadOptions(**options))
+    return load_scene([path], reading=options)
 
 
 def extruded(model: Model, profile: str, height: float = 2.0) -> str:
@@ -87,7 +86,7 @@ def test_finer_facets_tell_a_thin_overlap_from_a_touch(tmp_path: Path) -> None:
     for chord, relation in ((1.0, "touching"), (0.01, "penetrating")):
         scene = read(tmp_path, model, chord_tolerance=chord, angular_tolerance=3.0)
         (finding,) = check(scene, Settings(depth=False)).findings
-        assert (finding.relation, scene.reading.chord_tolerance) == (relation, chord)
+        assert (finding.relation, scene.reading["chord_tolerance"]) == (relation, chord)
 
 
 @pytest.mark.parametrize("curved", [True, False])

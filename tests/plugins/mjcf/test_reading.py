@@ -15,7 +15,6 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files import extras
 from satcheck.scene.files.readers import File
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.read_options import ReadOptions
 from tests.cli.process import satcheck
 from tests.plugins.mjcf.files import (
     TETRAHEDRON,
@@ -112,7 +111,7 @@ def test_triangles_or_convex_hulls_of_meshes(tmp_path: Path) -> None:
     ball = body("ball", geom("s", kind="sphere", size=".2"), "<freejoint/>", pos="1.5 1.5 .5")
     path = write(tmp_path, model(body("notch", MESH_GEOM), ball, before=MESH))
     triangles = load_scene([path])
-    hulls = load_scene([path], reading=ReadOptions(mesh_hulls=True))
+    hulls = load_scene([path], reading={"mesh_hulls": True})
     assert relations(triangles) == {("notch", "ball"): "separated"}
     assert relations(hulls) == {("notch", "ball"): "contains"}
     for scene, said in ((triangles, "triangles of meshes are"), (hulls, "hulls of meshes are")):
@@ -125,7 +124,7 @@ def test_triangles_or_convex_hulls_of_meshes(tmp_path: Path) -> None:
 def test_a_part_is_read_again_by_its_name(tmp_path: Path, part: str) -> None:
     """As `satcheck verify` does."""
     text = model(body("a", MESH_GEOM.replace('"t"', '"own"')), before=INLINE)
-    options = ReadOptions(mesh_hulls=part.endswith("hull"))
+    options = {"mesh_hulls": part.endswith("hull")}
     (only,) = load_scene([write(tmp_path, text)], reading=options).bodies
     assert only.path == part
     again = MeshFiles().mesh(FilePart(only.file.path, only.file.path, part))

@@ -5,26 +5,30 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Annotated
 
 import click
+from msgspec import Meta
 
 from satcheck.cli.commands import Plugin
 from satcheck.cli.formats.registry import Format, Reports
 from satcheck.scene import Refused
-from satcheck.scene.files.raw_mesh import RawMesh, RawScene, alone
-from satcheck.scene.files.readers import File, Reader
+from satcheck.scene.document import Document, RawMesh, alone
+from satcheck.scene.files.readers import File, Option, Reader
 
-READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", text="plain")
+SCALE = Option("tetra_scale", Annotated[float, Meta(gt=0)], "the factor of all corners", 1.0)
+READER = Reader("tetra", "TETRA", (".tetra",), "tetra:read", options=(SCALE,), text="plain")
 FORMAT = Format("verdicts", (".verdicts",), "tetra:render")
 COMMAND = Plugin("corners", "Count the corners of a tetrahedron.", "tetra:command")
 
 _FACES = (0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
 
 
-def read(file: File) -> RawScene:
+def read(file: File) -> Document:
     """Return the tetrahedron of a file: a line for each corner, three numbers each."""
     try:
-        corners = [float(word) for word in bytes(file.data).split()]
+        scale = file.options[SCALE.name]
+        corners = [scale * float(word) for word in bytes(file.data).split()]
         points = struct.pack("<12d", *corners)
     except (ValueError, struct.error) as error:
         raise Refused("bad-record", f"not four corners: {error}") from error

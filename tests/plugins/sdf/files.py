@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.core.transform import Transform
 from satcheck.scene import Issue, Refused, load_scene
-from satcheck.scene.read_options import GeometryKind
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.robot import Robot
 from tests.scene.robot.robots import link_transforms, read_robot
 

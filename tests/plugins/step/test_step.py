@@ -14,7 +14,6 @@ from satcheck.plugins.step.exchange import read_exchange
 from satcheck.plugins.step.readers import CHORD
 from satcheck.scene import MeshFile, Refused, Scene, load_scene
 from satcheck.scene.files.readers import File
-from satcheck.scene.read_options import ReadOptions
 from satcheck.verify import verify
 from tests.plugins.step.files import StepFile, rig
 from tests.scene.loading import refusal
@@ -25,7 +24,7 @@ INCH = 25.4
 def load(folder: Path, text: str, name: str = "a.step", **options: float) -> Scene:
     path = folder / name
     path.write_text(text, "utf-8")
-    return load_scene([path], reading=ReadOptions(**options))
+    return load_scene([path], reading=options)
 
 
 def boxes(scene: Scene) -> dict[str, tuple[tuple[float, ...], ...]]:
@@ -107,8 +106,7 @@ def test_an_overlap_that_facets_explain_is_a_touch_unless_the_user_says_otherwis
 def test_the_facets_of_a_report_are_made_again_for_its_verification(tmp_path: Path) -> None:
     scene = load(tmp_path, rig(), chord_tolerance=0.25)
     document = check(scene, Settings(certificate=True)).to_dict()
-    stated = {name: value for name, value in document["reading"].items() if value is not None}
-    assert stated == {"chord_tolerance": 0.25, "angular_tolerance": 0.5}
+    assert document["reading"] == {"chord_tolerance": 0.25, "angular_tolerance": 0.5}
     root = Path("/")
     assert not verify(document, root).faults
     document["reading"]["chord_tolerance"] = 0.02

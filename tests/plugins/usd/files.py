@@ -9,7 +9,6 @@ from satcheck.core.conventions import Bounds
 from satcheck.core.curved.placed import curved_shape
 from satcheck.core.shapes import is_curved
 from satcheck.scene import Body, Scene, load_scene
-from satcheck.scene.read_options import ReadOptions
 
 _CUBE = """
     int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
@@ -38,10 +37,11 @@ def stage(*prims: str, head: str = 'metersPerUnit = 1\nupAxis = "Z"') -> str:
 
 
 def load(folder: Path, text: str, name: str = "stage.usda", **options: Any) -> Scene:
-    """options: of ReadOptions."""
+    """options: of its reader; None: not given."""
     path = folder / name
     path.write_text(text)
-    return load_scene([path], reading=ReadOptions(**options))
+    given = {name: value for name, value in options.items() if value is not None}
+    return load_scene([path], reading=given)
 
 
 def bounds_of(scene: Scene) -> dict[str, Bounds]:

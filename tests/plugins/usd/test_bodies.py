@@ -9,7 +9,6 @@ from pxr import Usd, UsdGeom
 
 from satcheck.core.shapes import Sphere
 from satcheck.scene import load_scene
-from satcheck.scene.read_options import Purpose
 from tests.plugins.usd.files import at, bounds_of, cube, load, said, stage
 
 PLACED = stage(
@@ -74,7 +73,7 @@ HIDDEN = stage(
     [(None, {"/Render"}), (("proxy",), {"/Proxy"}), (("guide", "render"), {"/Render", "/G/Guide"})],
 )
 def test_only_what_is_drawn_is_a_body(
-    tmp_path: Path, purpose: tuple[Purpose, ...] | None, more: set[str]
+    tmp_path: Path, purpose: tuple[str, ...] | None, more: set[str]
 ) -> None:
     scene = load(tmp_path, HIDDEN, purpose=purpose)
     assert {body.id for body in scene.bodies} == {"/Shown", *more}

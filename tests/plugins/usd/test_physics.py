@@ -204,8 +204,8 @@ def test_the_options_of_the_command_reach_the_reader(tmp_path: Path) -> None:
     path.write_text(stage(cube("A"), cube("B", moves), proxy))
     for options, code, bodies in (
         ((), 0, 2),
-        (("--time", "9"), 1, 2),
-        (("--purpose", "proxy"), 1, 3),
+        (("--read", "time=9"), 1, 2),
+        (("--read", "purpose=proxy"), 1, 3),
     ):
         ran = satcheck("--format", "json", *options, str(path))
         assert (ran.code, len(json.loads(ran.out)["bodies"])) == (code, bodies)
@@ -213,9 +213,9 @@ def test_the_options_of_the_command_reach_the_reader(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("paths", [("box.obj", "cube.off"), ("gripper.glb",), ("building.ifc",)])
 def test_a_time_without_a_usd_file_is_refused(paths: tuple[str, ...]) -> None:
-    ran = satcheck("--time", "9", *paths)
+    ran = satcheck("--read", "time=9", *paths)
     assert ran.code == 2
-    assert "--time is about USD files" in ran.err
+    assert "no reader of these files has the option time" in ran.err
 
 
 def test_the_certificates_of_colliders_are_accepted(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 
 from satcheck.core import Mesh
 from satcheck.scene import Body, MeshFile, Scene
-from satcheck.scene.health import examine
+from satcheck.scene.inspect import examine
 
 Corners = list[tuple[float, float]]
 

@@ -8,8 +8,8 @@ import pytest
 
 from satcheck.core.transform import Transform
 from satcheck.scene import Issue, Refused
+from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.read_options import GeometryKind
 from satcheck.scene.robot import Pose, Robot, settle
 from satcheck.scene.robot.kinematics import link_poses
 from satcheck.scene.robot.poses import values_of

@@ -20,7 +20,7 @@ FULL: dict[str, Any] = {
     "name": "cell",
     "description": "a test",
     "units": "mm",
-    "reading": {"time": 2.5, "geometry": "collision", "purpose": ["render", "proxy"]},
+    "reading": {"geometry": "collision"},
     "check_static": True,
     "ignore_within_groups": ["arm"],
     "bodies": [
