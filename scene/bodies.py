@@ -16,12 +16,12 @@ from satcheck.core.transform import Transform
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion, refuse_second_motions
 from satcheck.scene.planar.outline import Outline, Shape
-from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
     from satcheck.scene.files.readers import ReadOptions
     from satcheck.scene.robot import Posture, SceneRobot
     from satcheck.scene.robot.joint_path import JointPath
+    from satcheck.scene.rules import Rule
     from satcheck.scene.statics import BodyRule, StaticsTerms
 
 # Coordinates in float64 are rounded where they are stored and where they were computed, at least by

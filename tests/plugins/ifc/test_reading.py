@@ -11,7 +11,7 @@ import pytest
 from satcheck.plugins.ifc.reader import read_ifc
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.files import extras
+from satcheck.scene.files import readers
 from satcheck.scene.files.readers import File
 from tests.plugins.ifc.models import METRES, MILLIMETRES, Model
 from tests.scene.loading import refusal
@@ -223,7 +223,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
     def missing(name: str) -> None:
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
-    monkeypatch.setattr(extras, "import_module", missing)
+    monkeypatch.setattr(readers, "import_module", missing)
     with pytest.raises(Refused) as caught:
         read_ifc(File("ifc", "", "a.ifc", good().encode(), 0))
     assert caught.value.code == "missing-extra"

@@ -12,7 +12,7 @@ from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, S
 from satcheck.plugins.mjcf.child import model as read_model
 from satcheck.scene import MeshFile, Refused, load_scene
 from satcheck.scene.document import FilePart
-from satcheck.scene.files import extras
+from satcheck.scene.files import readers
 from satcheck.scene.files.readers import File
 from satcheck.scene.mesh_files import MeshFiles
 from tests.cli.process import satcheck
@@ -296,7 +296,7 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
     def missing(name: str) -> None:
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
-    monkeypatch.setattr(extras, "import_module", missing)
+    monkeypatch.setattr(readers, "import_module", missing)
     with pytest.raises(Refused, match=r"pip install 'satcheck\[mjcf\]'") as caught:
         read_model(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
     assert caught.value.code == "missing-extra"
