@@ -7,9 +7,9 @@ from collections.abc import Callable, Collection, Sequence
 from msgspec.structs import replace
 
 from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
-from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
+from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.check import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError

@@ -10,23 +10,34 @@ from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
-from satcheck.audit.doubtful_sizes import doubtful_sizes
+from satcheck.audit.bodies import BodyCache, PlacedBodies, place
+from satcheck.audit.checked_pairs import (
+    CheckedPair,
+    PairQueue,
+    Progress,
+    examine_pairs,
+    with_certificate,
+)
+from satcheck.audit.draft import Trace
+from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import apart_by_boxes, indeterminate
-from satcheck.audit.ladder.close_pairs import close_pairs
-from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.request.effects import effects_of
-from satcheck.audit.request.planner import Planner
-from satcheck.audit.request.settings import (
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import Planner, close_pairs
+from satcheck.audit.settings import (
     LISTED_PAIRS,
     LISTED_UNDECIDABLE,
     Settings,
     require_settings,
 )
-from satcheck.audit.request.trace import Trace
-from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, stated_reading, tool
+from satcheck.audit.summary import (
+    body_reports,
+    count,
+    doubtful_sizes,
+    exempt_of,
+    issues_of,
+    stated_reading,
+    tool,
+)
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import (
     OUTSIDE_REGION,

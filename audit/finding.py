@@ -12,16 +12,14 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.draft import Draft
-from satcheck.audit.figures.depth import Depth, measure_depth
-from satcheck.audit.figures.gap import measure_gap
-from satcheck.audit.figures.touch_band import Band, band_of, touch_band
-from satcheck.audit.figures.volume import NOTHING, common_volume
-from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
-from satcheck.audit.ladder.ladder import boxes_verdict, settle
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.draft import Band, Depth, Draft, Trace, Verdict
+from satcheck.audit.pair import Pair
+from satcheck.audit.stages.depth import measure_depth
+from satcheck.audit.stages.enclosing_pieces import open_pieces_around
+from satcheck.audit.stages.gap import measure_gap
+from satcheck.audit.stages.relation import boxes_verdict, settle
+from satcheck.audit.stages.touch_band import band_of, touch_band
+from satcheck.audit.stages.volume import NOTHING, common_volume
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.judge import (
@@ -36,7 +34,7 @@ from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
-    from satcheck.audit.figures.thickness_ahead import Ahead
+    from satcheck.audit.stages.thickness import Ahead
     from satcheck.core import Climb
 
 INCOMPLETE = "not proven: the reader of a file may have left something out"
@@ -169,7 +167,7 @@ def _thickness_ahead(draft: Draft) -> AbstractContextManager[Ahead | None]:
     both = pair.request.wants("depth") and pair.request.wants("thickness")
     if not (pair.alone and both and draft.verdict.relation in OVERLAPS):
         return nullcontext()
-    from satcheck.audit.figures.thickness_ahead import thickness_ahead
+    from satcheck.audit.stages.thickness import thickness_ahead
 
     return thickness_ahead(pair)
 
@@ -180,7 +178,7 @@ def _add_extras(draft: Draft, ahead: Ahead | None) -> None:
     if "thickness" in asked and verdict.relation in OVERLAPS:
         _add_thickness(draft, ahead)
     if pair.curved:
-        from satcheck.audit.figures.curved import without_meshes
+        from satcheck.audit.stages.curved import without_meshes
 
         draft.reason = without_meshes(draft.reason, pair, trace)
         return
@@ -188,17 +186,17 @@ def _add_extras(draft: Draft, ahead: Ahead | None) -> None:
         draft.volume = common_volume(pair, verdict, trace)
         draft.reason = draft.reason or draft.volume.refusal
     if "contacts" in asked:
-        from satcheck.audit.figures.contacts import find_contacts
+        from satcheck.audit.stages.contacts import find_contacts
 
         draft.contacts = find_contacts(pair, verdict, trace)
     if "components" in asked:
-        from satcheck.audit.figures.components import find_components
+        from satcheck.audit.stages.components import find_components
 
         draft.components = find_components(pair, verdict, trace)
 
 
 def _add_thickness(draft: Draft, ahead: Ahead | None) -> None:
-    from satcheck.audit.figures.thickness import STAGE, measure_thickness, why_not_thick
+    from satcheck.audit.stages.thickness import STAGE, measure_thickness, why_not_thick
 
     why_not = why_not_thick(draft.pair)
     if why_not is None:
@@ -212,7 +210,7 @@ def _contradiction(draft: Draft) -> str | None:
     """The answer of another library that contradicts the relation; None: no contradiction."""
     if draft.pair.peers is None or draft.pair.curved:
         return None
-    from satcheck.audit.cross_check import say
+    from satcheck.audit.stages.cross_check import say
 
     return say(draft.pair, draft.verdict, draft.pair.peers, draft.trace)
 
@@ -251,7 +249,7 @@ def _overlap(draft: Draft) -> str | None:
     if pair.excuses and draft.relation in OVERLAPS:
         draft.reason = draft.reason or _unexcused(pair, band)
     if pair.closer:
-        from satcheck.audit.figures.curve_error import depth_of_curves, overlap_of_curves
+        from satcheck.audit.stages.curve_error import depth_of_curves, overlap_of_curves
 
         depth = depth and depth_of_curves(pair, verdict, depth, trace)
         shown = shown and overlap_of_curves(pair, verdict)
@@ -262,7 +260,7 @@ def _overlap(draft: Draft) -> str | None:
 
 def _unexcused(pair: Pair, band: Band) -> str | None:
     """The reason why a surface tolerance does not apply; None: it applies."""
-    from satcheck.audit.figures.thickness import why_not_thick
+    from satcheck.audit.stages.thickness import why_not_thick
 
     why_not = why_not_thick(pair) or band.unexcused
     return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
@@ -281,7 +279,7 @@ def _gap(draft: Draft) -> None:
     pair, verdict = draft.pair, draft.verdict
     gap = measure_gap(pair, verdict, draft.trace)
     if pair.closer:
-        from satcheck.audit.figures.curve_error import gap_of_curves
+        from satcheck.audit.stages.curve_error import gap_of_curves
 
         gap = gap_of_curves(pair, gap)
     proven, reason = verdict.proven, _weakness(pair, verdict)

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, get_args
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import check
-from satcheck.audit.request.settings import FailOn, Settings
+from satcheck.audit.settings import FailOn, Settings
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.report.samples import (
     SampledBody,

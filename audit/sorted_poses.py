@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.audit.checked_pairs import examine_pairs
+from satcheck.audit.checked_pairs import PairQueue, examine_pairs
 from satcheck.audit.finding import deep_overlap
-from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
@@ -24,8 +23,8 @@ from satcheck.report.verdict import fails
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.boxes import Box
-    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.body import Box
+    from satcheck.audit.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
     from satcheck.core.overlap_volume import VolumeMeter
 

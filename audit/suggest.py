@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 from satcheck.report.suggestions import (
@@ -23,7 +23,7 @@ from satcheck.report.suggestions import (
 )
 
 if TYPE_CHECKING:
-    from satcheck.audit.request.settings import Settings
+    from satcheck.audit.settings import Settings
     from satcheck.report.samples import SampledPair, SamplesReport
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose

@@ -16,13 +16,12 @@ from msgspec.structs import replace
 
 # What the first question needs is imported here: it is no cost of the rung that asks it.
 import satcheck.decompose.computation  # noqa: F401
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.checked_pairs import Progress
-from satcheck.audit.figures.volume import common_volume
+from satcheck.audit.draft import Trace, Verdict
 from satcheck.audit.finding import examine
-from satcheck.audit.request.settings import Method, Settings
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Pair
+from satcheck.audit.settings import Method, Settings
+from satcheck.audit.stages.volume import common_volume
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError

@@ -9,7 +9,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
-from satcheck.audit.request.in_units import length_in_units, settings_in_units
+from satcheck.audit.settings import length_in_units, settings_in_units
 from satcheck.scene import Scene
 from satcheck.scene.units import Length, parse_length
 

@@ -12,7 +12,7 @@ from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
 from satcheck.audit.batch.options import Limits
-from satcheck.audit.request.settings import METHODS
+from satcheck.audit.settings import METHODS
 from satcheck.cli.lengths import length
 from satcheck.core.conventions import PLANES
 

@@ -10,7 +10,6 @@ from msgspec import UNSET
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import CurvedMaker
 from satcheck.audit.certify.maker import (
@@ -24,8 +23,9 @@ from satcheck.audit.certify.maker import (
     or_unset,
 )
 from satcheck.audit.certify.thickness import cells, excuse
-from satcheck.audit.figures.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.finding import Examined
+from satcheck.audit.pair import Pair
+from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.report.certificate import (
     AxisProof,
     Band,

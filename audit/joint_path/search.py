@@ -15,17 +15,17 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.escape import FREE
+from satcheck.audit.draft import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
 from satcheck.audit.motion.impact import Impact, impact_point
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
 from satcheck.audit.motion.moving_pair import overlaps
 from satcheck.audit.motion.worst import Worst
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import ALWAYS
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
-from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.stages.depth import FREE
 from satcheck.core.conventions import Vector
 from satcheck.report.report import Effect, Finding
 from satcheck.report.request import Request

@@ -6,10 +6,10 @@ import math
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair, Paths
+from satcheck.audit.draft import Trace
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Pair, Paths
 from satcheck.report.judge import Judgement, by_rule, judged
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Relation
 from satcheck.report.request import Request

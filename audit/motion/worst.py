@@ -16,11 +16,11 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.audit.draft import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.planner import ALWAYS
 from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
 

@@ -11,13 +11,13 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec import Struct
 
-from satcheck.audit.bodies.boxes import largest_coordinate
-from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.body import largest_coordinate
+from satcheck.audit.draft import Trace
 from satcheck.audit.finding import examine
-from satcheck.audit.ladder.core_climb import start_climbs
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import Settings
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import Settings
+from satcheck.audit.stages.core_climb import start_climbs
 from satcheck.audit.statics.contacts import (
     NOBODY,
     Points,

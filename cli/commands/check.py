@@ -14,7 +14,7 @@ from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.baseline_file import names_in_baseline, read_baseline
-from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
+from satcheck.audit.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
-from satcheck.audit.request.settings import LISTED_PAIRS
+from satcheck.audit.settings import LISTED_PAIRS
 from satcheck.cli.formats.messages import next_step, verdict_line
 from satcheck.cli.formats.numbers import after_rounding, bounds, duration, number, vector
 from satcheck.cli.formats.order import groups_of, severity, worst_first

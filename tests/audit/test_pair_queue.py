@@ -9,8 +9,8 @@ from time import sleep
 
 import pytest
 
-from satcheck.audit import pair_queue
-from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue
+from satcheck.audit import checked_pairs
+from satcheck.audit.checked_pairs import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue
 
 
 @dataclass(eq=False)
@@ -39,8 +39,8 @@ def chain(count):
 @pytest.fixture(autouse=True)
 def climbs(monkeypatch):
     """The climb of a pair is the pair itself, and no pair takes long."""
-    monkeypatch.setattr(pair_queue, "start_climbs", lambda pairs, _: lambda: list(pairs))
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: False)
+    monkeypatch.setattr(checked_pairs, "start_climbs", lambda pairs, _: lambda: list(pairs))
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: False)
 
 
 def by(examine):
@@ -53,7 +53,7 @@ def by(examine):
 def test_every_pair_has_its_result(jobs, count, every, monkeypatch):
     _, pairs = chain(count)
     heavy = {id(pair) for pair in pairs[::every]} if every else set()
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda pair, _: id(pair) in heavy)
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda pair, _: id(pair) in heavy)
     found = dict(PairQueue(jobs).each(pairs, by(id)))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
@@ -70,7 +70,7 @@ def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, mo
 
     monkeypatch.setattr(Thread, "start", refuse)
     _, pairs = chain(2 * BATCH_PAIRS)
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: True)
     found = dict(PairQueue(3).each(pairs, by(lambda pair: sleep(1e-4) or id(pair))))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
@@ -87,7 +87,7 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch):
         batches.append(list(batch))
         return lambda: batch
 
-    monkeypatch.setattr(pair_queue, "start_climbs", start_climbs)
+    monkeypatch.setattr(checked_pairs, "start_climbs", start_climbs)
     assert len(list(PairQueue(jobs).each(pairs, by(id)))) == len(pairs)
     assert sum(map(len, batches)) == len(pairs)
     assert max(map(len, batches)) <= BATCH_PAIRS
@@ -135,7 +135,7 @@ def test_after_an_error_nobody_waits_for_the_others(monkeypatch):
         started.set()
         heard.put(answered.wait(timeout=20))
 
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: True)
     with pytest.raises(KeyboardInterrupt):
         list(PairQueue(jobs=2).each(pairs, by(examine)))
     answered.set()

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Component, Components, Contacts
-from satcheck.audit.request.settings import LISTED_PAIRS
+from satcheck.audit.settings import LISTED_PAIRS
 from satcheck.cli.formats.order import groups_of
 from satcheck.cli.formats.table import render
 from satcheck.cli.formats.tables import broken

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import pytest
 
-from satcheck.audit.bodies.placed_bodies import book_of
+from satcheck.audit.bodies import book_of
 from satcheck.report.rule_book import NO_TERMS
 from satcheck.scene import Rule, Selector
 from tests.report.books import Subject

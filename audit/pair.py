@@ -1,0 +1,129 @@
+"""A pair of bodies and its request: what to compute, how far to climb the ladder, which tools."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import force_setattr
+
+from satcheck.audit.body import PlacedBody, diagonal, largest_coordinate
+from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
+from satcheck.core.conventions import axes_of
+from satcheck.report.request import Request
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import Peers
+    from satcheck.report.sweep import Sweep
+    from satcheck.scene.motion import Path
+
+
+# The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
+# of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
+TOUCH_FRACTION = 1e-3
+
+_RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
+
+
+class Paths(Struct, frozen=True):
+    """The motions of the two bodies; None: at rest. At least one moves. clear: they may not touch
+    on the way, unless they touch as placed. known: the result, where joints move the bodies."""
+
+    a: Path | None = None
+    b: Path | None = None
+    clear: bool = False
+    known: Sweep | None = None
+
+
+class Pair(Struct, frozen=True):
+    """tolerance: half width of the touch band, world units. gap_limit: a larger gap needs no
+    figure, because it is neither near nor in the touch band.
+
+    By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
+    that coarse coordinates far from the origin do not hide a whole body. It is at least the
+    deviation of polygons from the curves that they replace. off: how far the surfaces of A and B
+    may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
+    with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
+    within them; else 0.0. paths: the relative motion of the bodies; None: they do not move.
+    alone: no other pair needs these bodies.
+    """
+
+    a: PlacedBody
+    b: PlacedBody
+    settings: Settings
+    request: Request
+    meter: VolumeMeter | None = None
+    peers: Peers | None = None
+    paths: Paths | None = None
+    alone: bool = False
+    tolerance: float = 0.0  # __post_init__ sets it
+    gap_limit: float = 0.0  # __post_init__ sets it
+    off: tuple[float, float] = (0.0, 0.0)  # __post_init__ sets it
+    closer: float = 0.0  # __post_init__ sets it
+
+    def __post_init__(self) -> None:
+        tolerance = self.request.tolerance
+        if tolerance is None:
+            tolerance = self._resolution()
+        force_setattr(self, "tolerance", tolerance)
+        tolerances = (self.a.surface_tolerance, self.b.surface_tolerance)
+        off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
+        force_setattr(self, "off", (off_a, off_b))
+        if self.settings.planar:
+            closer = self.a.body.file.deviation + self.b.body.file.deviation
+            force_setattr(self, "closer", closer)
+        gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
+        force_setattr(self, "gap_limit", gap_limit)
+
+    def _resolution(self) -> float:
+        plane = self.settings.planar
+        if plane is None:
+            size = min(self.a.diagonal, self.b.diagonal)
+        else:
+            axes = axes_of(plane)
+            size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
+        written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+        return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    @property
+    def excuses(self) -> bool:
+        """Return whether surfaces may be off by more than the touch band."""
+        return max(self.off) > 0.5 * self.tolerance
+
+    @property
+    def wants_distance(self) -> bool:
+        """The size of the gap is needed, not only whether it is within the touch band."""
+        return self.request.wants("distance") or self.closer > self.tolerance
+
+    def may(self, rung: Accuracy) -> bool:
+        """Return whether --accuracy lets this pair climb to the rung."""
+        return _RANK[rung] <= _RANK[self.settings.accuracy]
+
+    @property
+    def largest_coordinate(self) -> float:
+        return largest_coordinate(self.a.bounds, self.b.bounds)
+
+    @property
+    def curved(self) -> bool:
+        """At least one body is a curved shape. Its mesh is only inscribed."""
+        return self.a.curved is not None or self.b.curved is not None
+
+    @property
+    def on_half_space(self) -> bool:
+        """A body is a half space. In a check in a plane it is the prism over its outline."""
+        return self.a.endless or self.b.endless
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles of both bodies, in their files."""
+        return self.a.shared.triangles + self.b.shared.triangles
+
+    @property
+    def both_solid(self) -> bool:
+        return self.a.solid and self.b.solid
+
+    @property
+    def both_convex(self) -> bool:
+        """The convex answer is the whole answer."""
+        return self.a.convex and self.b.convex
