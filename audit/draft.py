@@ -1,85 +1,34 @@
-"""What the stages have found about a pair, and the finding before it is judged."""
+"""What is known of a pair: each stage adds what it finds, and the finding is made of it."""
 
 from __future__ import annotations
 
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Literal
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from satcheck.audit.pair import Pair
-from satcheck.core.conventions import Vector
 from satcheck.report.judge import EXACT_WIDTH, quality_of
-from satcheck.report.report import Ball, Finding, Issue, Relation, Stage, Witness, finding_id
+from satcheck.report.report import (
+    Ball,
+    Finding,
+    Issue,
+    Relation,
+    Stage,
+    Vector,
+    Witness,
+    finding_id,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from satcheck import core
-    from satcheck.core import Climb
     from satcheck.core.curved.signed import Signed
     from satcheck.report.components import Components
     from satcheck.report.contacts import Contacts
 
-
 NANOSECONDS_PER_MICROSECOND = 1000.0
-
-
-class Trace:
-    """Stages in the order they ran, each with the time since the one before."""
-
-    __slots__ = ("_since", "issues", "stages")
-
-    def __init__(self) -> None:
-        self.stages: list[Stage] = []
-        self.issues: list[Issue] = []
-        self._since = perf_counter_ns()
-
-    def record(self, stage: str, result: str, detail: str = "") -> None:
-        now = perf_counter_ns()
-        elapsed = (now - self._since) / NANOSECONDS_PER_MICROSECOND
-        self.stages.append(Stage(stage, result, elapsed, detail))
-        self._since = now
-
-    def add_since(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
-        """Records a stage of which this much time ran earlier, elsewhere."""
-        self._since -= nanoseconds
-        self.record(stage, result, detail)
-
-    def climbed(self, climb: Climb) -> None:
-        """Records the rungs of the core, with its texts."""
-        self.stages += climb.stages(Stage)
-
-    def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
-        """Records a stage that ran elsewhere."""
-        elapsed = nanoseconds / NANOSECONDS_PER_MICROSECOND
-        self.stages.append(Stage(stage, result, elapsed, detail))
-
-    def complain(self, code: str, body: str | None, message: str) -> None:
-        """A warning about this pair; the same one from several pairs is reported once."""
-        self.issues.append(Issue(code, "warning", body, None, message))
-
-
-class Verdict(Struct, frozen=True):
-    """How two bodies relate, without a touch band.
-
-    proven: False if --accuracy or a degenerate contact leaves the relation open. overlaps: an
-    overlap is proven, but it is open whether one body contains the other. gap_lower: a proven lower
-    bound of the distance; 0.0: none is known. signed_distance: of two convex bodies, if it decides
-    everything about them. crossing: indices of one triangle of each body that meet; point: a common
-    point, rounded. reason: why the relation is not proven, unless --accuracy is the reason. climb:
-    of the core, if the core settled the pair.
-    """
-
-    relation: Relation
-    proven: bool
-    gap_lower: float = 0.0
-    signed_distance: core.PairResult | Signed | None = None
-    crossing: tuple[int, int] | None = None
-    point: Vector | None = None
-    reason: str | None = None
-    climb: core.Climb | None = None
-    overlaps: bool = False
-
-
 Side = Literal["open", "within", "deeper", "hidden"]
 
 
@@ -92,6 +41,18 @@ class Band(Struct, frozen=True):
     move: Vector | None = None
     why: str = "rounding hides whether the overlap is within the tolerance"
     unexcused: str | None = None
+
+
+class Escape(Struct, frozen=True):
+    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
+
+    bound: then an upper bound of the depth, its length plus the rounding of A's moved coordinates
+    (0.0 where there is none); inf when not verified.
+    """
+
+    mtv: Vector
+    verified: bool
+    bound: float
 
 
 class Depth(Struct, frozen=True):
@@ -107,18 +68,6 @@ class Depth(Struct, frozen=True):
     normal: Vector
     escape: Escape
     witness: Witness | None = None
-
-
-class Escape(Struct, frozen=True):
-    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
-
-    bound: then an upper bound of the depth, its length plus the rounding of A's moved coordinates
-    (0.0 where there is none); inf when not verified.
-    """
-
-    mtv: Vector
-    verified: bool
-    bound: float
 
 
 class Gap(Struct, frozen=True):
@@ -140,7 +89,7 @@ class Gap(Struct, frozen=True):
 
     @property
     def exact(self) -> bool:
-        """Whether only rounding is between the bounds."""
+        """Return whether only rounding is between the bounds."""
         return self.upper - self.lower <= EXACT_WIDTH * self.upper
 
 
@@ -154,47 +103,87 @@ class Thickness(Struct, frozen=True):
     proof: core.ThicknessProof | None = None
 
 
-class CommonVolume(Struct, frozen=True):
-    """volume and error: None where refused; refusal: why."""
+class Draft(Struct, eq=False):
+    """A pair, and what its stages have found so far.
 
-    volume: float | None = None
-    error: float | None = None
-    refusal: str | None = None
+    stages: those that ran, in order, each with the time since the one before. issues: warnings
+    about the pair.
 
-    @property
-    def bounds(self) -> tuple[float, float] | tuple[None, None]:
-        """As far as the error tells; None: not known."""
-        if self.volume is None or self.error is None:
-            return None, None
-        return self.volume - self.error, self.volume + self.error
+    Of the stage `relation`, without a touch band. exact: how the bodies relate. exact_proven: False
+    if --accuracy or a degenerate contact leaves it open. weak: why, unless --accuracy is the
+    reason. overlaps: an overlap is proven, but it is open whether one body contains the other.
+    gap_lower: a proven lower bound of the distance; 0.0: none is known. signed: the signed distance
+    of two convex bodies, if it decides everything about them. crossing: indices of one triangle of
+    each body that meet; point: a common point, rounded. climb: of the core, if it settled the pair.
 
-
-class Draft(Struct):
-    """Each stage fills in what it finds. verdict: of the ladder.
-
-    relation: with the touch band. exact_relation: without it; None: not proven. proven: the
-    relation, with the touch band. gap: of bodies without a common interior. band: of an overlap.
-    depth, thickness, volume, contacts and components are None if they were not requested.
+    With the touch band. relation, and proven: whether it is. exact_relation: as `exact`; None: not
+    shown. reason: why an answer is missing or weaker than a proof. gap: of bodies without a common
+    interior. band: of an overlap. ahead: waits for the search for the thickness that runs beside
+    that for the depth, and returns its nanoseconds, too. The figures are None if they were not
+    requested. disputed: the answer of another library that contradicts the relation.
     """
 
     pair: Pair
-    trace: Trace
-    verdict: Verdict
+    stages: list[Stage] = field(default_factory=list)
+    issues: list[Issue] = field(default_factory=list)
+    since: int = field(default_factory=perf_counter_ns)
+    exact: Relation = "indeterminate"
+    exact_proven: bool = False
+    weak: str | None = None
+    overlaps: bool = False
+    gap_lower: float = 0.0
+    signed: core.PairResult | Signed | None = None
+    crossing: tuple[int, int] | None = None
+    point: Vector | None = None
+    climb: core.Climb | None = None
     relation: Relation = "indeterminate"
-    exact_relation: Relation | None = None
     proven: bool = True
+    exact_relation: Relation | None = None
     reason: str | None = None
     gap: Gap | None = None
     band: Band | None = None
     depth: Depth | None = None
     thickness: Thickness | None = None
-    volume: CommonVolume | None = None
+    ahead: Callable[[], tuple[core.ThicknessInterval, int]] | None = None
+    volume: float | None = None
+    volume_error: float | None = None
     contacts: Contacts | None = None
     components: Components | None = None
+    disputed: str | None = None
+
+    def record(self, stage: str, result: str, detail: str = "", earlier: int = 0) -> None:
+        """Add a stage that has ended now. earlier: nanoseconds that it ran before the last one."""
+        now = perf_counter_ns()
+        elapsed = (now - self.since + earlier) / NANOSECONDS_PER_MICROSECOND
+        self.stages.append(Stage(stage, result, elapsed, detail))
+        self.since = now
+
+    def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
+        """Add a stage that ran elsewhere."""
+        elapsed = nanoseconds / NANOSECONDS_PER_MICROSECOND
+        self.stages.append(Stage(stage, result, elapsed, detail))
+
+    def complain(self, code: str, body: str | None, message: str) -> None:
+        """Add a warning about this pair; the same one from several pairs is reported once."""
+        self.issues.append(Issue(code, "warning", body, None, message))
+
+    def found(
+        self,
+        exact: Relation,
+        proven: bool,
+        gap_lower: float = 0.0,
+        signed: core.PairResult | Signed | None = None,
+        *,
+        weak: str | None = None,
+        overlaps: bool = False,
+    ) -> None:
+        """Set how the bodies relate, without a touch band."""
+        self.exact, self.exact_proven, self.gap_lower = exact, proven, gap_lower
+        self.signed, self.weak, self.overlaps = signed, weak, overlaps
 
     def finding(self) -> Finding:
         """Return the finding, not yet judged."""
-        pair, depth, thick, volume = self.pair, self.depth, self.thickness, self.volume
+        pair, depth, thick = self.pair, self.depth, self.thickness
         gap = self.gap if pair.request.clearance is not None else None
         if gap is not None and gap.distance is None:
             gap = None
@@ -224,10 +213,28 @@ class Draft(Struct):
             thickness=None if thick is None else thick.upper,
             thickness_bounds=None if thick is None else (thick.lower, thick.upper),
             ball=None if thick is None else thick.ball,
-            volume=None if volume is None else volume.volume,
-            volume_error=None if volume is None else volume.error,
+            volume=self.volume,
+            volume_error=self.volume_error,
             contacts=self.contacts,
             components=self.components,
             reason=self.reason,
-            plan=tuple(self.trace.stages),
+            plan=tuple(self.stages),
         )
+
+    def indeterminate(self, reason: str) -> Finding:
+        """Return the finding of a pair whose relation is not decided."""
+        return indeterminate(self.pair.a.id, self.pair.b.id, reason, self.stages)
+
+
+def indeterminate(a: str, b: str, reason: str, stages: list[Stage] | None = None) -> Finding:
+    """Return the finding of two bodies whose relation is not decided."""
+    return Finding(
+        id=finding_id(a, b),
+        a=a,
+        b=b,
+        severity="warning",
+        undecided="relation",
+        relation="indeterminate",
+        reason=reason,
+        plan=tuple(stages or ()),
+    )

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.audit.checked_pairs import PairQueue, examine_pairs
+from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.finding import deep_overlap
 from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
@@ -122,8 +122,8 @@ class _SortedBatch:
         self._climb(climbing)
 
     def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
-        queue = PairQueue(self._checks.settings.jobs)
-        checked = examine_pairs([pair for *_, pair in climbing], queue)
+        pairs = [pair for *_, pair in climbing]
+        checked = examine_pairs(pairs, self._checks.settings.jobs)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
             self._found[row][number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)

@@ -17,11 +17,11 @@ from msgspec.structs import replace
 # What the first question needs is imported here: it is no cost of the rung that asks it.
 import satcheck.decompose.computation  # noqa: F401
 from satcheck.audit.checked_pairs import Progress
-from satcheck.audit.draft import Trace, Verdict
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.pair import Pair
 from satcheck.audit.settings import Method, Settings
-from satcheck.audit.stages.volume import common_volume
+from satcheck.audit.stages.volume import measure_volume
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
@@ -260,13 +260,13 @@ def _decompositions(pair: Pair) -> list[Decomposition | SatcheckError]:
 def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Run, Pair]:
     cpu, start = _cpu_seconds(), perf_counter()
     pair = pair_of(bodies, settings)
-    examined = examine(pair, Trace())
+    draft = Draft(pair)
+    finding = examine(draft)
     cold, cpu = perf_counter() - start, _cpu_seconds() - cpu
-    finding = examined.finding
     # A clearance is asked only to have the gap measured.
     relation = "separated" if finding.relation == "near" else finding.relation
     known = is_of_bodies(finding) and relation != "indeterminate"
-    figure = signed_distance(finding, examined.draft.verdict)
+    figure = signed_distance(finding, draft)
     row = Row(
         rung=rung.name,
         threshold=rung.threshold,
@@ -293,8 +293,8 @@ def is_of_bodies(finding: Finding) -> bool:
     return finding.undecided not in ("relation", "inside")
 
 
-def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] | None:
-    """With its bounds. verdict: of the same ladder, for what it proves and nobody asked to report.
+def signed_distance(finding: Finding, draft: Draft) -> tuple[float, Bounds] | None:
+    """With its bounds. draft: of the same ladder, for what it proves and nobody asked to report.
     None: no figure of the bodies; how far their surfaces are apart says nothing of one that may lie
     inside."""
     if not is_of_bodies(finding):
@@ -302,15 +302,15 @@ def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] 
     if finding.depth_bounds is not None:
         low, high = finding.depth_bounds
         # An overlap that is not proven may be a gap, of any width.
-        return -high + 0.0, (-high + 0.0, -low + 0.0 if verdict.proven else None)
-    signed = verdict.signed_distance
+        return -high + 0.0, (-high + 0.0, -low + 0.0 if draft.exact_proven else None)
+    signed = draft.signed
     if signed is not None and signed.distance is not None:
         return signed.distance, (signed.lower, signed.upper)
     if finding.distance is not None:
         return finding.distance, (finding.distance, finding.distance)
-    if verdict.relation == "separated":
-        return verdict.gap_lower, (verdict.gap_lower if verdict.proven else None, None)
-    if verdict.relation == "touching":
+    if draft.exact == "separated":
+        return draft.gap_lower, (draft.gap_lower if draft.exact_proven else None, None)
+    if draft.exact == "touching":
         return 0.0, (0.0, 0.0)
     band = finding.tolerance
     return None if finding.relation != "touching" or band is None else (0.0, (-band, None))
@@ -350,7 +350,8 @@ def _volume(
     pair = pair_of(bodies, settings, meter)
     if pair.curved:
         return "a curved shape has no triangles"
-    common = common_volume(pair, Verdict("penetrating", False), Trace())
-    if common.volume is None or common.error is None:
-        return common.refusal or "no volume"
-    return perf_counter() - start, common.volume, common.error
+    draft = Draft(pair, exact="penetrating")
+    measure_volume(draft)
+    if draft.volume is None or draft.volume_error is None:
+        return draft.reason or "no volume"
+    return perf_counter() - start, draft.volume, draft.volume_error

@@ -31,7 +31,7 @@ from typing import Any
 from satcheck import core
 from satcheck.audit import Settings
 from satcheck.audit.body import PlacedBody, SharedMesh
-from satcheck.audit.draft import Trace
+from satcheck.audit.draft import Draft
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.audit.settings import WORK_PER_SECOND
@@ -84,7 +84,9 @@ def pair_of(entry: dict[str, Any], folder: Path, settings: Settings) -> Pair | N
         return None
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
     pair = Pair(a, b, settings, request_for(settings))
-    if pair.both_convex or settle(pair, Trace()).relation not in OVERLAPS:
+    draft = Draft(pair)
+    settle(draft)
+    if pair.both_convex or draft.exact not in OVERLAPS:
         return None
     return pair
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.body import PlacedBody, diagonal
-from satcheck.audit.draft import Trace
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
@@ -158,7 +158,7 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
-        return examine(self.placed(t), Trace()).finding
+        return examine(Draft(self.placed(t)))
 
     def _hulls(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float

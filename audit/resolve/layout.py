@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.bodies import place
 from satcheck.audit.body import PlacedBody
-from satcheck.audit.draft import Trace
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
@@ -129,7 +129,7 @@ class Layout:
         at_home = known is None and all(self.offsets[i] == ORIGIN for i in pair)
         banded = at_home or (known is not None and known[2].excused)
         asked = replace(strict, request=request) if banded else strict
-        return state_of(strict, examine(asked, Trace()).finding, banded=banded)
+        return state_of(strict, examine(Draft(asked)), banded=banded)
 
 
 def translated(body: Body, offset: Vector) -> Body:

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.draft import Trace, Verdict
+from satcheck.audit.draft import Draft
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.contacts import MAX_TRIANGLE_PAIRS
-from satcheck.audit.stages.search_progress import shown
 from satcheck.core.conventions import SMALLEST_SIZE
 from satcheck.report.components import Component, Components, Passing
 from satcheck.report.report import OVERLAPS, Vector
@@ -27,13 +26,16 @@ class Ball(Struct, frozen=True):
     centre: Vector | None = None
 
 
-def find_components(pair: Pair, verdict: Verdict, trace: Trace) -> Components:
-    """Of the exact relation, whatever the touch band."""
-    if verdict.proven and verdict.relation not in OVERLAPS:
-        return Components()
+def find_components(draft: Draft) -> None:
+    """Find the components of the exact relation, whatever the touch band."""
+    pair = draft.pair
+    if draft.exact_proven and draft.exact not in OVERLAPS:
+        draft.components = Components()
+        return
     if not pair.both_solid:
-        trace.record(STAGE, "not resolved", "a body is not closed")
-        return Components(resolved=False)
+        draft.record(STAGE, "not resolved", "a body is not closed")
+        draft.components = Components(resolved=False)
+        return
     a, b = pair.a.surface(), pair.b.surface()
     overlap = core.overlap_components(a, b, MAX_TRIANGLE_PAIRS)
     items = [
@@ -42,8 +44,8 @@ def find_components(pair: Pair, verdict: Verdict, trace: Trace) -> Components:
     ]
     items.sort(key=lambda item: (item.thickness_bounds or (0.0, 0.0))[1], reverse=True)
     detail = "" if overlap.resolved else "there may be others: a surface meets itself"
-    trace.record(STAGE, f"{len(items)} found", detail)
-    return Components(tuple(items), overlap.resolved)
+    draft.record(STAGE, f"{len(items)} found", detail)
+    draft.components = Components(tuple(items), overlap.resolved)
 
 
 def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
@@ -58,7 +60,9 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
         if component.resolved and is_open and _in_range(component.bounds):
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
-            with shown(f"component {place + 1} of {len(components)}, thickness", pair) as progress:
+            with pair.searching(
+                f"component {place + 1} of {len(components)}, thickness"
+            ) as progress:
                 search = core.search_thickness(
                     a, b, width=width, work=share, within=component, progress=progress
                 )

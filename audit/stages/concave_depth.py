@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.draft import Depth, Escape, Trace, Verdict
+from satcheck.audit.draft import Depth, Draft, Escape
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.depth import (
     frees_boxes,
@@ -22,7 +22,6 @@ from satcheck.audit.stages.depth import (
     way_out_of_hulls,
 )
 from satcheck.audit.stages.parts import depth_of_parts
-from satcheck.audit.stages.search_progress import shown
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
@@ -31,36 +30,35 @@ from satcheck.report.report import Vector
 NARROWER = 8
 
 
-def concave_depth(pair: Pair, verdict: Verdict, trace: Trace) -> Depth:
+def concave_depth(draft: Draft) -> Depth:
     """The depth of an overlapping pair of which the hulls do not say everything: the largest lower
     and the least upper bound of all that was tried, beside the shortest verified translation."""
+    pair = draft.pair
     hulls = way_out_of_hulls(pair)
-    trace.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
-    lower, upper = _cheap_lower_bound(pair, verdict, trace), hulls.upper
+    draft.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
+    lower, upper = _cheap_lower_bound(draft), hulls.upper
     ways = [(hulls.length, hulls.normal)]
     if pair.may("exact"):
-        lower, upper, way_out = _searched(pair, lower, upper, trace)
+        lower, upper, way_out = _searched(draft, lower, upper)
         if way_out is not None:
             ways.insert(0, _length_and_normal(way_out))
-    elif verdict.proven and pair.may("parts"):
-        lower = max(lower, depth_of_parts(pair, trace))
-    escape, normal = _shortest_escape(pair, ways, trace)
+    elif draft.exact_proven and pair.may("parts"):
+        lower = max(lower, depth_of_parts(draft))
+    escape, normal = _shortest_escape(draft, ways)
     if frees_boxes(pair, hulls.length, hulls.normal):
         upper = min(upper, hulls.length)
     upper = min(upper, escape.bound)
     return Depth(min(lower, upper), upper, normal, escape)
 
 
-def _shortest_escape(
-    pair: Pair, ways: list[tuple[float, Vector]], trace: Trace
-) -> tuple[Escape, Vector]:
+def _shortest_escape(draft: Draft, ways: list[tuple[float, Vector]]) -> tuple[Escape, Vector]:
     """The shortest of these ways out once verified, and its normal. ways: lengths and normals, the
     shortest first. The next is tried only if verification made the best one longer than it."""
     shortest: tuple[Escape, Vector] | None = None
     for length, normal in ways:
         if shortest is not None and shortest[0].bound <= length:
             break
-        escape = verified_escape(pair, length, normal, trace)
+        escape = verified_escape(draft, length, normal)
         if shortest is None or escape.bound < shortest[0].bound:
             shortest = escape, normal
     if shortest is None:
@@ -68,19 +66,18 @@ def _shortest_escape(
     return shortest
 
 
-def _searched(
-    pair: Pair, lower: float, upper: float, trace: Trace
-) -> tuple[float, float, Vector | None]:
+def _searched(draft: Draft, lower: float, upper: float) -> tuple[float, float, Vector | None]:
     """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
     the budget goes."""
+    pair = draft.pair
     work, width = pair.settings.work, pair.settings.depth_width
-    interval = search(pair, lower, upper, trace)
+    interval = search(draft, lower, upper)
     way_out, upper = interval.way_out, min(upper, interval.bound)
     while interval.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, interval):
         width, work = width / NARROWER, work - interval.work
         if work <= 0:
             break
-        interval = search(pair, interval.lower, interval.upper, trace, width=width, work=work)
+        interval = search(draft, interval.lower, interval.upper, width=width, work=work)
         way_out, upper = interval.way_out or way_out, min(upper, interval.bound)
     return max(lower, interval.lower), upper, way_out
 
@@ -91,10 +88,9 @@ def _straddles(pair: Pair, interval: core.DepthInterval) -> bool:
 
 
 def search(
-    pair: Pair,
+    draft: Draft,
     lower: float,
     upper: float,
-    trace: Trace,
     *,
     width: float | None = None,
     work: int | None = None,
@@ -103,7 +99,8 @@ def search(
     """The interval between known bounds narrowed, by translations of A that free the meshes and by
     proofs that others do not. width, work: those of the settings. limit: the search also ends when
     the depth is proven to be at least this."""
-    with shown("depth", pair) as progress:
+    pair = draft.pair
+    with pair.searching("depth") as progress:
         interval = core.search_depth(
             pair.a.surface(),
             pair.b.surface(),
@@ -117,7 +114,7 @@ def search(
         )
     spent = interval.stop == "work spent"
     reason = "; the budget ended the search" if spent else ""
-    trace.record(
+    draft.record(
         "search",
         "budget spent" if spent else interval.stop,
         f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes "
@@ -127,24 +124,25 @@ def search(
     return interval
 
 
-def _cheap_lower_bound(pair: Pair, verdict: Verdict, trace: Trace) -> float:
-    if not verdict.proven:
+def _cheap_lower_bound(draft: Draft) -> float:
+    if not draft.exact_proven:
         return 0.0
-    gap = gap_around(pair, verdict)
+    gap = gap_around(draft)
     if gap > 0:
-        trace.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
-    return max(gap, _crossing_depth(pair, verdict))
+        draft.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
+    return max(gap, _crossing_depth(draft))
 
 
-def depth_by_move(pair: Pair, verdict: Verdict, move: Vector, trace: Trace) -> Depth:
+def depth_by_move(draft: Draft, move: Vector) -> Depth:
     """The depth of a pair that a verified translation of A within the touch band frees.
 
     A wide tolerance must not make the figures coarser: a shorter move is then searched, as without
     a band. Within the input precision there is nothing to refine.
     """
+    pair = draft.pair
     if pair.request.tolerance is None:
-        return depth_of_move(pair, move, _crossing_depth(pair, verdict))
-    depth = concave_depth(pair, verdict, trace)
+        return depth_of_move(pair, move, _crossing_depth(draft))
+    depth = concave_depth(draft)
     if depth.escape.verified and depth.upper <= math.hypot(*move):
         return depth
     return depth_of_move(pair, move, depth.lower)
@@ -164,9 +162,10 @@ def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
     return length, (x, y, z)
 
 
-def _crossing_depth(pair: Pair, verdict: Verdict) -> float:
+def _crossing_depth(draft: Draft) -> float:
     """Return a proven lower bound of the depth from one pair of triangles that cross; 0.0 without
     one."""
-    if verdict.crossing is None:
+    pair = draft.pair
+    if draft.crossing is None:
         return 0.0
-    return core.crossing_depth(pair.a.surface(), pair.b.surface(), *verdict.crossing)
+    return core.crossing_depth(pair.a.surface(), pair.b.surface(), *draft.crossing)

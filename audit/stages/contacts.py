@@ -7,8 +7,7 @@ from collections.abc import Iterable
 from typing import Protocol, TypeVar
 
 from satcheck import core
-from satcheck.audit.draft import Trace, Verdict
-from satcheck.audit.pair import Pair
+from satcheck.audit.draft import Draft
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 
 # Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each
@@ -26,25 +25,27 @@ class Counted(Protocol):
 T = TypeVar("T", bound=Counted)
 
 
-def find_contacts(pair: Pair, verdict: Verdict, trace: Trace) -> Contacts | None:
-    """Where the triangles of the pair meet, exactly and whatever the touch band; None: too many."""
-    if verdict.proven and verdict.relation in APART:
-        return Contacts()
+def find_contacts(draft: Draft) -> None:
+    """Find where the triangles of the pair meet, exactly and whatever the touch band; nothing is
+    found if they are too many."""
+    if draft.exact_proven and draft.exact in APART:
+        draft.contacts = Contacts()
+        return
+    pair = draft.pair
     intersection = core.surface_intersection(pair.a.surface(), pair.b.surface(), MAX_TRIANGLE_PAIRS)
     if not intersection.complete:
         reason = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
-        trace.record("contacts", "too many", reason)
-        trace.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
-        return None
-    contacts = _listed(intersection, pair.settings.contact_points)
-    totals = contacts.totals
-    trace.record(
+        draft.record("contacts", "too many", reason)
+        draft.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
+        return
+    draft.contacts = _listed(intersection, pair.settings.contact_points)
+    totals = draft.contacts.totals
+    draft.record(
         "contacts",
         "found" if totals.triangle_pairs else "none",
         f"{totals.triangle_pairs} triangle pairs: {totals.curves} curves, "
         f"{totals.patches} patches, {totals.points} points",
     )
-    return contacts
 
 
 def _listed(intersection: core.SurfaceIntersection, limit: int) -> Contacts:

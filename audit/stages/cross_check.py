@@ -15,8 +15,7 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.draft import Trace, Verdict
-from satcheck.audit.pair import Pair
+from satcheck.audit.draft import Draft
 from satcheck.core.errors import SatcheckError
 from satcheck.core.peers import Peers
 from satcheck.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
@@ -36,44 +35,50 @@ class Opinion(Struct, frozen=True):
     ours: str = ""
 
 
-def say(pair: Pair, verdict: Verdict, peers: Peers, trace: Trace) -> str | None:
-    """Records one stage for each peer. Returns a disagreement, which becomes a warning, in
-    words."""
-    if not verdict.proven:
-        trace.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
-        return None
+def ask_peers(draft: Draft) -> None:
+    """Record one stage for each peer. A disagreement becomes a warning."""
+    pair = draft.pair
+    if pair.peers is None:
+        return
+    if not draft.exact_proven:
+        draft.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
+        return
     against = []
-    for opinion in (_by_fcl(pair, verdict, peers), _by_manifold(pair, verdict, peers)):
-        trace.record(CROSS_CHECK, opinion.standing, f"{opinion.peer}: {opinion.theirs}")
+    for opinion in (_by_fcl(draft, pair.peers), _by_manifold(draft, pair.peers)):
+        draft.record(CROSS_CHECK, opinion.standing, f"{opinion.peer}: {opinion.theirs}")
         if opinion.standing == "disagrees":
             said = f"{opinion.peer} says {opinion.theirs}, satcheck {opinion.ours}"
             against.append(said)
-            message = f"{pair.a.id} and {pair.b.id}: {said} ({verdict.relation})"
-            trace.complain(DISAGREEMENT, None, message)
-    return f"disputed: {', '.join(against)}" if against else None
+            message = f"{pair.a.id} and {pair.b.id}: {said} ({draft.exact})"
+            draft.complain(DISAGREEMENT, None, message)
+    if against:
+        draft.disputed = f"disputed: {', '.join(against)}"
 
 
-def _by_fcl(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
+def _by_fcl(draft: Draft, peers: Peers) -> Opinion:
+    pair = draft.pair
     name = "python-fcl"
-    if not _tells_whether_surfaces_meet(pair, verdict):
+    if not _tells_whether_surfaces_meet(draft):
         return Opinion(name, "no answer", "not asked: the surfaces touch without crossing")
     try:
         theirs = peers.surfaces_meet(pair.a.mesh, pair.b.mesh)
     except SatcheckError as error:
         return Opinion(name, "no answer", error.message)
-    ours = verdict.relation == "penetrating"
+    ours = draft.exact == "penetrating"
     return _compared(name, theirs, ours, ("surfaces that meet", "surfaces that are apart"))
 
 
-def _tells_whether_surfaces_meet(pair: Pair, verdict: Verdict) -> bool:
+def _tells_whether_surfaces_meet(draft: Draft) -> bool:
     """Whether meeting surfaces follow from the relation. A body within another one may touch
     internal faces of its material."""
-    if verdict.relation in ("contains", "inside"):
+    pair = draft.pair
+    if draft.exact in ("contains", "inside"):
         return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance > 0
-    return verdict.relation in ("separated", "penetrating")
+    return draft.exact in ("separated", "penetrating")
 
 
-def _by_manifold(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
+def _by_manifold(draft: Draft, peers: Peers) -> Opinion:
+    pair = draft.pair
     name = "manifold3d"
     if not pair.both_solid:
         return Opinion(name, "no answer", "not asked: a mesh is no solid")
@@ -87,7 +92,7 @@ def _by_manifold(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
         return Opinion(name, "no answer", error.message)
     if 0 < abs(common.volume) <= common.error:
         return Opinion(name, "no answer", "a common volume within its tolerance")
-    overlap, ours = common.volume > 0, verdict.relation in OVERLAPS
+    overlap, ours = common.volume > 0, draft.exact in OVERLAPS
     return _compared(name, overlap, ours, ("a common volume", "no common volume"))
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck.audit.body import PlacedBody, SharedMesh
-from satcheck.audit.draft import Depth, Trace, Verdict
+from satcheck.audit.draft import Depth, Draft
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.concave_depth import depth_of_move
 from satcheck.audit.stages.depth import measure_depth
@@ -33,7 +33,6 @@ from satcheck.scene.inspect import remeshed
 
 if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
-    from satcheck.audit.draft import Trace
     from satcheck.audit.pair import Pair
     from satcheck.core.curved.exact.proof import Proof
     from satcheck.report.report import Relation
@@ -55,26 +54,31 @@ _PROVES = {
 }
 
 
-def settle_curved(pair: Pair, trace: Trace) -> Verdict:
-    """The relation of bodies whose boxes do not settle it."""
-    if is_convex(pair.a) and is_convex(pair.b):
-        return _settle_convex(pair, trace)
-    return _settle_mesh(pair, trace)
+def settle_curved(draft: Draft) -> None:
+    """Find how bodies relate whose boxes do not settle it."""
+    if is_convex(draft.pair.a) and is_convex(draft.pair.b):
+        _settle_convex(draft)
+    else:
+        _settle_mesh(draft)
 
 
-def _settle_convex(pair: Pair, trace: Trace) -> Verdict:
+def _settle_convex(draft: Draft) -> None:
+    pair = draft.pair
     signed = convex_pair(pair.a, pair.b)
     if signed is None:
-        trace.record(STAGE, "undecided", OPEN_BOUNDS)
-        return Verdict("indeterminate", False, reason=f"undecided: {OPEN_BOUNDS}")
-    trace.record(STAGE, signed.outcome, "convex shapes")
+        draft.record(STAGE, "undecided", OPEN_BOUNDS)
+        draft.found("indeterminate", False, weak=f"undecided: {OPEN_BOUNDS}")
+        return
+    draft.record(STAGE, signed.outcome, "convex shapes")
     if not signed.exact:
         signed, proof = proven(pair.a, pair.b, signed)
-        trace.record(PROOF, signed.outcome if signed.exact else "undecided", _words(proof))
-    if signed.outcome != "penetrating":
-        reason = None if signed.exact else CLOSE_CONTACT
-        return Verdict(signed.outcome, signed.exact, max(signed.lower, 0.0), signed, reason=reason)  # type: ignore[arg-type]
-    return _nested(pair, signed, trace)
+        draft.record(PROOF, signed.outcome if signed.exact else "undecided", _words(proof))
+    if signed.outcome == "penetrating":
+        _find_nested(draft, signed)
+        return
+    weak = None if signed.exact else CLOSE_CONTACT
+    relation: Relation = signed.outcome  # type: ignore[assignment]
+    draft.found(relation, signed.exact, max(signed.lower, 0.0), signed, weak=weak)
 
 
 def _words(proof: Proof | None) -> str:
@@ -84,43 +88,42 @@ def _words(proof: Proof | None) -> str:
     return f"the axis ({axis}) {_PROVES[proof.outcome]}"
 
 
-def _nested(pair: Pair, signed: Signed, trace: Trace) -> Verdict:
-    """Whether one of two overlapping convex bodies contains the other."""
-    nested = nesting(pair.a, pair.b)
+def _find_nested(draft: Draft, signed: Signed) -> None:
+    """Find whether one of two overlapping convex bodies contains the other."""
+    nested = nesting(draft.pair.a, draft.pair.b)
     if nested.exact:
-        trace.record(PROOF, "known" if nested.known else "undecided", "which holds which")
+        draft.record(PROOF, "known" if nested.known else "undecided", "which holds which")
     if nested.relation != "penetrating":
-        trace.record("containment", nested.relation, "one shape holds the other")
-    reason = None if nested.known else TOO_CLOSE
-    return Verdict(nested.relation, nested.known, 0.0, signed, reason=reason, overlaps=True)
+        draft.record("containment", nested.relation, "one shape holds the other")
+    weak = None if nested.known else TOO_CLOSE
+    draft.found(nested.relation, nested.known, 0.0, signed, weak=weak, overlaps=True)
 
 
-def _settle_mesh(pair: Pair, trace: Trace) -> Verdict:
+def _settle_mesh(draft: Draft) -> None:
+    pair = draft.pair
     curved, mesh, sign = sides(pair.a, pair.b)
     seen = against_triangles(curved, mesh.mesh, pair.gap_limit)
     if seen.refined:
         detail = f"{seen.refined} triangles that bounds leave open"
-        trace.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
+        draft.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
     result = relate(curved, mesh, seen, pair.gap_limit)
     if result.relation == "undecided":
-        reason = _open(result, pair.b if sign > 0 else pair.a, seen)
-        trace.record(STAGE, "undecided", reason)
-        return Verdict("indeterminate", False, reason=f"undecided: {reason}")
+        weak = _open(result, pair.b if sign > 0 else pair.a, seen)
+        draft.record(STAGE, "undecided", weak)
+        draft.found("indeterminate", False, weak=f"undecided: {weak}")
+        return
     relation: Relation = result.relation
     if sign < 0:
         relation = _SWAPPED.get(relation, relation)
-    trace.record(STAGE, relation, _detail(result, seen))
-    return _verdict(relation, result, sign)
-
-
-def _verdict(relation: Relation, result: InMesh, sign: float) -> Verdict:
+    draft.record(STAGE, relation, _detail(result, seen))
     if relation in ("separated", "touching"):
         signed = result.signed if sign > 0 or result.signed is None else result.signed.swapped()
-        reason = None if result.proven else CLOSE_CONTACT
-        return Verdict(relation, result.proven, result.gap_lower, signed, reason=reason)
-    reason = None if result.proven else TOO_CLOSE
-    overlaps = bool(result.crossed) or not result.proven
-    return Verdict(relation, result.proven, reason=reason, overlaps=overlaps)
+        why = None if result.proven else CLOSE_CONTACT
+        draft.found(relation, result.proven, result.gap_lower, signed, weak=why)
+    else:
+        why = None if result.proven else TOO_CLOSE
+        overlaps = bool(result.crossed) or not result.proven
+        draft.found(relation, result.proven, weak=why, overlaps=overlaps)
 
 
 def _detail(result: InMesh, seen: Nearest) -> str:
@@ -146,20 +149,21 @@ def _open(result: InMesh, mesh: PlacedBody, seen: Nearest) -> str:
     return f"{which} of {mesh.id} meets the curved shape: its fill decides"
 
 
-def sandwiched_depth(pair: Pair, move: Vector | None, trace: Trace) -> Depth:
+def sandwiched_depth(draft: Draft, move: Vector | None) -> Depth:
     """move: a translation of A within the touch band that is known to free it."""
+    pair = draft.pair
     inner, outer = _depth_with(pair, around=False), _depth_with(pair, around=True)
     if outer is None:
         raise AssertionError("what is known to overlap a shape overlaps the mesh around it")
     lower = 0.0 if inner is None else max(min(inner.lower, outer.upper) - _sticks_out(pair), 0.0)
-    trace.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
+    draft.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
     if move is None and None in (pair.a.curved, pair.b.curved):
         move = move_off(pair.a, pair.b, outer.upper, rounding_pad(pair.largest_coordinate))
     if move is not None:
-        trace.record("verify", "separated", "the shape, moved by the MTV")
+        draft.record("verify", "separated", "the shape, moved by the MTV")
         return depth_of_move(pair, move, lower)
     verified = "separated" if outer.escape.verified else "failed"
-    trace.record("verify", verified, "the mesh around the shape, moved by the MTV")
+    draft.record("verify", verified, "the mesh around the shape, moved by the MTV")
     return Depth(lower, outer.upper, outer.normal, outer.escape)
 
 
@@ -170,9 +174,9 @@ def _depth_with(pair: Pair, *, around: bool) -> Depth | None:
         settings = replace(settings, accuracy="aabb")
     a, b = _as_mesh(pair, pair.a, around), _as_mesh(pair, pair.b, around)
     meshes = replace(pair, a=a, b=b, settings=settings)
-    trace = Trace()
-    verdict = settle(meshes, trace)
-    return measure_depth(meshes, verdict, None, trace) if verdict.relation in OVERLAPS else None
+    draft = Draft(meshes)
+    settle(draft)
+    return measure_depth(draft, None) if draft.exact in OVERLAPS else None
 
 
 def _sticks_out(pair: Pair) -> float:
@@ -205,12 +209,11 @@ def _scaled(mesh: Mesh, by: float) -> Mesh:
     )
 
 
-def without_meshes(reason: str | None, pair: Pair, trace: Trace) -> str | None:
-    """The reason of a finding; it names the figures that are computed on meshes alone, and so are
-    not available for a curved shape."""
-    missing = [effect for effect in ON_TRIANGLES if pair.request.wants(effect)]
+def note_unavailable(draft: Draft) -> None:
+    """Note the figures that are computed on meshes alone, and so are not available for a curved
+    shape."""
+    missing = [effect for effect in ON_TRIANGLES if draft.pair.request.wants(effect)]
     for effect in missing:
-        trace.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
-    if missing:
-        return reason or f"{' and '.join(missing)}: not available for curved shapes"
-    return reason
+        draft.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
+    if missing and draft.reason is None:
+        draft.reason = f"{' and '.join(missing)}: not available for curved shapes"

@@ -12,39 +12,40 @@ from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.body import box_escape
-from satcheck.audit.draft import Depth, Escape, Trace, Verdict
+from satcheck.audit.draft import Depth, Draft, Escape
 from satcheck.audit.pair import Pair
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:
-    from satcheck.audit.draft import Verdict
     from satcheck.core.curved.signed import Signed
 
 
-def measure_depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth:
+def measure_depth(draft: Draft, move: Vector | None) -> Depth:
     """The depth of an overlapping pair: exact for convex ones, an interval for the others.
 
     move: a translation of A within the touch band that is known to free it.
     """
-    if verdict.signed_distance is not None:
-        return _convex_depth(pair, verdict.signed_distance, trace)
+    pair = draft.pair
+    if draft.signed is not None:
+        return _convex_depth(draft, draft.signed)
     if pair.curved:
         from satcheck.audit.stages.curved import sandwiched_depth
 
-        return sandwiched_depth(pair, move, trace)
+        return sandwiched_depth(draft, move)
     from satcheck.audit.stages.concave_depth import concave_depth, depth_by_move
 
     if move is not None:
-        return depth_by_move(pair, verdict, move, trace)
-    return concave_depth(pair, verdict, trace)
+        return depth_by_move(draft, move)
+    return concave_depth(draft)
 
 
-def _convex_depth(pair: Pair, result: core.PairResult | Signed, trace: Trace) -> Depth:
+def _convex_depth(draft: Draft, result: core.PairResult | Signed) -> Depth:
+    pair = draft.pair
     if result.distance is None or result.normal is None:
         raise AssertionError("a penetrating pair has a signed distance and a normal")
     value = max(-result.distance, 0.0)
-    escape = verified_escape(pair, value, result.normal, trace)
+    escape = verified_escape(draft, value, result.normal)
     lower = value if result.upper is None else min(max(0.0, -result.upper), value)
     upper = escape.bound if result.lower is None else -result.lower
     if pair.curved:
@@ -76,15 +77,16 @@ FREE = frozenset({"separated", "touching"})
 LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
 
 
-def verified_escape(pair: Pair, length: float, normal: Vector, trace: Trace) -> Escape:
+def verified_escape(draft: Draft, length: float, normal: Vector) -> Escape:
     """The shortest accepted translation along -normal, at least `length` long.
 
     The nominal length is tried only where adding it to A's coordinates rounds nothing; elsewhere a
     few ulps are added at once, so that another program's order of rounding separates too. The
     nominal length comes back unverified when the ladder is capped below the hulls or nothing helps.
     """
+    pair = draft.pair
     if not pair.may("hull"):
-        trace.record("verify", "not asked", "the capped ladder has nothing to verify with")
+        draft.record("verify", "not asked", "the capped ladder has nothing to verify with")
         return Escape(_along(normal, length), False, math.inf)
     ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
     steps = (0, *LENGTHENING_ULPS) if adds_exactly(pair, length, normal) else LENGTHENING_ULPS
@@ -93,10 +95,10 @@ def verified_escape(pair: Pair, length: float, normal: Vector, trace: Trace) -> 
         relation = relation_after(pair, mtv)
         if relation in FREE:
             longer = f", lengthened by {step} units in the last place" if step else ""
-            trace.record("verify", relation, f"A moved by its MTV{longer}")
+            draft.record("verify", relation, f"A moved by its MTV{longer}")
             return Escape(mtv, True, length if step == 0 else length + (step + 2) * ulp)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
-    trace.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
+    draft.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
     return Escape(_along(normal, length), False, math.inf)
 
 
@@ -175,12 +177,13 @@ def way_out_of_hulls(pair: Pair) -> WayOut:
     return WayOut(-hulls.distance, -hulls.lower, hulls.normal, "hulls of the whole meshes")
 
 
-def gap_around(pair: Pair, verdict: Verdict) -> float:
+def gap_around(draft: Draft) -> float:
     """A lower bound of the depth of nested bodies: the inner body is not free before the surfaces
     meet. 0.0 for other pairs."""
-    if verdict.relation not in ("contains", "inside"):
+    pair = draft.pair
+    if draft.exact not in ("contains", "inside"):
         return 0.0
-    climb = verdict.climb
-    if climb is not None and climb.relation == verdict.relation and climb.least_depth is not None:
+    climb = draft.climb
+    if climb is not None and climb.relation == draft.exact and climb.least_depth is not None:
         return climb.least_depth  # no triangles of nested bodies cross
     return core.nested_depth(pair.a.geometry, pair.b.geometry)

@@ -19,13 +19,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
-from satcheck.audit.stages.search_progress import shown
+from satcheck.audit.draft import Draft
 from satcheck.audit.stages.thickness import across, why_not_thick
 from satcheck.report.judge import EXACT_WIDTH
 
 if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
-    from satcheck.audit.draft import Trace
     from satcheck.audit.pair import Pair
 
 STAGE = "touch-band"
@@ -47,14 +46,15 @@ def may_be_explained(pair: Pair) -> bool:
     return max(pair.off) > 0 and why_not_thick(pair) is None
 
 
-def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> tuple[Explained, str]:
+def explain(draft: Draft, nanoseconds: int = 0) -> tuple[Explained, str]:
     """Of an overlap of closed bodies, with the open question if it is undecided, and why it is not
     excused. nanoseconds: what was spent before."""
+    pair = draft.pair
     result, detail = _decided(pair)
     off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
     told = f"{detail} is open" if result == "undecided" else detail
     joint = " " if result in ("within", "deeper") else "; the surfaces are off by "
-    trace.add_since(STAGE, result, f"{told}{joint}{off}", nanoseconds)
+    draft.record(STAGE, result, f"{told}{joint}{off}", nanoseconds)
     return result, detail
 
 
@@ -184,7 +184,7 @@ def _search(
     *,
     prove: bool,
 ) -> core.ThicknessInterval:
-    with shown("thickness beyond the surface tolerances", pair) as progress:
+    with pair.searching("thickness beyond the surface tolerances") as progress:
         return core.search_thickness(
             a.surface(),
             b.surface(),

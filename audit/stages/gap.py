@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.draft import Gap, Trace, Verdict
+from satcheck.audit.draft import Draft, Gap
 from satcheck.audit.pair import Pair
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.judge import EXACT_WIDTH, keeps
@@ -22,31 +22,33 @@ if TYPE_CHECKING:
     Compare = Callable[[float], int | None]
 
 
-def measure_gap(pair: Pair, verdict: Verdict, trace: Trace) -> Gap:
+def measure_gap(draft: Draft) -> Gap:
     """The distance of a separated or touching pair, as far as the clearance or the band asks."""
-    if verdict.signed_distance is not None:
+    pair = draft.pair
+    if draft.signed is not None:
         if pair.request.wants("distance"):
-            trace.record("distance", "measured", "with the hulls")
-        return _convex_gap(pair, verdict, verdict.signed_distance)
-    if verdict.relation == "touching":
-        witness = verdict.point and Witness(verdict.point, verdict.point)
+            draft.record("distance", "measured", "with the hulls")
+        return _convex_gap(draft, draft.signed)
+    if draft.exact == "touching":
+        witness = draft.point and Witness(draft.point, draft.point)
         return Gap(0.0, 0.0, True, not pair.request.clearance, 0.0, None, witness)
-    climb = verdict.climb
+    climb = draft.climb
     if climb is None or climb.gap is None:
-        return _at_least(pair, verdict.gap_lower)
-    return _surface_gap(pair, climb, climb.gap, trace)
+        return _at_least(pair, draft.gap_lower)
+    return _surface_gap(draft, climb, climb.gap)
 
 
-def _surface_gap(pair: Pair, climb: core.Climb, surfaces: core.MeshDistance, trace: Trace) -> Gap:
+def _surface_gap(draft: Draft, climb: core.Climb, surfaces: core.MeshDistance) -> Gap:
+    pair = draft.pair
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     asked = pair.wants_distance
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
     cost, hole_gap = climb.band_nanoseconds, climb.gap_of_holes
     if math.isinf(surfaces.distance):
-        trace.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
+        draft.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
         beyond = math.nextafter(limit, math.inf)
         return _at_least(pair, beyond if hole_gap is None else hole_gap)
-    trace.add(stage, "measured", f"triangles {surfaces.triangle_a} and {surfaces.triangle_b}", cost)
+    draft.add(stage, "measured", f"triangles {surfaces.triangle_a} and {surfaces.triangle_b}", cost)
     rounding = rounding_pad(pair.largest_coordinate)
     nearest = surfaces.distance if hole_gap is None else hole_gap
     lower, upper = max(nearest - rounding, 0.0), surfaces.distance + rounding
@@ -87,14 +89,15 @@ def _surface_gap(pair: Pair, climb: core.Climb, surfaces: core.MeshDistance, tra
     )
 
 
-def _convex_gap(pair: Pair, verdict: Verdict, result: core.PairResult | Signed) -> Gap:
+def _convex_gap(draft: Draft, result: core.PairResult | Signed) -> Gap:
+    pair = draft.pair
     distance = max(result.distance or 0.0, 0.0)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
     lower, upper = max(result.lower or 0.0, 0.0), max(result.upper or 0.0, distance)
     normal = result.normal
-    if verdict.relation == "touching" and verdict.proven:
+    if draft.exact == "touching" and draft.exact_proven:
         lower = upper = distance = 0.0
     elif pair.on_half_space and distance > 0:
         # A height, rounded once: only the block that stands for the half space is off.

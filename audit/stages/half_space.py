@@ -14,9 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
-from msgspec.structs import replace
 
-from satcheck.audit.draft import Verdict
 from satcheck.core.curved.signed import Outcome, Signed
 from satcheck.core.half_space import (
     Height,
@@ -31,7 +29,7 @@ from satcheck.core.shapes import HalfSpace
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.draft import Trace
+    from satcheck.audit.draft import Draft
     from satcheck.audit.pair import Pair
     from satcheck.core.conventions import Vector
     from satcheck.core.transform import Transform
@@ -95,40 +93,30 @@ def above(pair: Pair) -> Above:
     return Above(plane, low, high, slack, floor_is_a)
 
 
-def settle_half_space(
-    pair: Pair,
-    trace: Trace,
-    by_block: Callable[[], Verdict] | None,
-    verdict: Verdict | None = None,
-) -> Verdict:
-    """The verdict on a body and a half space. verdict: that with the block instead, if it is known;
-    by_block: makes it, if it is needed."""
-    over = above(pair)
+def settle_half_space(draft: Draft, by_block: Callable[[], None]) -> None:
+    """Find how a body and a half space relate. by_block: finds it with the block instead. Of meshes
+    that is needed in any case; of a curved shape only if the plane does not decide."""
+    curved = draft.pair.curved
+    if not curved:
+        by_block()
+    over = above(draft.pair)
     signed = over.signed()
     heights = f"least height {signed.distance:.6g}, greatest {over.high.value:.6g}"
     if not over.decides:
-        trace.record(STAGE, "undecided", f"{heights}: within the rounding of the block")
-        if verdict is None and by_block is not None:
-            verdict = by_block()
-        assert verdict is not None
-        told = verdict.signed_distance is not None or verdict.relation != "indeterminate"
-        return replace(verdict, signed_distance=signed) if told else verdict
-    trace.record(STAGE, signed.outcome, heights)
+        draft.record(STAGE, "undecided", f"{heights}: within the rounding of the block")
+        if curved:
+            by_block()
+        if draft.signed is not None or draft.exact != "indeterminate":
+            draft.signed = signed
+        return
+    draft.record(STAGE, signed.outcome, heights)
     relation: Relation = "penetrating"
     if over.side >= 0:
         relation = "separated" if over.side else "touching"
     elif over.high.compare(-over.slack) < 0:
         relation = "contains" if over.floor_is_a else "inside"
-    return Verdict(
-        relation,
-        True,
-        gap_lower=max(signed.lower, 0.0),
-        signed_distance=signed,
-        crossing=None if verdict is None else verdict.crossing,
-        point=over.low.point if relation == "touching" else None,
-        climb=None if verdict is None else verdict.climb,
-        overlaps=over.side < 0,
-    )
+    draft.found(relation, True, max(signed.lower, 0.0), signed, overlaps=over.side < 0)
+    draft.point = over.low.point if relation == "touching" else None
 
 
 @lru_cache(maxsize=64)

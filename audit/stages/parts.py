@@ -16,7 +16,7 @@ from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.body import Box, PlacedBody, box_escape, largest_coordinate
-from satcheck.audit.draft import Trace, Verdict
+from satcheck.audit.draft import Draft
 from satcheck.audit.pair import Pair
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Relation
@@ -41,13 +41,13 @@ class Covering(Struct, frozen=True):
     missing: float
 
 
-def decomposition(body: PlacedBody, trace: Trace) -> Decomposition | None:
+def decomposition(draft: Draft, body: PlacedBody) -> Decomposition | None:
     """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
     from satcheck.decompose import DecompositionError
 
     decomposed = body.shared.decomposition()
     if isinstance(decomposed, DecompositionError):
-        trace.complain(decomposed.code, body.id, f"no convex parts: {decomposed.message}")
+        draft.complain(decomposed.code, body.id, f"no convex parts: {decomposed.message}")
         return None
     return decomposed
 
@@ -64,11 +64,11 @@ def split_together(pair: Pair) -> None:
     list(in_parallel(lambda shared: shared.decomposition(), waiting, len(waiting)))
 
 
-def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:
+def inner_parts(draft: Draft, body: PlacedBody) -> list[Part]:
     """Parts proven to lie inside the body's mesh, up to the rounding of the pose; may be empty."""
     if body.convex:
         return [Part(body.hull_shape(), body.bounds)]
-    decomposed = decomposition(body, trace)
+    decomposed = decomposition(draft, body)
     return (
         []
         if decomposed is None
@@ -76,10 +76,10 @@ def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:
     )
 
 
-def covering(body: PlacedBody, trace: Trace) -> Covering | None:
+def covering(draft: Draft, body: PlacedBody) -> Covering | None:
     if body.convex:
         return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
-    decomposed = decomposition(body, trace)
+    decomposed = decomposition(draft, body)
     if decomposed is None:
         return None
     stretch = body.largest_stretch
@@ -97,16 +97,17 @@ def _placed(part: core.Polytope, body: PlacedBody) -> Part:
     return Part(core.Hull(mesh.convex_hull()), mesh.bounds)
 
 
-def depth_of_parts(pair: Pair, trace: Trace) -> float:
+def depth_of_parts(draft: Draft) -> float:
     """A proven lower bound of the depth, world units, by the inner parts of the bodies."""
+    pair = draft.pair
     split_together(pair)
-    bodies = [inner_parts(body, trace) for body in (pair.a, pair.b)]
+    bodies = [inner_parts(draft, body) for body in (pair.a, pair.b)]
     counts = f"{len(bodies[0])} and {len(bodies[1])} inner parts"
     if not (bodies[0] and bodies[1]):
-        trace.record("parts", "failed", counts)
+        draft.record("parts", "failed", counts)
         return 0.0
     deepest = deepest_pair(bodies[0], bodies[1])
-    trace.record("parts", "lower bound", f"at least {deepest:.6g} by {counts}")
+    draft.record("parts", "lower bound", f"at least {deepest:.6g} by {counts}")
     return deepest
 
 
@@ -136,32 +137,36 @@ def deepest_pair(parts_a: list[Part], parts_b: list[Part]) -> float:
     return max(deepest - rounding_pad(largest_coordinate(*boxes)), 0.0)
 
 
-def settle_by_parts(pair: Pair, trace: Trace) -> Verdict:
-    """The verdict by the parts. It is proven if the measured error of the parts allows it; else it
-    is an estimate."""
+def settle_by_parts(draft: Draft) -> None:
+    """Find how the bodies relate by their parts. It is proven if the measured error of the parts
+    allows it; else it is an estimate."""
+    draft.found("penetrating", False)
+    pair = draft.pair
     if not pair.both_solid:
-        trace.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
-        return Verdict("penetrating", False)
+        draft.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
+        return
     if any(body.shared.has_sheets() for body in (pair.a, pair.b)):
-        trace.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
-        return Verdict("penetrating", False)
+        draft.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
+        return
     split_together(pair)
-    covers = [covering(body, trace) for body in (pair.a, pair.b)]
+    covers = [covering(draft, body) for body in (pair.a, pair.b)]
     if covers[0] is None or covers[1] is None:
-        trace.record("parts", "failed", "see the issues")
-        return Verdict("penetrating", False)
+        draft.record("parts", "failed", "see the issues")
+        return
     gap = _gap(covers[0], covers[1])
     proven_gap = gap - covers[0].missing - covers[1].missing
     count = f"{len(covers[0].parts)} and {len(covers[1].parts)} parts"
     if proven_gap > 0:
-        trace.record("parts", "separated", f"{count}, apart by more than their error")
-        return Verdict("separated", True, proven_gap)
-    if deepest_pair(inner_parts(pair.a, trace), inner_parts(pair.b, trace)) > 0:
-        trace.record("parts", "penetrating", f"{count}, of which two inside the meshes overlap")
-        return Verdict("penetrating", True)
+        draft.record("parts", "separated", f"{count}, apart by more than their error")
+        draft.found("separated", True, proven_gap)
+        return
+    if deepest_pair(inner_parts(draft, pair.a), inner_parts(draft, pair.b)) > 0:
+        draft.record("parts", "penetrating", f"{count}, of which two inside the meshes overlap")
+        draft.found("penetrating", True)
+        return
     relation: Relation = "separated" if gap > 0 else "penetrating"
-    trace.record("parts", relation, f"{count}, within their error")
-    return Verdict(relation, False)
+    draft.record("parts", relation, f"{count}, within their error")
+    draft.found(relation, False)
 
 
 def _gap(a: Covering, b: Covering) -> float:

@@ -10,22 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from threading import Thread
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.draft import Thickness, Trace
-from satcheck.audit.stages.search_progress import shown
+from satcheck.audit.draft import Draft, Thickness
 from satcheck.report.judge import EXACT_WIDTH
-from satcheck.report.report import Ball
+from satcheck.report.report import OVERLAPS, Ball
 
 if TYPE_CHECKING:
-    from satcheck import core
     from satcheck.audit.body import PlacedBody
-    from satcheck.audit.draft import Depth
     from satcheck.audit.pair import Pair
 
 
@@ -48,27 +44,31 @@ def _open(body: PlacedBody) -> str | None:
     return f"{body.id} has sheets" if body.shared.has_sheets() else None
 
 
-def measure_thickness(
-    pair: Pair, depth: Depth | None, trace: Trace, ahead: Ahead | None = None
-) -> Thickness:
-    """Of an overlap of closed bodies. depth: where it is known; no overlap is thicker than that.
-    ahead: the first search, if it has begun."""
+def measure_thickness(draft: Draft) -> None:
+    """Measure an overlap of closed bodies. No overlap is thicker than it is deep."""
+    pair, depth = draft.pair, draft.depth
+    if draft.exact not in OVERLAPS:
+        return
+    if (why_not := why_not_thick(pair)) is not None:
+        draft.record(STAGE, "not known", why_not)
+        draft.reason = draft.reason or f"no thickness: {why_not}"
+        return
     work, limit = pair.settings.thickness_work, pair.request.max_thickness
-    if ahead is None:
+    if draft.ahead is None:
         interval = first_search(pair)
-        trace.record(STAGE, *_outcome_of(interval))
+        draft.record(STAGE, *_outcome_of(interval))
     else:
-        interval = ahead.result()
-        trace.add(STAGE, *_outcome_of(interval), ahead.nanoseconds)
+        interval, nanoseconds = draft.ahead()
+        draft.add(STAGE, *_outcome_of(interval), nanoseconds)
     thickness = _thickness_of(interval)
     if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
         closer = _search(pair, EXACT_WIDTH, work - interval.work, limit)
-        trace.record(STAGE, *_outcome_of(closer))
+        draft.record(STAGE, *_outcome_of(closer))
         thickness = _narrower(thickness, _thickness_of(closer))
     if pair.closer:
         thickness = _of_curves(pair, thickness)
     most = math.inf if depth is None else max(depth.upper, thickness.lower)
-    return replace(thickness, upper=min(thickness.upper, most))
+    draft.thickness = replace(thickness, upper=min(thickness.upper, most))
 
 
 def first_search(pair: Pair, go_on: Callable[[], None] | None = None) -> core.ThicknessInterval:
@@ -84,7 +84,7 @@ def _search(
     go_on: Callable[[], None] | None = None,
 ) -> core.ThicknessInterval:
     """limit: the search ends once the interval lies on one side of it."""
-    with shown(STAGE, pair) as show:
+    with pair.searching(STAGE) as show:
 
         def progress(lower: float, upper: float, share: float) -> None:
             if go_on is not None:
@@ -146,25 +146,25 @@ class StoppedError(Exception):
     """Ends a search that nobody waits for."""
 
 
-class Ahead:
-    """The first search for the thickness of a pair, in a thread of its own. nanoseconds: how long
-    it took, once it has ended."""
+class _Ahead:
+    """The first search for the thickness of a pair, in a thread of its own. Raises RuntimeError if
+    the system grants no more threads."""
 
     def __init__(self, pair: Pair) -> None:
+        from threading import Thread
+
         self._pair = pair
-        self.nanoseconds = 0
         self._stopped = False
-        self._outcome: core.ThicknessInterval | BaseException | None = None
+        self._outcome: tuple[core.ThicknessInterval, int] | BaseException | None = None
         self._thread = Thread(target=self._run, daemon=True)
         self._thread.start()
 
-    def result(self) -> core.ThicknessInterval:
-        """Waits for the search. Raises what it raised."""
+    def result(self) -> tuple[core.ThicknessInterval, int]:
+        """Wait for the search, and return its nanoseconds, too. Raises what it raised."""
         self._thread.join()
         if isinstance(self._outcome, BaseException):
             raise self._outcome
-        if self._outcome is None:
-            raise AssertionError("the search ended without a result")
+        assert self._outcome is not None
         return self._outcome
 
     def stop(self) -> None:
@@ -174,10 +174,9 @@ class Ahead:
     def _run(self) -> None:
         began = perf_counter_ns()
         try:
-            self._outcome = first_search(self._pair, self._go_on)
+            self._outcome = first_search(self._pair, self._go_on), perf_counter_ns() - began
         except BaseException as error:  # noqa: BLE001 result() raises it
             self._outcome = error
-        self.nanoseconds = perf_counter_ns() - began
 
     def _go_on(self) -> None:
         if self._stopped:
@@ -185,23 +184,28 @@ class Ahead:
 
 
 @contextmanager
-def thickness_ahead(pair: Pair) -> Iterator[Ahead | None]:
-    """Of an overlap of which the depth is searched. None: the thickness is not searched ahead."""
-    ahead = _started(pair)
-    try:
-        yield ahead
-    finally:
-        if ahead is not None:
-            ahead.stop()
-
-
-def _started(pair: Pair) -> Ahead | None:
-    if pair.both_convex or pair.settings.jobs == 1 or pair.triangles > MOST_TRIANGLES:
-        return None
-    if why_not_thick(pair) is not None:
-        return None
+def thickness_ahead(draft: Draft) -> Iterator[None]:
+    """Begin to search the thickness of an overlap of which the depth is searched, if it is the only
+    pair and long to search."""
+    pair = draft.pair
+    both = pair.request.wants("depth") and pair.request.wants("thickness")
+    if not (pair.alone and both and draft.exact in OVERLAPS and _is_worth_a_thread(pair)):
+        yield
+        return
     pair.a.surface(), pair.b.surface()  # made once, for both searches
     try:
-        return Ahead(pair)
+        ahead = _Ahead(pair)
     except RuntimeError:  # the system grants no more threads
-        return None
+        yield
+        return
+    draft.ahead = ahead.result
+    try:
+        yield
+    finally:
+        ahead.stop()
+
+
+def _is_worth_a_thread(pair: Pair) -> bool:
+    if pair.both_convex or pair.settings.jobs == 1 or pair.triangles > MOST_TRIANGLES:
+        return False
+    return why_not_thick(pair) is None

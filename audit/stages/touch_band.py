@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.draft import Band, Side, Trace, Verdict
+from satcheck.audit.draft import Band, Draft, Side
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.depth import FREE, relation_after, way_out_of_hulls
 from satcheck.audit.stages.gap import compare_convex
@@ -37,59 +37,63 @@ TO_ROUNDING = 1 + 16 * UNIT_ROUNDOFF
 NARROW_BAND = 1 / 64
 
 
-def estimate_is_within(pair: Pair, trace: Trace) -> bool:
+def estimate_is_within(draft: Draft) -> bool:
     """Whether the shapes that a capped ladder ends with overlap by no more than the tolerance.
 
     The bodies inside them then overlap by no more than that; how far apart they are stays open.
     """
+    pair = draft.pair
     out = way_out_of_hulls(pair)
     within = out.upper <= pair.tolerance
     if within:
-        trace.record("touch-band", "within", f"{_band(pair)}: the {out.by} overlap by no more")
+        draft.record("touch-band", "within", f"{_band(pair)}: the {out.by} overlap by no more")
     return within
 
 
-def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
+def touch_band(draft: Draft) -> Band:
     """For an overlap."""
-    explained = None if verdict.climb is None else _explained(pair, verdict.climb, trace)
+    explained = None if draft.climb is None else _explained(draft, draft.climb)
     if isinstance(explained, Band) and explained.side != "hidden":
         return explained
-    by_moves = _by_moves(pair, verdict, trace)
+    by_moves = _by_moves(draft)
     if isinstance(explained, Band):
         return by_moves if by_moves.side == "within" else explained
     return replace(by_moves, unexcused=explained)
 
 
-def _by_moves(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
-    if verdict.signed_distance is not None:
-        return _band_of_convex(pair, verdict, verdict.signed_distance)
+def _by_moves(draft: Draft) -> Band:
+    pair = draft.pair
+    if draft.signed is not None:
+        return _band_of_convex(draft, draft.signed)
     if not pair.may("exact"):
-        return Band("within" if estimate_is_within(pair, trace) else "open")
+        return Band("within" if estimate_is_within(draft) else "open")
     if max(pair.off) == 0:
         return Band("deeper")
     if pair.curved:
-        move = _move_off_mesh(pair, trace)
+        move = _move_off_mesh(draft)
         return Band("open" if move is None else "within", move)
-    if verdict.climb is None:
+    if draft.climb is None:
         raise AssertionError("the core settles what two meshes are")
-    return _band_of_meshes(pair, verdict.climb, trace)
+    return _band_of_meshes(draft, draft.climb)
 
 
-def _explained(pair: Pair, climb: core.Climb, trace: Trace) -> Band | str | None:
+def _explained(draft: Draft, climb: core.Climb) -> Band | str | None:
     """Of closed bodies that hold no ball thicker than the tolerance, whatever the way out. A text:
     why nothing excuses the overlap; None: that is not asked."""
+    pair = draft.pair
     from satcheck.audit.stages.explained import explain, may_be_explained
 
     if climb.thick is not False or climb.band == "within" or not may_be_explained(pair):
         return None
-    side, detail = explain(pair, trace, climb.band_nanoseconds)
+    side, detail = explain(draft, climb.band_nanoseconds)
     if side == "within" or side == "deeper":
         return Band(side)
     return Band("hidden", why=detail) if side == "undecided" else detail
 
 
-def _band_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Band:
-    climb = verdict.climb
+def _band_of_convex(draft: Draft, signed: core.PairResult | Signed) -> Band:
+    pair = draft.pair
+    climb = draft.climb
     if pair.on_half_space and climb is not None and climb.band != "within":
         climb = None
     return Band(_side_by_depth(pair, signed) if climb is None else climb.band or "open")
@@ -107,18 +111,19 @@ def _side_by_depth(pair: Pair, signed: core.PairResult | Signed) -> Side:
     return "within" if sign >= 0 else "deeper"
 
 
-def _band_of_meshes(pair: Pair, climb: core.Climb, trace: Trace) -> Band:
+def _band_of_meshes(draft: Draft, climb: core.Climb) -> Band:
     """What the core found, and where that leaves the band open, what a search finds."""
+    pair = draft.pair
     cost = climb.band_nanoseconds
     band = Band(climb.band or "open", climb.way_out)
     if band.side == "deeper":
         deep = (
             "a point lies deeper in both" if climb.thick else f"at least {climb.deepest:.3g} deep"
         )
-        trace.add("touch-band", "deeper", f"{_band(pair)}: {deep}", cost)
+        draft.add("touch-band", "deeper", f"{_band(pair)}: {deep}", cost)
         return band
     if band.side != "within":
-        band = _searched(pair, climb.least_depth or 0.0, trace) or band
+        band = _searched(draft, climb.least_depth or 0.0) or band
     if band.move is not None:
         result, detail = "within", f"{math.hypot(*band.move):.3g} frees A"
     elif band.side == "within":
@@ -127,19 +132,20 @@ def _band_of_meshes(pair: Pair, climb: core.Climb, trace: Trace) -> Band:
         result, detail = "undecided", "a move as long as it, to rounding, frees A"
     else:
         result, detail = "not found", "no move within it frees A"
-    trace.add("touch-band", result, f"{_band(pair)}: {detail}", cost)
+    draft.add("touch-band", result, f"{_band(pair)}: {detail}", cost)
     return band
 
 
-def _move_off_mesh(pair: Pair, trace: Trace) -> Vector | None:
+def _move_off_mesh(draft: Draft) -> Vector | None:
     """For a curved shape and a mesh."""
+    pair = draft.pair
     from satcheck.core.curved.freeing import move_off
 
     move = move_off(pair.a, pair.b, pair.tolerance, rounding_pad(pair.largest_coordinate))
     if move is None:
-        trace.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
+        draft.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
     else:
-        trace.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
+        draft.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
     return move
 
 
@@ -148,16 +154,17 @@ def _band(pair: Pair) -> str:
     return f"tolerance {pair.tolerance:.3g}, {source}"
 
 
-def _searched(pair: Pair, lower: float, trace: Trace) -> Band | None:
+def _searched(draft: Draft, lower: float) -> Band | None:
     """By the search for the depth, with or without a depth asked for; None: it found nothing, or
     was not tried: in a narrow band the way off the triangles was sought."""
+    pair = draft.pair
     hulls = way_out_of_hulls(pair)
     if pair.tolerance < NARROW_BAND * hulls.upper:
         return None
     from satcheck.audit.stages.concave_depth import search
 
     limit = pair.tolerance * LITTLE_LONGER
-    way_out = search(pair, lower, hulls.upper, trace, limit=limit).way_out
+    way_out = search(draft, lower, hulls.upper, limit=limit).way_out
     return None if way_out is None else band_of(pair, way_out)
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from satcheck.audit.body import PlacedBody
-from satcheck.audit.draft import CommonVolume, Trace, Verdict
-from satcheck.audit.pair import Pair
+from satcheck.audit.draft import Draft
 from satcheck.core.errors import SatcheckError
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.judge import is_within
@@ -17,27 +16,28 @@ from satcheck.report.judge import is_within
 VOLUME_ROUNDOFFS = 18
 
 
-NOTHING = CommonVolume(0.0, 0.0)
-
-
-def common_volume(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
-    """Of the exact relation, whatever the touch band: a relation that says it all costs nothing."""
-    nothing = verdict.proven and verdict.relation in ("separated", "touching")
-    if nothing and (pair.both_solid or verdict.gap_lower > 0):
-        return NOTHING
+def measure_volume(draft: Draft) -> None:
+    """Measure the volume of the exact relation, whatever the touch band: a relation that says it
+    all costs nothing."""
+    pair = draft.pair
+    nothing = draft.exact_proven and draft.exact in ("separated", "touching")
+    if nothing and (pair.both_solid or draft.gap_lower > 0):
+        draft.volume = draft.volume_error = 0.0
+        return
     if not pair.may("exact"):
         refusal = f"found on triangles: not at --accuracy {pair.settings.accuracy}"
-        trace.record("volume", "not measured", refusal)
-        return CommonVolume(refusal=f"no volume: {refusal}")
+        draft.record("volume", "not measured", refusal)
+        draft.reason = draft.reason or f"no volume: {refusal}"
+        return
     try:
         for body in (pair.a, pair.b):
             _require_measurable(body)
-        return _measured(pair, verdict, trace)
+        draft.volume, draft.volume_error = _measured(draft)
     except SatcheckError as refused:
-        trace.record("volume", "refused", refused.message)
+        draft.record("volume", "refused", refused.message)
         where = "" if refused.body else f"{pair.a.id} and {pair.b.id}: "
-        trace.complain(refused.code, refused.body, where + refused.message)
-        return CommonVolume(refusal=f"no volume: {refused}")
+        draft.complain(refused.code, refused.body, where + refused.message)
+        draft.reason = draft.reason or f"no volume: {refused}"
 
 
 def _require_measurable(body: PlacedBody) -> None:
@@ -51,43 +51,43 @@ def _require_measurable(body: PlacedBody) -> None:
         )
 
 
-def _measured(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
-    estimate = _estimated(pair, verdict, trace)
-    limit, (least, greatest) = pair.request.max_volume, estimate.bounds
-    if limit is None or least is None or greatest is None:
-        return estimate
-    if is_within(limit, least, greatest) is not None:
-        return estimate
-    return _exact(pair, trace) or estimate
+def _measured(draft: Draft) -> tuple[float, float]:
+    """Return the volume and its error, in rational numbers if an estimate leaves a limit open."""
+    volume, error = _estimated(draft)
+    limit = draft.pair.request.max_volume
+    if limit is None or is_within(limit, volume - error, volume + error) is not None:
+        return volume, error
+    return _exact(draft) or (volume, error)
 
 
-def _estimated(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
-    inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(verdict.relation)
+def _estimated(draft: Draft) -> tuple[float, float]:
+    pair = draft.pair
+    inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(draft.exact)
     if inner is not None:
-        volume = _own_volume(inner)
-        trace.record("volume", "of the mesh", f"{inner.id} lies within the other")
-        return volume
+        own = _own_volume(inner)
+        draft.record("volume", "of the mesh", f"{inner.id} lies within the other")
+        return own
     assert pair.meter is not None
     common = pair.meter.measure(pair.a.mesh, pair.b.mesh)
     detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"
-    trace.record("volume", "measured", detail)
-    return CommonVolume(max(common.volume, 0.0), common.error)
+    draft.record("volume", "measured", detail)
+    return max(common.volume, 0.0), common.error
 
 
-def _exact(pair: Pair, trace: Trace) -> CommonVolume | None:
-    """Where an estimate leaves a limit open. None where that is too much work."""
+def _exact(draft: Draft) -> tuple[float, float] | None:
+    """Return None where that is too much work."""
     from satcheck.core.exact_volume import exact_common_volume
 
-    exact = exact_common_volume(pair.a.mesh, pair.b.mesh)
+    exact = exact_common_volume(draft.pair.a.mesh, draft.pair.b.mesh)
     if exact is None:
-        trace.record("volume", "no answer", "too many triangles for rational numbers")
+        draft.record("volume", "no answer", "too many triangles for rational numbers")
         return None
-    trace.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
+    draft.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
     volume = float(exact)
-    return CommonVolume(volume, 0.0 if exact == volume else math.ulp(volume))
+    return volume, 0.0 if exact == volume else math.ulp(volume)
 
 
-def _own_volume(body: PlacedBody) -> CommonVolume:
-    volume = body.mesh.topology().volume
+def _own_volume(body: PlacedBody) -> tuple[float, float]:
     box = math.prod(high - low for low, high in zip(*body.bounds, strict=True))
-    return CommonVolume(volume, VOLUME_ROUNDOFFS * UNIT_ROUNDOFF * body.mesh.triangle_count * box)
+    error = VOLUME_ROUNDOFFS * UNIT_ROUNDOFF * body.mesh.triangle_count * box
+    return body.mesh.topology().volume, error

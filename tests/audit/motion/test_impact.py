@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.draft import Trace
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact
 from satcheck.audit.motion.limits import SHORTEST_STEP
@@ -253,9 +253,7 @@ def random_path(rng, kind):
 
 def deepest_at(pair, t):
     placed = pair.placed(t)
-    finding = examine(
-        replace(placed, settings=replace(placed.settings, depth=True)), Trace()
-    ).finding
+    finding = examine(Draft(replace(placed, settings=replace(placed.settings, depth=True))))
     return finding.depth_bounds[0]
 
 

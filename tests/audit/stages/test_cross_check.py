@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.bodies import place
-from satcheck.audit.draft import Trace
+from satcheck.audit.draft import Draft
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
-from satcheck.audit.stages.cross_check import DISAGREEMENT, say
+from satcheck.audit.stages.cross_check import DISAGREEMENT, ask_peers
 from satcheck.audit.stages.relation import settle
 from satcheck.cli.formats.messages import summary_line
 from satcheck.core import Mesh
@@ -52,12 +53,12 @@ def pair_of(folder: Path, *meshes: Mesh) -> Pair:
     return Pair(a, b, settings, request_for(settings))
 
 
-def standings(pair: Pair, peers: Peers) -> tuple[list[str], Trace]:
-    trace = Trace()
-    verdict = settle(pair, trace)
-    first = len(trace.stages)
-    say(pair, verdict, peers, trace)
-    return [stage.result for stage in trace.stages[first:]], trace
+def standings(pair: Pair, peers: Peers) -> tuple[list[str], Draft]:
+    draft = Draft(replace(pair, peers=peers))
+    settle(draft)
+    first = len(draft.stages)
+    ask_peers(draft)
+    return [stage.result for stage in draft.stages[first:]], draft
 
 
 @pytest.mark.parametrize(
@@ -72,16 +73,16 @@ def standings(pair: Pair, peers: Peers) -> tuple[list[str], Trace]:
 )
 def test_the_libraries_agree(tmp_path: Path, a: Mesh, b: Mesh, expected: list[str]) -> None:
     with Peers(seconds=60, megabytes=4096) as peers:
-        found, trace = standings(pair_of(tmp_path, a, b), peers)
-    assert (found, trace.issues) == (expected, [])
+        found, draft = standings(pair_of(tmp_path, a, b), peers)
+    assert (found, draft.issues) == (expected, [])
 
 
 def test_a_lie_is_a_warning_of_its_own(tmp_path: Path) -> None:
     with Liar() as peers:
-        found, trace = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+        found, draft = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
     assert found == ["disagrees", "disagrees"]
-    assert {(issue.code, issue.severity) for issue in trace.issues} == {(DISAGREEMENT, "warning")}
-    assert "python-fcl says surfaces that are apart" in trace.issues[0].message
+    assert {(issue.code, issue.severity) for issue in draft.issues} == {(DISAGREEMENT, "warning")}
+    assert "python-fcl says surfaces that are apart" in draft.issues[0].message
 
 
 @pytest.mark.parametrize(
@@ -113,8 +114,8 @@ def test_an_opinion_that_cannot_be_had_is_no_agreement(tmp_path: Path) -> None:
 
 def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:
     with Peers(seconds=60, megabytes=4096, fcl_server="satcheck.no_such_module") as peers:
-        found, trace = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
-    assert (found, trace.issues) == (["no answer", "agrees"], [])
+        found, draft = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+    assert (found, draft.issues) == (["no answer", "agrees"], [])
 
 
 def test_the_report_counts_the_answers() -> None:
