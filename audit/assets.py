@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
 from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.check import check
+from satcheck.audit.messages import with_messages
 from satcheck.audit.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import tool
@@ -96,7 +97,7 @@ def _is_unused_rule(issue: Issue, files: Collection[str]) -> bool:
 
 def _without_bodies(issues: list[Issue]) -> Report:
     settings = Settings()
-    return Report(
+    report = Report(
         tool=tool(),
         units=None,
         settings=settings.stated(depth=False, thickness=False),
@@ -105,3 +106,4 @@ def _without_bodies(issues: list[Issue]) -> Report:
         findings=(),
         issues=tuple(issues),
     )
+    return with_messages(report)

@@ -15,6 +15,7 @@ from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, w
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import examine_boxes
+from satcheck.audit.messages import with_messages
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner, close_pairs
 from satcheck.audit.settings import LISTED_PAIRS, LISTED_UNDECIDABLE, Settings, require_settings
@@ -106,7 +107,7 @@ def check(
         *(regions.findings if regions else ()),
     )
     lone = len(bodies.placed) == len(bodies.ids) <= 1
-    return Report(
+    report = Report(
         tool=tool(),
         units=scene.units,
         settings=planner.stated(),
@@ -136,6 +137,7 @@ def check(
         statics=statics,
         regions=regions,
     )
+    return with_messages(report)
 
 
 def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:

@@ -10,7 +10,8 @@ from typing import Any, Self
 import click
 from msgspec import Struct
 
-from satcheck.cli.formats.words import counted, issue_line
+from satcheck.audit.words import counted
+from satcheck.cli.formats.words import issue_line
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory

@@ -8,10 +8,10 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.audit import Report
-from satcheck.cli.formats.messages import next_step, verdict_line
+from satcheck.audit.words import counted, with_titles
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.words import counted, in_one_line_each, issue_line, with_titles
+from satcheck.cli.formats.summary import counts_line, next_step
+from satcheck.cli.formats.words import in_one_line_each, issue_line
 from satcheck.cli.output import Page, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
@@ -81,7 +81,7 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
         summary = samples_verdict(result)
     else:
         result = in_one_line_each(with_titles(result))
-        summary = " ".join([verdict_line(result), *next_step(result, written=True)])
+        summary = " ".join([result.message, *next_step(result, written=True)])
         warnings = [issue for issue in result.issues if issue.severity == "warning"]
         for issue in warnings[:WARNINGS]:
             talk(f"satcheck: {issue_line(issue)}")

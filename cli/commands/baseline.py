@@ -10,8 +10,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.audit.baseline_file import asset_key, read_baseline
+from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
-from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.stated_scene import read_report
 from satcheck.report.baseline import Baseline, KnownFinding

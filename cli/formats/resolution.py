@@ -5,11 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.messages import verdict_line
-from satcheck.cli.formats.numbers import number, vector
+from satcheck.audit.words import counted, number, vector
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.words import counted
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -49,7 +47,7 @@ def render(resolution: Resolution, page: Page, output: str | None) -> str:
         said.append(f"{pairs} within the tolerance: they count as touching.")
     subject = "The moved scene" if output is None else output
     said.append(f"{subject}, checked again: {counts_line(resolution.report)}")
-    said.append(verdict_line(resolution.report))
+    said.append(resolution.report.message)
     lines = _moves(shown, page) if shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 

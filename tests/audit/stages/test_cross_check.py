@@ -14,7 +14,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.audit.stages.cross_check import DISAGREEMENT, ask_peers
 from satcheck.audit.stages.relation import settle
-from satcheck.cli.formats.messages import summary_line
+from satcheck.cli.formats.summary import summary_line
 from satcheck.core import Mesh
 from satcheck.core.overlap_volume import OverlapVolume
 from satcheck.core.peers import Peers

@@ -1,5 +1,5 @@
-"""The message of a finding, and that of a report: PASS, FAIL, INCOMPLETE or ERROR, why, and what to
-do next. Every format prints these, and none composes its own.
+"""The message of a finding, and that of a report: PASS, FAIL, INCOMPLETE or ERROR, and why. Every
+format prints these, and none composes its own.
 
 The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
 """
@@ -7,38 +7,38 @@ The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL be
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from satcheck.audit.acceptance import words_to_accept
-from satcheck.cli.formats.numbers import after_rounding, bounds, number, vector
-from satcheck.cli.formats.order import severity, worst_first
-from satcheck.cli.formats.summary import counts_line, nothing_checked
-from satcheck.cli.formats.words import (
+from msgspec.structs import replace
+
+from satcheck.audit.words import (
+    after_rounding,
+    bounds,
     counted,
     in_motion,
     interval,
     is_hit,
-    is_unusable,
     joint_values,
     limits,
+    number,
     past_holes,
+    severity,
+    vector,
+    with_titles,
     with_unit,
+    worst_first,
 )
-from satcheck.report.report import INTERNAL_ERROR, OVERLAPS
+from satcheck.report.report import INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
-from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from satcheck.report.report import BodyAnswer, Finding, Report
+    from satcheck.report.report import BodyAnswer, Finding, Issue, Report
     from satcheck.report.statics import Statics
 
 # Failing pairs that are named, the worst first.
 NAMED = 3
-# More overlaps than this are rarely mended one by one.
-MANY = 10
 _OVERLAP = {
     "penetrating": "{} and {} overlap",
     "contains": "{} contains {}",
@@ -47,9 +47,21 @@ _OVERLAP = {
 }
 
 
-def summary_line(report: Report) -> str:
-    """`FAIL: box and lid overlap (depth 1 mm). 2 bodies, 1 pair: 1 penetrating.`"""
-    return f"{verdict_line(report)} {counts_line(report)}"
+def with_messages(report: Report) -> Report:
+    """Return the report with its message and those of its findings. They name bodies as a person
+    knows them."""
+    shown = with_titles(report)
+    findings = tuple(
+        replace(finding, message=finding_message(titled, shown))
+        for finding, titled in zip(report.findings, shown.findings, strict=True)
+    )
+    return replace(report, message=verdict_line(shown), findings=findings)
+
+
+def nothing_checked(issues: Iterable[Issue]) -> list[str]:
+    """`No pair was checked: 1 within one link.`, where that is so."""
+    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
+    return [f"{text[0].upper()}{text[1:]}." for text in said]
 
 
 def verdict_line(report: Report) -> str:
@@ -66,13 +78,6 @@ def verdict_line(report: Report) -> str:
     if left_open:
         left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
     return f"{word}: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
-
-
-def next_step(report: Report, *, written: bool = False) -> list[str]:
-    """`Next: -o report.html shows the overlaps.`; nothing after a pass. written: the report goes
-    to a file."""
-    step = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
-    return [f"Next: {step}."] if step else []
 
 
 def _passed(report: Report) -> str:
@@ -108,19 +113,19 @@ def _is_ruled(finding: Finding) -> bool:
     return finding.rule is not None and finding.undecided != "limit"
 
 
-def _failing(report: Report) -> list[Finding]:
+def failing(report: Report) -> list[Finding]:
     fail_on = report.settings.fail_on
     return worst_first(f for f in report.findings if is_failure(f, fail_on))
 
 
 def _failed(report: Report) -> str:
-    failing = _failing(report)
-    said = [_clause(finding, report) for finding in failing[:NAMED]]
-    if more := len(failing) - len(said):
+    worst = failing(report)
+    said = [_clause(finding, report) for finding in worst[:NAMED]]
+    if more := len(worst) - len(said):
         said.append(f"and {counted(more, 'more pair')}")
     if report.answers:
         said += _unmet(report)
-    if failing and all(finding.severity != "error" for finding in failing):
+    if worst and all(finding.severity != "error" for finding in worst):
         said.append(f"failed by --fail-on {report.settings.fail_on}")
     return "; ".join(said)
 
@@ -305,41 +310,3 @@ def _errors(report: Report) -> list[str]:
 
 def _sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
-
-
-def _after_failure(report: Report, written: bool) -> str:
-    failing = _failing(report)
-    overlaps = [f for f in failing if f.at_rest in OVERLAPS]
-    if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in failing):
-        return "--accuracy exact decides what is only possible"
-    if any(f.depth is None and f.thickness is None for f in overlaps):
-        return "--depth measures the overlaps"
-    if len(overlaps) > MANY and report.baseline is None:
-        return "satcheck suggest proposes rules for overlaps that are intended"
-    return "" if written else f"-o report.html shows {'it' if len(failing) == 1 else 'them'} in 3-D"
-
-
-def _open(report: Report) -> str:
-    """What may decide the questions that are open, but for those of bodies that cannot be used."""
-    blocking = dict.fromkeys(words_to_accept(i) for i in report.issues if i.state == "blocking")
-    if blocking:
-        return f"{' '.join(blocking)}, if that is as meant"
-    unusable = {body.id for body in report.bodies if is_unusable(body)}
-    asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
-    if not asked:
-        return ""
-    if any(issue.code == UNITS_UNKNOWN for issue in report.issues):
-        return "--units states the unit of files that have none"
-    if report.settings.accuracy != "exact":
-        return "--accuracy exact decides it"
-    if _depends_on_holes(report, asked):
-        return "close the holes, or give --allow-open if they are meant to be open"
-    if any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
-        return "a larger --depth-budget may decide it"
-    return "--explain shows the steps"
-
-
-def _depends_on_holes(report: Report, asked: Sequence[Finding]) -> bool:
-    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
-    undecided = [f for f in asked if f.undecided in ("relation", "inside")]
-    return not report.settings.allow_open and any(holed & {f.a, f.b} for f in undecided)
