@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cache, lru_cache
-from typing import Any, get_args, get_type_hints
+from typing import Annotated, Any, get_args, get_type_hints
 
-from msgspec import ValidationError, convert
+from msgspec import Meta, ValidationError, convert
 
 from satcheck.core.conventions import LARGEST_LENGTH, axis_across
 from satcheck.core.errors import SatcheckError
@@ -41,16 +41,19 @@ LISTED_UNDECIDABLE = 10_000
 class Settings(StatedSettings, frozen=True, kw_only=True):
     """What is asked. `StatedSettings` has what can change an answer; the rest changes none.
 
-    cross_check_*: limits for one question to another library. certificate: every proven finding
-    carries evidence that `satcheck verify` checks. jobs: threads over pairs, or within the only
-    pair; 0: one for each core.
+    cross_check_*: limits for one question to another library. jobs: over pairs, or within the only
+    pair.
     """
 
-    tolerance: Length | None = None
+    tolerance: Annotated[
+        Length | None, Meta(description="A gap or a depth up to this counts as touching.")
+    ] = None
     cross_check_seconds: Size = 30.0
     cross_check_megabytes: Count = 4096
-    certificate: bool = False
-    jobs: Count = 0
+    certificate: Annotated[
+        bool, Meta(description="Add evidence to a JSON report, for satcheck verify.")
+    ] = False
+    jobs: Annotated[Count, Meta(description="Threads; 0 is one per core. Changes no answer.")] = 0
     cache: bool = True
     cache_directory: str | None = None
     timings: bool = True
@@ -106,6 +109,13 @@ def require_settings(value: object) -> None:
     """Raises SatcheckError if the value is not a Settings, for example a dict."""
     if not isinstance(value, Settings):
         raise _refused(f"settings should be a satcheck.Settings, not {value!r}")
+
+
+def documentation(name: str) -> str:
+    """Return what the field of this name is, as the help of its option says it."""
+    texts = (meta.description for meta in _kinds()[name].__metadata__)
+    documented: str = next(filter(None, texts))
+    return documented
 
 
 @cache

@@ -11,8 +11,7 @@ import click
 from msgspec import Struct
 
 from satcheck.audit.words import counted
-from satcheck.cli.formats.words import issue_line
-from satcheck.cli.output import cannot_write, talk
+from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError

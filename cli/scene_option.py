@@ -11,8 +11,7 @@ from typing import get_args
 
 import click
 
-from satcheck.cli.lengths import millimetres
-from satcheck.cli.option import DEFAULTS, seconds, together
+from satcheck.cli.option import DEFAULTS, millimetres, seconds, together
 from satcheck.scene.files.readers import readers
 from satcheck.scene.paths import is_folder
 from satcheck.scene.read_options import (

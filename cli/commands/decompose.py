@@ -17,9 +17,8 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.output import Page, harmless, talk, write_file
+from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved

@@ -16,7 +16,7 @@ from satcheck.audit.summary import tool
 from satcheck.audit.words import counted, rank
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import BesideBaseline
+from satcheck.cli.formats.summary import BesideBaseline, config_lines
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -26,8 +26,7 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import config_lines, issue_line
-from satcheck.cli.output import talk
+from satcheck.cli.output import issue_line, talk
 from satcheck.report.assets import ASSET_VERDICTS, Asset, AssetsReport, AssetVerdict, worst_verdict
 from satcheck.report.assets import counted as counts_of
 from satcheck.report.json import render_assets

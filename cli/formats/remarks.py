@@ -18,7 +18,7 @@ from satcheck.audit.words import (
     with_unit,
 )
 from satcheck.cli.formats.tables import YELLOW
-from satcheck.cli.formats.words import issue_line
+from satcheck.cli.output import issue_line
 from satcheck.report.report import (
     CROSS_CHECK,
     NO_ANSWER,

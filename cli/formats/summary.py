@@ -3,6 +3,7 @@ make it doubtful."""
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.settings import OptionValue, StatedConfig
     from satcheck.report.sweep import Sweep
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
@@ -223,3 +225,20 @@ def _depends_on_holes(report: Report, asked: Sequence[Finding]) -> bool:
     holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
     undecided = [f for f in asked if f.undecided in ("relation", "inside")]
     return not report.settings.allow_open and any(holed & {f.a, f.b} for f in undecided)
+
+
+def config_lines(reports: Iterable[Report]) -> list[str]:
+    """A line for each config file that took effect."""
+    stated = (report.config for report in reports)
+    return list(dict.fromkeys(config_line(config) for config in stated if config is not None))
+
+
+def config_line(config: StatedConfig) -> str:
+    """`Options of satcheck.toml: tolerance = 0.1, fail-on = "warning"`."""
+    options = (f"{name} = {toml(value)}" for name, value in config.options.items())
+    return f"Options of {config.file}: {', '.join(options)}"
+
+
+def toml(value: OptionValue) -> str:
+    """The value as TOML writes it; JSON writes texts, numbers and lists of texts alike."""
+    return json.dumps(value, ensure_ascii=False)

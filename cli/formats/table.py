@@ -23,7 +23,7 @@ from satcheck.audit.words import (
     worst_first,
 )
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import counts_line, next_step
+from satcheck.cli.formats.summary import config_line, counts_line, next_step
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -37,7 +37,6 @@ from satcheck.cli.formats.tables import (
     joined,
     stacked,
 )
-from satcheck.cli.formats.words import config_line, contacts
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -245,3 +244,22 @@ def groups_of(
 def _part(id_: str) -> str:
     """`gripper` of `gripper/left`: the node or the link that the body belongs to."""
     return id_.rpartition("/")[0] or id_
+
+
+def contacts(finding: Finding) -> str:
+    """`1 loop of length 4.25`, `2 patches of area 3, 1 point`; empty when not computed."""
+    if finding.contacts is None:
+        return ""
+    curves, totals = finding.contacts.curves, finding.contacts.totals
+    loops = len(curves) == totals.curves and all(curve.closed for curve in curves)
+    counts = []
+    if totals.patches:
+        counts.append(
+            f"{counted(totals.patches, 'patch', 'patches')} of area {number(totals.area)}"
+        )
+    if totals.curves:
+        name = counted(totals.curves, "loop" if loops else "curve")
+        counts.append(f"{name} of length {number(totals.length)}")
+    if totals.points:
+        counts.append(counted(totals.points, "point"))
+    return ", ".join(counts) or "none"

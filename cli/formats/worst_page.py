@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.words import counted, severity
 from satcheck.cli.formats.assets import cells_of, summary_line
-from satcheck.cli.formats.words import issue_line
-from satcheck.cli.output import harmless
+from satcheck.cli.output import harmless, issue_line
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.assets import Overview

@@ -13,9 +13,8 @@ from xml.etree import ElementTree
 
 from satcheck.audit.messages import answer_message, kind_of
 from satcheck.audit.words import counted
-from satcheck.cli.formats.summary import summary_line
-from satcheck.cli.formats.words import config_line, issue_line
-from satcheck.cli.output import harmless
+from satcheck.cli.formats.summary import config_line, summary_line
+from satcheck.cli.output import harmless, issue_line
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
 from satcheck.report.verdict import fails, is_unmet

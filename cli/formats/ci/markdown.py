@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.words import counted
 from satcheck.cli.formats.ci.problems import worst_problems
-from satcheck.cli.formats.summary import summary_line
-from satcheck.cli.formats.words import config_lines
+from satcheck.cli.formats.summary import config_lines, summary_line
 from satcheck.cli.output import harmless
 from satcheck.report.assets import asset
 

@@ -14,7 +14,7 @@ from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, with
 from satcheck.cli.formats.picture.geometry import geometry
 from satcheck.cli.formats.picture.packing import packed_points
 from satcheck.cli.formats.summary import summary_line
-from satcheck.cli.formats.words import issue_line
+from satcheck.cli.output import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.report.verdict import is_failure
 from satcheck.scene.statics import up_axes
