@@ -121,7 +121,9 @@ def _examined(
     climb = dict(zip(batch, climbs, strict=True))
     heavy = [k for k in batch if threads > 1 and leaves_work(pairs[k], climb[k])]
     if len(heavy) < PARALLEL_PAIRS:
-        heavy = []
+        for k in batch:
+            yield k, _examine(pairs[k], climb[k])
+        return
     results = in_parallel(lambda k: _examine(pairs[k], climb[k]), heavy, threads)
     is_heavy = set(heavy)
     for k in batch:

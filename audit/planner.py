@@ -6,7 +6,7 @@ It alone decides which stages run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 
 from msgspec.structs import replace
 
@@ -172,7 +172,7 @@ def close_pairs(
         planner.reach({k: body.resolution for k, body in bodies.placed.items()}),
         [book.kind_of[i] for i in index],
         book.exempt_kinds(),
-        _among(book.exempt_named(), place),
+        [(place[i], place[j]) for i, j in book.exempt_named() if i in place and j in place],
     )
     pairs = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
     if len(set(bodies.units.values())) > 1:
@@ -185,10 +185,6 @@ def close_pairs(
     return (
         _within_own_gaps(bodies, boxes, planner, requested) if planner.lengths_differ else requested
     )
-
-
-def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:
-    return [(place[i], place[j]) for i, j in pairs if i in place and j in place]
 
 
 def _within_own_gaps(

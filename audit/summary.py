@@ -181,15 +181,12 @@ def doubtful_sizes(
     sizes."""
     sizes = {bodies.ids[k]: size_of(body, plane) for k, body in bodies.placed.items()}
     yield from _tolerances(sizes, findings)
-    endless = {body.id for body in bodies.placed.values() if body.endless}
-    sizes = {id_: size for id_, size in sizes.items() if id_ not in endless}
-    for unit in dict.fromkeys(bodies.units.values()):
-        alike = {
-            id_: sizes[id_]
-            for id_ in (bodies.ids[k] for k, u in bodies.units.items() if u == unit)
-            if id_ in sizes
-        }
-        yield from _unlike(alike)
+    alike: dict[str | None, dict[str, float]] = {}
+    for k, body in bodies.placed.items():
+        if not body.endless:
+            alike.setdefault(bodies.units[k], {})[body.id] = sizes[body.id]
+    for of_unit in alike.values():
+        yield from _unlike(of_unit)
 
 
 def size_of(body: PlacedBody, plane: Plane | None) -> float:

@@ -111,6 +111,11 @@ class RuleBook:
                 about[number].append((rule, side))
         return chosen_by, about
 
+    @property
+    def _is_plain(self) -> bool:
+        """Return whether there is no rule, and no pair is exempt."""
+        return not self.rules and not any(k.fixed or k.ignored_groups for k in self._kinds)
+
     def key(self, i: int, j: int) -> tuple[int, ...]:
         """A cache key: pairs with equal keys have the same terms."""
         pair = (i, j) if i < j else (j, i)
@@ -187,6 +192,9 @@ class RuleBook:
     def count(self, among: Collection[int] | None = None) -> tuple[int, int]:
         """The number of pairs that are not exempt, and the number of these that are allowed.
         among: of these bodies; None: of all."""
+        if self._is_plain:
+            bodies = self._count if among is None else len(among)
+            return bodies * (bodies - 1) // 2, 0
         total = allowed = 0
         everyone = (1 << self._count) - 1 if among is None else row_of(among)
         rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
@@ -208,6 +216,8 @@ class RuleBook:
     def exempt_kinds(self) -> list[tuple[int, int]]:
         """Pairs of kinds, the lower first, without a checked pair of bodies. The list is cut off at
         _MOST_KINDS."""
+        if self._is_plain:
+            return []
         alone = [frozenset((k,)) for k in range(len(self._kinds))]
         kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
         kind_sets = {
