@@ -17,7 +17,7 @@ from satcheck.core.conventions import Bounds
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Effect, RuleReport
 from satcheck.report.request import Request, request_of
-from satcheck.report.rule_book import NO_TERMS, RuleBook, Terms
+from satcheck.report.rule_book import RuleBook, Terms
 from satcheck.report.settings import StatedSettings
 
 # The key of a rule that requests an effect.
@@ -102,20 +102,31 @@ class Planner:
         ]
 
 
-def request_for(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
+def request_for(
+    settings: Settings, terms: Terms | None = None, *, composed: bool = False
+) -> Request:
     """Return the request that follows from flags and rules, with who requests each effect."""
     across = None if settings.planar is None else settings.across
-    request = request_of(terms, settings.clearance, settings.tolerance, across)
-    thickness = settings.depth if settings.thickness is None else settings.thickness
+    request = request_of(terms or {}, settings.clearance, settings.tolerance, across)
+
+    def figure(setting: bool | None, limit: str) -> str | None:
+        """Return who requests the depth or the thickness. limit: the key of rules for it."""
+        by_default = None if composed or setting is False else FOR_MESHES
+        return "--depth" if setting else request.rule(limit) or by_default
+
+    thick = figure(
+        settings.depth if settings.thickness is None else settings.thickness, "max_thickness"
+    )
+    if thick is None and settings.surface_tolerance is not None and settings.thickness is not False:
+        thick = "--surface-tolerance"
     by: dict[Effect, str | None] = {
         "overlap": ALWAYS,
-        "depth": _requester_of_figure(settings.depth, terms.max_depth, composed),
-        "thickness": _requester_of_figure(thickness, terms.max_thickness, composed)
-        or _requester_of_tolerance(settings),
+        "depth": figure(settings.depth, "max_depth"),
+        "thickness": thick,
         "distance": None
         if request.clearance is None
         else request.rule("clearance") or "--clearance",
-        "volume": "--volume" if settings.volume else _name(terms.max_volume),
+        "volume": "--volume" if settings.volume else request.rule("max_volume"),
         "contacts": "--contacts" if settings.contacts else None,
         "components": "--components" if settings.components else None,
         "cross-check": "--cross-check" if settings.cross_check else None,
@@ -124,32 +135,11 @@ def request_for(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool =
     return replace(request, by={effect: who for effect, who in by.items() if who})
 
 
-def _requester_of_figure(
-    setting: bool | None, rule: RuleReport | None, composed: bool
-) -> str | None:
-    """The flag or rule that requests the depth or the thickness. rule: the one that limits it."""
-    if setting:
-        return "--depth"
-    if rule is not None:
-        return rule.name
-    return FOR_MESHES if setting is None and not composed else None
-
-
-def _requester_of_tolerance(settings: Settings) -> str | None:
-    if settings.surface_tolerance is None or settings.thickness is False:
-        return None
-    return "--surface-tolerance"
-
-
 def _requests_effect(rule: RuleReport, key: str) -> bool:
     """Whether the rule requests the effect of the key. A clearance of 0 requests nothing; a limit
     of 0 does."""
     value = getattr(rule, key)
     return bool(value) if key == "clearance" else value is not None
-
-
-def _name(rule: RuleReport | None) -> str | None:
-    return None if rule is None else rule.name
 
 
 IndexPair = tuple[int, int]

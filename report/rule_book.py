@@ -7,11 +7,8 @@ kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for eac
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Protocol
-
-from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck.report.pair_rows import A, B, Kind, PairRows, Sides, ones, row_of
 from satcheck.report.report import RuleReport
@@ -20,25 +17,17 @@ from satcheck.report.report import RuleReport
 _MOST_KINDS = 1_000_000
 
 
-class Terms(Struct, frozen=True):
-    """For each key the rule that decides it for a pair: the last rule that sets it; None: no rule
-    does."""
-
-    allowed: RuleReport | None = None
-    max_depth: RuleReport | None = None
-    max_thickness: RuleReport | None = None
-    max_volume: RuleReport | None = None
-    clearance: RuleReport | None = None
-    tolerance: RuleReport | None = None
-    severity: RuleReport | None = None
-
-    @property
-    def allows(self) -> bool:
-        return self.allowed is not None and self.allowed.allowed is True
-
-
-NO_TERMS = Terms()
-_KEYS = Terms.__struct_fields__
+# For each key that rules set for a pair the last rule that sets it, which decides it.
+Terms = Mapping[str, RuleReport]
+_KEYS = (
+    "allowed",
+    "max_depth",
+    "max_thickness",
+    "max_volume",
+    "clearance",
+    "tolerance",
+    "severity",
+)
 
 
 class Subject(Protocol):
@@ -127,7 +116,7 @@ class RuleBook:
         return (a.fixed and b.fixed) or not a.ignored_groups.isdisjoint(b.ignored_groups)
 
     def is_checked(self, i: int, j: int) -> bool:
-        return not self.is_ignored(i, j) and not self.terms(i, j).allows
+        return not self.is_ignored(i, j) and not _allows(self.terms(i, j))
 
     def checked_pairs(self) -> Iterator[tuple[int, int]]:
         """All checked pairs, i < j, in the order of j. Quadratic, so only for few bodies."""
@@ -166,7 +155,7 @@ class RuleBook:
         for number in numbers:
             rule = self.rules[number]
             deciding |= {key: rule for key in _KEYS if getattr(rule, key) is not None}
-        return replace(NO_TERMS, **deciding) if deciding else NO_TERMS
+        return deciding
 
     def sets(self, key: str) -> bool:
         """Whether any rule sets the key."""
@@ -206,7 +195,7 @@ class RuleBook:
         total, allowed = total // 2, allowed // 2
         for i, j in self._named:
             if (among is None or (i in among and j in among)) and not self.is_ignored(i, j):
-                allowed += self.terms(i, j).allows - self._merged(self._about(i, j)).allows
+                allowed += _allows(self.terms(i, j)) - _allows(self._merged(self._about(i, j)))
         return total, allowed
 
     def exempt_named(self) -> list[tuple[int, int]]:
@@ -240,6 +229,10 @@ class RuleBook:
                 if pair not in taken_back:
                     exempt.append(pair)
         return exempt
+
+
+def _allows(terms: Terms) -> bool:
+    return "allowed" in terms and terms["allowed"].allowed is True
 
 
 def _sides_of(

@@ -18,7 +18,7 @@ def rule(a: str = "*", b: str = "*", **keys) -> Rule:
 
 def terms(**keys) -> Terms:
     """Each key by a rule of its own, named after it."""
-    return Terms(**{key: rule(where=key, **{key: value}) for key, value in keys.items()})
+    return {key: rule(where=key, **{key: value}) for key, value in keys.items()}
 
 
 def test_only_the_overlap_is_a_matter_of_course_in_a_scene() -> None:
