@@ -182,8 +182,8 @@ class RuleBook:
         """The number of pairs that are not exempt, and the number of these that are allowed.
         among: of these bodies; None: of all."""
         if self._is_plain:
-            bodies = self._count if among is None else len(among)
-            return bodies * (bodies - 1) // 2, 0
+            number = self._count if among is None else len(among)
+            return number * (number - 1) // 2, 0
         total = allowed = 0
         everyone = (1 << self._count) - 1 if among is None else row_of(among)
         rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
