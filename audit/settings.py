@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from functools import cache, lru_cache
-from typing import Annotated, Any, get_args, get_type_hints
+from typing import Any, get_args, get_type_hints
 
-from msgspec import Meta, ValidationError, convert
+from msgspec import ValidationError, convert
 
 from satcheck.core.conventions import LARGEST_LENGTH, axis_across
 from satcheck.core.errors import SatcheckError
@@ -41,19 +42,18 @@ LISTED_UNDECIDABLE = 10_000
 class Settings(StatedSettings, frozen=True, kw_only=True):
     """What is asked. `StatedSettings` has what can change an answer; the rest changes none.
 
+    certificate: Add evidence to a JSON report, for satcheck verify.
+    jobs: Threads; 0 is one per core. Changes no answer.
+
     cross_check_*: limits for one question to another library. jobs: over pairs, or within the only
     pair.
     """
 
-    tolerance: Annotated[
-        Length | None, Meta(description="A gap or a depth up to this counts as touching.")
-    ] = None
+    tolerance: Length | None = None
     cross_check_seconds: Size = 30.0
     cross_check_megabytes: Count = 4096
-    certificate: Annotated[
-        bool, Meta(description="Add evidence to a JSON report, for satcheck verify.")
-    ] = False
-    jobs: Annotated[Count, Meta(description="Threads; 0 is one per core. Changes no answer.")] = 0
+    certificate: bool = False
+    jobs: Count = 0
     cache: bool = True
     cache_directory: str | None = None
     timings: bool = True
@@ -112,10 +112,10 @@ def require_settings(value: object) -> None:
 
 
 def documentation(name: str) -> str:
-    """Return what the field of this name is, as the help of its option says it."""
-    texts = (meta.description for meta in _kinds()[name].__metadata__)
-    documented: str = next(filter(None, texts))
-    return documented
+    """Return what the documentation of the settings says of a field, as the help of its option."""
+    text = f"{StatedSettings.__doc__}\n{Settings.__doc__}"
+    found = re.search(rf"^    {name}: (.*?\.)\n(?=    \w+: |\n)", text, re.MULTILINE | re.DOTALL)
+    return " ".join(found[1].split()) if found else ""
 
 
 @cache

@@ -26,114 +26,62 @@ Budget = Annotated[float, Meta(gt=0, le=MOST_BUDGET)]
 
 class StatedSettings(Value, frozen=True, kw_only=True):
     """The settings that can change an answer. Lengths are in the units of the files. None means
-    "not computed" unless said otherwise. The documentation of a field is the help of its option,
-    where it has one.
+    "not computed" unless said otherwise. What is said of a field here is the help of its option.
 
-    depth, thickness: a report says whether they are computed for every overlap. thickness: None:
-    whenever `depth` requests the depth. volume_*, part_*, *_per_file: limits. list_pruned: None: if
-    there are few pairs. planar: None: check in space. method: changes no relation, and of a depth
-    only the last digits. thickness has half of depth_budget.
+    depth: How deep and how thick overlaps are, and the shortest way out.
+    volume: The volume that solids share.
+    contacts: Where surfaces meet: curves, flush patches, points.
+    components: The connected parts of each overlap: place, thickness, and whether a body passes
+    through the other there.
+    clearance: Pairs with a smaller gap fail; shows the gap.
+    tolerance: A gap or a depth up to this counts as touching.
+    surface_tolerance: How far surfaces of closed bodies may be off: overlaps that this explains
+    count as touching.
+    accuracy: The finest test: aabb, obb, hull, parts or exact. Those below exact may report false
+    overlaps, called possible.
+    method: Compare hulls by the separating axis test (sat), by portals, GJK and EPA (gjk), or by
+    the faster one (auto).
+    fail_on: Findings of this severity fail: error (without rules overlaps), warning or note
+    (touches).
+    accept: Issues that may stay: what blocks a pass, by its code and the name of its file or body
+    (`*` for any part). Repeatable.
+    allow_open: Open meshes are meant to be open: sheets without an inside, not solids with holes.
+    cross_check: Compare with python-fcl and manifold3d. A contradiction makes the check incomplete.
+    planar: Check outlines in this plane (xy, yz or xz): flat layouts.
+    depth_width: Narrow the depth of concave pairs to an interval this wide, as a share of it.
+    depth_budget: Stop narrowing after this much work on a pair. Steps are counted, not time: every
+    machine gives the same answer.
+    thickness_width: The same for the thickness.
+
+    depth, thickness: a report says whether they are computed for every overlap; None: the thickness
+    whenever the depth is. volume_*, part_*, *_per_file: limits. contact_points: the most points
+    listed for a pair. list_pruned: findings for pairs that the broad phase settled; None: if there
+    are few pairs. method: changes no relation, and of a depth only the last digits. depth_budget:
+    of the thickness half of it.
     """
 
-    depth: Annotated[
-        bool | None,
-        Meta(description="How deep and how thick overlaps are, and the shortest way out."),
-    ] = None
-    thickness: Annotated[bool | None, Meta(description="How thick overlaps are.")] = None
-    volume: Annotated[bool, Meta(description="The volume that solids share.")] = False
+    depth: bool | None = None
+    thickness: bool | None = None
+    volume: bool = False
     volume_seconds: Size = 60.0
     volume_megabytes: Count = 4096
-    contacts: Annotated[
-        bool, Meta(description="Where surfaces meet: curves, flush patches, points.")
-    ] = False
-    contact_points: Annotated[Count, Meta(description="The most points listed for a pair.")] = (
-        100_000  # about 5 MB of JSON
-    )
-    components: Annotated[
-        bool,
-        Meta(
-            description="The connected parts of each overlap: place, thickness, and whether a body "
-            "passes through the other there."
-        ),
-    ] = False
-    clearance: Annotated[
-        Length | None, Meta(description="Pairs with a smaller gap fail; shows the gap.")
-    ] = None
-    tolerance: Annotated[
-        Length | Literal["input-precision"] | None,
-        Meta(description="A gap or a depth up to this counts as touching."),
-    ] = None
-    surface_tolerance: Annotated[
-        Length | None,
-        Meta(
-            description="How far surfaces of closed bodies may be off: overlaps that this explains "
-            "count as touching."
-        ),
-    ] = None
-    accuracy: Annotated[
-        Accuracy,
-        Meta(
-            description="The finest test: aabb, obb, hull, parts or exact. Those below exact may "
-            "report false overlaps, called possible."
-        ),
-    ] = "exact"
-    method: Annotated[
-        Method,
-        Meta(
-            description="Compare hulls by the separating axis test (sat), by portals, GJK and EPA "
-            "(gjk), or by the faster one (auto)."
-        ),
-    ] = "auto"
-    fail_on: Annotated[
-        FailOn,
-        Meta(
-            description="Findings of this severity fail: error (without rules overlaps), warning "
-            "or note (touches)."
-        ),
-    ] = "error"
-    accept: Annotated[
-        tuple[str, ...],
-        Meta(
-            description="Issues that may stay: what blocks a pass, by its code and the name of its "
-            "file or body (`*` for any part). Repeatable."
-        ),
-    ] = ()
-    allow_open: Annotated[
-        bool,
-        Meta(
-            description="Open meshes are meant to be open: sheets without an inside, not solids "
-            "with holes."
-        ),
-    ] = False
-    cross_check: Annotated[
-        bool,
-        Meta(
-            description="Compare with python-fcl and manifold3d. A contradiction makes the check "
-            "incomplete."
-        ),
-    ] = False
-    planar: Annotated[
-        Plane | None,
-        Meta(description="Check outlines in this plane (xy, yz or xz): flat layouts."),
-    ] = None
-    list_pruned: Annotated[
-        bool | None, Meta(description="Findings for pairs that the broad phase settled.")
-    ] = None
-    depth_width: Annotated[
-        Width,
-        Meta(
-            description="Narrow the depth of concave pairs to an interval this wide, as a share "
-            "of it."
-        ),
-    ] = 0.01
-    depth_budget: Annotated[
-        Budget,
-        Meta(
-            description="Stop narrowing after this much work on a pair. Steps are counted, not "
-            "time: every machine gives the same answer."
-        ),
-    ] = 2.0
-    thickness_width: Annotated[Width, Meta(description="The same for the thickness.")] = 0.01
+    contacts: bool = False
+    contact_points: Count = 100_000  # about 5 MB of JSON
+    components: bool = False
+    clearance: Length | None = None
+    tolerance: Length | Literal["input-precision"] | None = None
+    surface_tolerance: Length | None = None
+    accuracy: Accuracy = "exact"
+    method: Method = "auto"
+    fail_on: FailOn = "error"
+    accept: tuple[str, ...] = ()
+    allow_open: bool = False
+    cross_check: bool = False
+    planar: Plane | None = None
+    list_pruned: bool | None = None
+    depth_width: Width = 0.01
+    depth_budget: Budget = 2.0
+    thickness_width: Width = 0.01
     part_threshold: Length = 0.05
     part_seed: int = 0
     part_seconds: Size = 120.0
