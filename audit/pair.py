@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
-from msgspec.structs import force_setattr
 
 from satcheck.audit.body import PlacedBody, diagonal, largest_coordinate
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
@@ -39,7 +38,7 @@ class Paths(Struct, frozen=True):
     known: Sweep | None = None
 
 
-class Pair(Struct, frozen=True):
+class Pair(Struct, eq=False):
     """tolerance: half width of the touch band, world units. gap_limit: a larger gap needs no
     figure, because it is neither near nor in the touch band.
 
@@ -60,24 +59,19 @@ class Pair(Struct, frozen=True):
     peers: Peers | None = None
     paths: Paths | None = None
     alone: bool = False
-    tolerance: float = 0.0  # __post_init__ sets it
-    gap_limit: float = 0.0  # __post_init__ sets it
-    off: tuple[float, float] = (0.0, 0.0)  # __post_init__ sets it
-    closer: float = 0.0  # __post_init__ sets it
+    tolerance: float = 0.0  # __post_init__ sets these four
+    gap_limit: float = 0.0
+    off: tuple[float, float] = (0.0, 0.0)
+    closer: float = 0.0
 
     def __post_init__(self) -> None:
-        tolerance = self.request.tolerance
-        if tolerance is None:
-            tolerance = self._resolution()
-        force_setattr(self, "tolerance", tolerance)
-        tolerances = (self.a.surface_tolerance, self.b.surface_tolerance)
-        off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
-        force_setattr(self, "off", (off_a, off_b))
+        asked = self.request.tolerance
+        self.tolerance = tolerance = self._resolution() if asked is None else asked
+        own_a, own_b = self.a.surface_tolerance, self.b.surface_tolerance
+        self.off = max(0.5 * tolerance, own_a), max(0.5 * tolerance, own_b)
         if self.settings.planar:
-            closer = self.a.body.file.deviation + self.b.body.file.deviation
-            force_setattr(self, "closer", closer)
-        gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
-        force_setattr(self, "gap_limit", gap_limit)
+            self.closer = self.a.body.file.deviation + self.b.body.file.deviation
+        self.gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
 
     def _resolution(self) -> float:
         plane = self.settings.planar

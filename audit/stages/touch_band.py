@@ -27,6 +27,7 @@ from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
 
 if TYPE_CHECKING:
+    from satcheck.audit.stages.explained import Explained
     from satcheck.core.curved.signed import Signed
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
@@ -51,14 +52,26 @@ def estimate_is_within(draft: Draft) -> bool:
 
 
 def touch_band(draft: Draft) -> Band:
-    """For an overlap."""
-    explained = None if draft.climb is None else _explained(draft, draft.climb)
-    if isinstance(explained, Band) and explained.side != "hidden":
-        return explained
-    by_moves = _by_moves(draft)
-    if isinstance(explained, Band):
-        return by_moves if by_moves.side == "within" else explained
-    return replace(by_moves, unexcused=explained)
+    """Return whether an overlap is within the tolerance: because surfaces that may be off explain
+    it, whatever the way out, or because a move within the tolerance frees A."""
+    result, detail = _explained(draft)
+    if result == "within" or result == "deeper":
+        return Band(result)
+    band = _by_moves(draft)
+    if result == "undecided" and band.side != "within":
+        return Band("hidden", why=detail)
+    return replace(band, unexcused=detail) if result == "not excused" else band
+
+
+def _explained(draft: Draft) -> tuple[Explained | None, str]:
+    """Return whether that explains the overlap of closed bodies that hold no ball thicker than the
+    tolerance, and why it does not; None: not asked."""
+    climb = draft.climb
+    if climb is None or climb.thick is not False or climb.band == "within":
+        return None, ""
+    from satcheck.audit.stages.explained import explain, may_be_explained
+
+    return explain(draft, climb.band_nanoseconds) if may_be_explained(draft.pair) else (None, "")
 
 
 def _by_moves(draft: Draft) -> Band:
@@ -75,20 +88,6 @@ def _by_moves(draft: Draft) -> Band:
     if draft.climb is None:
         raise AssertionError("the core settles what two meshes are")
     return _band_of_meshes(draft, draft.climb)
-
-
-def _explained(draft: Draft, climb: core.Climb) -> Band | str | None:
-    """Of closed bodies that hold no ball thicker than the tolerance, whatever the way out. A text:
-    why nothing excuses the overlap; None: that is not asked."""
-    pair = draft.pair
-    from satcheck.audit.stages.explained import explain, may_be_explained
-
-    if climb.thick is not False or climb.band == "within" or not may_be_explained(pair):
-        return None
-    side, detail = explain(draft, climb.band_nanoseconds)
-    if side == "within" or side == "deeper":
-        return Band(side)
-    return Band("hidden", why=detail) if side == "undecided" else detail
 
 
 def _band_of_convex(draft: Draft, signed: core.PairResult | Signed) -> Band:
