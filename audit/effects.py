@@ -18,20 +18,9 @@ from satcheck.report.report import (
 )
 from satcheck.report.request import Request
 
-# Stages of effects that are not requested for every pair. All other stages decide the overlap.
-_EFFECT_OF_STAGE: dict[str, Effect] = {
-    "depth": "depth",
-    "search": "depth",
-    "verify": "depth",
-    "thickness": "thickness",
-    "distance": "distance",
-    "volume": "volume",
-    "contacts": "contacts",
-    "components": "components",
-    "cross-check": "cross-check",
-    "certificate": "certificate",
-    "sweep": "sweep",
-}
+# Stages that are part of an effect of another name. All that no effect is named after decide the
+# overlap.
+_PART_OF = {"search": "depth", "verify": "depth"}
 NOT_ASKED = "not asked"
 PRUNED = "boxes apart"
 ALLOWED = "allowed"
@@ -51,11 +40,11 @@ class _Kind(NamedTuple):
     because they were refused.
     """
 
-    by: frozenset[Effect]
+    by: frozenset[str]
     at_rest: Relation
     exact: Relation | None
-    done: frozenset[Effect]
-    unanswered: frozenset[Effect]
+    done: frozenset[str]
+    unanswered: frozenset[str]
 
 
 def effects_of(
@@ -68,7 +57,7 @@ def effects_of(
     the pairs on which it ran and those on which it did not add up to all pairs. Without motions
     there is no sweep. units_unknown: the number of pairs without a common unit."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
-    time: dict[Effect, float] = dict.fromkeys(EFFECTS, 0.0)
+    time: dict[str, float] = dict.fromkeys(EFFECTS, 0.0)
     kinds = Counter(_kind_of(request, finding, time) for request, finding in close)
     unreadable = counts.asked - counts.pruned - kinds.total() - units_unknown
     reports = []
@@ -88,21 +77,21 @@ def effects_of(
     return tuple(reports)
 
 
-def _kind_of(request: Request, finding: Finding, time: dict[Effect, float]) -> _Kind:
+def _kind_of(request: Request, finding: Finding, time: dict[str, float]) -> _Kind:
     """Adds the time of each stage to that of its effect."""
-    by: frozenset[Effect] = frozenset(request.by)
+    by: frozenset[str] = frozenset(request.by)
     if finding.motion is not None:
         by |= {"sweep"}
-    done: set[Effect] = {"overlap"}
+    done: set[str] = {"overlap"}
     for stage in finding.plan:
-        effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
+        effect = _PART_OF.get(stage.stage, stage.stage)
         if effect not in by:  # a step that only the overlap needed
             effect = "overlap"
         time[effect] += stage.microseconds
         done.add(effect)
     if finding.depth is not None:  # also if the touch band computed it
         done.add("depth")
-    answers: dict[Effect, object] = {
+    answers: dict[str, object] = {
         "thickness": finding.thickness,
         "volume": finding.volume,
         "contacts": finding.contacts,
