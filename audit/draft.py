@@ -44,13 +44,15 @@ class Band(Struct, frozen=True):
 
 
 class Escape(Struct, frozen=True):
-    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
+    """A translation of A, world units. normal: unit, from A to B, along which A retreats. verified:
+    A's mesh, moved, has no common interior with B.
 
     bound: then an upper bound of the depth, its length plus the rounding of A's moved coordinates
     (0.0 where there is none); inf when not verified.
     """
 
     mtv: Vector
+    normal: Vector
     verified: bool
     bound: float
 
@@ -58,16 +60,19 @@ class Escape(Struct, frozen=True):
 class Depth(Struct, frozen=True):
     """World units: lower <= true depth <= upper.
 
-    normal: unit, from A to B, along which A retreats; escape: the translation that was verified,
-    which may be longer than the depth by what verification asked for. witness: with
-    witness_b - witness_a = -upper * normal to rounding, known for convex pairs.
+    escape: the translation that was verified, which may be longer than the depth by what
+    verification asked for. witness: with witness_b - witness_a = -upper * normal to rounding, known
+    for convex pairs.
     """
 
     lower: float
     upper: float
-    normal: Vector
     escape: Escape
     witness: Witness | None = None
+
+    @property
+    def normal(self) -> Vector:
+        return self.escape.normal
 
 
 class Gap(Struct, frozen=True):

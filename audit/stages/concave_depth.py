@@ -44,25 +44,21 @@ def concave_depth(draft: Draft) -> Depth:
             ways.insert(0, _length_and_normal(way_out))
     elif draft.exact_proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(draft))
-    escape, normal = _shortest_escape(draft, ways)
+    escape = _shortest_escape(draft, ways)
     if frees_boxes(pair, hulls.length, hulls.normal):
         upper = min(upper, hulls.length)
     upper = min(upper, escape.bound)
-    return Depth(min(lower, upper), upper, normal, escape)
+    return Depth(min(lower, upper), upper, escape)
 
 
-def _shortest_escape(draft: Draft, ways: list[tuple[float, Vector]]) -> tuple[Escape, Vector]:
-    """The shortest of these ways out once verified, and its normal. ways: lengths and normals, the
-    shortest first. The next is tried only if verification made the best one longer than it."""
-    shortest: tuple[Escape, Vector] | None = None
-    for length, normal in ways:
-        if shortest is not None and shortest[0].bound <= length:
-            break
-        escape = verified_escape(draft, length, normal)
-        if shortest is None or escape.bound < shortest[0].bound:
-            shortest = escape, normal
-    if shortest is None:
-        raise AssertionError("the hulls have a way out")
+def _shortest_escape(draft: Draft, ways: list[tuple[float, Vector]]) -> Escape:
+    """Return the shortest of these ways out once verified. ways: lengths and normals, the shortest
+    first. The next is tried only if verification made the best one longer than it."""
+    shortest = verified_escape(draft, *ways[0])
+    for length, normal in ways[1:]:
+        if shortest.bound > length:
+            escape = verified_escape(draft, length, normal)
+            shortest = min(shortest, escape, key=lambda each: each.bound)
     return shortest
 
 
@@ -152,7 +148,7 @@ def depth_of_move(pair: Pair, move: Vector, lower: float) -> Depth:
     """Of a pair that a verified translation of A frees."""
     length, normal = _length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
-    return Depth(min(lower, upper), upper, normal, Escape(move, True, upper))
+    return Depth(min(lower, upper), upper, Escape(move, normal, True, upper))
 
 
 def _length_and_normal(translation: Vector) -> tuple[float, Vector]:

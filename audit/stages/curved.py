@@ -164,7 +164,7 @@ def sandwiched_depth(draft: Draft, move: Vector | None) -> Depth:
         return depth_of_move(pair, move, lower)
     verified = "separated" if outer.escape.verified else "failed"
     draft.record("verify", verified, "the mesh around the shape, moved by the MTV")
-    return Depth(lower, outer.upper, outer.normal, outer.escape)
+    return Depth(lower, outer.upper, outer.escape)
 
 
 def _depth_with(pair: Pair, *, around: bool) -> Depth | None:

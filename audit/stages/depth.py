@@ -55,7 +55,7 @@ def _convex_depth(draft: Draft, result: core.PairResult | Signed) -> Depth:
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
-    return Depth(lower, max(upper, value), result.normal, escape, witness)
+    return Depth(lower, max(upper, value), escape, witness)
 
 
 def frees_boxes(pair: Pair, length: float, normal: Vector) -> bool:
@@ -87,7 +87,7 @@ def verified_escape(draft: Draft, length: float, normal: Vector) -> Escape:
     pair = draft.pair
     if not pair.may("hull"):
         draft.record("verify", "not asked", "the capped ladder has nothing to verify with")
-        return Escape(_along(normal, length), False, math.inf)
+        return Escape(_along(normal, length), normal, False, math.inf)
     ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
     steps = (0, *LENGTHENING_ULPS) if adds_exactly(pair, length, normal) else LENGTHENING_ULPS
     for step in steps:
@@ -96,10 +96,11 @@ def verified_escape(draft: Draft, length: float, normal: Vector) -> Escape:
         if relation in FREE:
             longer = f", lengthened by {step} units in the last place" if step else ""
             draft.record("verify", relation, f"A moved by its MTV{longer}")
-            return Escape(mtv, True, length if step == 0 else length + (step + 2) * ulp)
+            bound = length if step == 0 else length + (step + 2) * ulp
+            return Escape(mtv, normal, True, bound)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
     draft.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
-    return Escape(_along(normal, length), False, math.inf)
+    return Escape(_along(normal, length), normal, False, math.inf)
 
 
 def relation_after(pair: Pair, translation: Vector) -> str:

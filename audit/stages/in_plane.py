@@ -103,29 +103,25 @@ def depth_of_curves(draft: Draft, depth: Depth) -> Depth:
         hulls = way_out_of_hulls(pair)
         ways.append((hulls.length, hulls.normal))
         bounds.append(hulls.upper + pair.closer + pad)
-    escape_and_normal = _way_out(pair, ways, pad) if pair.may("hull") else None
-    if escape_and_normal is None:
-        draft.record(
-            "verify", "failed", f"no move leaves a gap of {pair.closer:.3g} for the curves"
-        )
+    escape = _way_out(pair, ways, pad) if pair.may("hull") else None
+    if escape is None:
+        no_move = f"no move leaves a gap of {pair.closer:.3g} for the curves"
+        draft.record("verify", "failed", no_move)
         length, normal = ways[-1]
-        escape = Escape(_along(normal, length + pair.closer), False, math.inf)
+        escape = Escape(_along(normal, length + pair.closer), normal, False, math.inf)
     else:
-        escape, normal = escape_and_normal
         draft.record("verify", "separated", f"A moved past its curves, by {pair.closer:.3g} more")
     upper = max(min(*bounds, escape.bound), depth.lower)
-    return Depth(depth.lower, upper, normal, escape)
+    return Depth(depth.lower, upper, escape)
 
 
-def _way_out(
-    pair: Pair, ways: list[tuple[float, Vector]], pad: float
-) -> tuple[Escape, Vector] | None:
+def _way_out(pair: Pair, ways: list[tuple[float, Vector]], pad: float) -> Escape | None:
     """The shortest translation of those tried that leaves a gap for the curves; None: none did."""
     for length, normal in sorted(_lengthened(pair, ways)):
         total = length + 4 * pad
         move = _along(normal, total)
         if _leaves_gap(pair, move, pad):
-            return Escape(move, True, total + pad), normal
+            return Escape(move, normal, True, total + pad)
     return None
 
 
