@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from satcheck.audit.check import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from satcheck.report.components import Component, Components
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (

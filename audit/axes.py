@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.body import PlacedBody
+from satcheck.audit.pair import Pair
+from satcheck.audit.settings import Settings
 from satcheck.audit.studied_pair import pair_of, two_of
 from satcheck.audit.summary import tool
 from satcheck.core.axes.candidates import (

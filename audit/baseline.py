@@ -16,6 +16,7 @@ from typing import get_args
 import msgspec
 from msgspec.structs import replace
 
+from satcheck.audit.messages import with_messages
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import (
     SCHEMA,
@@ -73,7 +74,7 @@ def beside_baseline(
     )
     if summary.verdict == "pass":  # a baseline only excuses
         judged = replace(summary, accepted=judged.accepted)
-    return replace(report, findings=findings, baseline=stated, summary=judged)
+    return with_messages(replace(report, findings=findings, baseline=stated, summary=judged))
 
 
 def known_findings(report: Report, asset: str = "", reason: str = "") -> list[KnownFinding]:

@@ -10,27 +10,29 @@ from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
+from satcheck.audit.bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
-from satcheck.audit.doubtful_sizes import doubtful_sizes
-from satcheck.audit.finding import apart_by_boxes, indeterminate
-from satcheck.audit.ladder.close_pairs import close_pairs
-from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.request.effects import effects_of
-from satcheck.audit.request.planner import Planner
-from satcheck.audit.request.settings import (
-    LISTED_PAIRS,
-    LISTED_UNDECIDABLE,
-    Settings,
-    require_settings,
+from satcheck.audit.draft import Draft, indeterminate
+from satcheck.audit.effects import effects_of
+from satcheck.audit.finding import examine_boxes
+from satcheck.audit.messages import with_messages
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import Planner, close_pairs
+from satcheck.audit.settings import LISTED_PAIRS, LISTED_UNDECIDABLE, Settings, require_settings
+from satcheck.audit.summary import (
+    body_reports,
+    count,
+    doubtful_sizes,
+    exempt_of,
+    issues_of,
+    stated_reading,
+    tool,
 )
-from satcheck.audit.request.trace import Trace
-from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, stated_reading, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import (
     OUTSIDE_REGION,
     REGION_OPEN,
+    BodyAnswer,
     Finding,
     Issue,
     Report,
@@ -41,10 +43,10 @@ from satcheck.report.verdict import summarise, truncated_of
 if TYPE_CHECKING:
     from satcheck.audit.joint_path.movers import JointMovers
     from satcheck.audit.motion.movers import Movers
-    from satcheck.audit.statics.support import Support
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
     from satcheck.report.regions import Regions
+    from satcheck.report.statics import Statics
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
@@ -80,43 +82,31 @@ def check(
         few = "one body" if least == 1 else "two bodies"
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least")
     bodies = place(scene, settings, cache)
-    return _check(scene, settings, progress, bodies, keep=cache is not None)
-
-
-def _check(
-    scene: Scene,
-    settings: Settings,
-    progress: Progress | None,
-    bodies: PlacedBodies,
-    keep: bool = False,
-) -> Report:
-    """keep: later checks need the data of the bodies again."""
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
     close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
-    queue = PairQueue(settings.jobs, keep=keep)
-    examined = _examine_all(bodies, close, planner, movers, queue, progress)
+    examined = _examined(bodies, close, planner, movers, progress, keep=cache is not None)
     findings = _findings(bodies, close, examined, planner)
-    motion_issues = () if movers is None else movers.issues(bodies.ids)
-    pair_issues = (issue for pair in examined for issue in pair.issues)
     counts = count(bodies, [pair.finding for pair in examined], findings)
-    support = _support(scene, bodies, planner.settings)
-    statics = None if support is None else support.stated()
-    support_issues = [] if support is None or statics is None else support.issues(scene, statics)
-    regions, region_issues = _regions(scene, bodies, planner.settings)
-    size_issues = doubtful_sizes(bodies, findings, settings.planar)
     pose = scene.posture.pose() if scene.posture else None
     allowed = all_allowed(counts, bodies.book.rules, pose)
-    issues = issues_of(
-        scene,
-        bodies,
-        counts,
-        allowed,
-        (*size_issues, *motion_issues, *support_issues, *region_issues, *pair_issues),
-        settings.accept,
+    statics, support_issues = _support(scene, bodies, settings)
+    regions, region_issues = _regions(scene, bodies, settings)
+    of_pairs = [
+        *doubtful_sizes(bodies, findings, settings.planar),
+        *(() if movers is None else movers.issues(bodies.ids)),
+        *support_issues,
+        *region_issues,
+        *(issue for pair in examined for issue in pair.issues),
+    ]
+    issues = issues_of(scene, bodies, counts, allowed, of_pairs, settings.accept)
+    answers: tuple[BodyAnswer, ...] = (
+        *(statics.findings if statics else ()),
+        *(regions.findings if regions else ()),
     )
-    return Report(
+    lone = len(bodies.placed) == len(bodies.ids) <= 1
+    report = Report(
         tool=tool(),
         units=scene.units,
         settings=planner.stated(),
@@ -125,11 +115,8 @@ def _check(
             findings,
             settings.fail_on,
             issues=issues,
-            alone=allowed or len(bodies.placed) == len(bodies.ids) <= 1 or bool(regions),
-            answers=(
-                *(() if statics is None else statics.findings),
-                *(regions.findings if regions else ()),
-            ),
+            alone=allowed or lone or bool(regions),
+            answers=answers,
         ),
         reading=stated_reading(scene),
         bodies=body_reports(bodies),
@@ -146,9 +133,10 @@ def _check(
         findings=tuple(findings),
         issues=issues,
         truncated=truncated_of(counts, findings),
-        statics=UNSET if statics is None else statics,
+        statics=statics,
         regions=regions,
     )
+    return with_messages(report)
 
 
 def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
@@ -181,20 +169,24 @@ def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | Jo
     return Movers(scene.motions)
 
 
-def _support(scene: Scene, bodies: PlacedBodies, settings: Settings) -> Support | None:
-    """None: no rule asks about support. Raises SatcheckError if the question cannot be answered at
-    all."""
+def _support(
+    scene: Scene, bodies: PlacedBodies, settings: Settings
+) -> tuple[Statics | UnsetType, list[Issue]]:
+    """Return UNSET if no rule asks about support. Raises SatcheckError if the question cannot be
+    answered at all."""
     if not scene.asks_for_support:
-        return None
+        return UNSET, []
     from satcheck.audit.statics.support import Support
 
-    return Support(scene, bodies, settings)
+    support = Support(scene, bodies, settings)
+    statics = support.stated()
+    return statics, list(support.issues(scene, statics))
 
 
 def _regions(
     scene: Scene, bodies: PlacedBodies, settings: Settings
 ) -> tuple[Regions | UnsetType, list[Issue]]:
-    """UNSET: no rule asks whether a body lies in a region."""
+    """Return UNSET if no rule asks whether a body lies in a region."""
     if not scene.asks_for_regions:
         return UNSET, []
     from satcheck.audit.regions import regions_of
@@ -204,14 +196,16 @@ def _regions(
     return regions, issues_of(regions.findings, OUTSIDE_REGION, REGION_OPEN)
 
 
-def _examine_all(
+def _examined(
     bodies: PlacedBodies,
     close: list[tuple[int, int]],
     planner: Planner,
     movers: Movers | JointMovers | None,
-    queue: PairQueue,
     progress: Progress | None,
+    *,
+    keep: bool,
 ) -> list[CheckedPair]:
+    """Return what is found of the close pairs. keep: later checks need the data of the bodies."""
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
     with ExitStack() as stack:
@@ -227,11 +221,11 @@ def _examine_all(
                 meter,
                 peers,
                 None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
-                alone=len(close) == 1 and not queue.keep,
+                alone=len(close) == 1 and not keep,
             )
             for (i, j), request in zip(close, requests, strict=True)
         ]
-        return examine_pairs(pairs, queue, progress)
+        return examine_pairs(pairs, settings.jobs, progress, keep=keep)
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
@@ -252,21 +246,22 @@ def _findings(
     examined: list[CheckedPair],
     planner: Planner,
 ) -> list[Finding]:
+    """Return the findings to list: of close pairs, of pairs that nothing decides, and, in a scene
+    of few pairs, of those that are apart by their boxes."""
     findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
     settings = planner.settings
-    total, allowed = bodies.book.count()
     listed = settings.list_pruned
     if listed is None:
+        total, allowed = bodies.book.count()
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE
     for i, j, reason in islice(bodies.undecidable_pairs(), most):
-        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason)
     if listed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:
-                pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
-                apart = apart_by_boxes(pair)
-                findings[i, j] = (
-                    with_certificate(pair, apart) if settings.certificate else apart.finding
-                )
+                request = planner.request(i, j)
+                draft = Draft(Pair(bodies.placed[i], bodies.placed[j], settings, request))
+                apart = examine_boxes(draft)
+                findings[i, j] = with_certificate(apart, draft) if settings.certificate else apart
     return [findings[pair] for pair in sorted(findings)]

@@ -1,26 +1,41 @@
-"""The findings of pairs: each pair is examined, and its finding gets its evidence on request.
+"""The findings of all pairs, on all cores, and when the data of a body is released.
 
-A pair that fails is a finding too, so that the other pairs are still checked.
+Pairs follow a curve through space, so the pairs of one body are close to each other in the order,
+and only a few bodies have a surface in memory at a time. Pairs go in batches. The core climbs the
+ladder with all pairs of a batch, in its own threads, while Python makes the findings of the batch
+before. Slow figures, such as a depth, run in threads. A pair that fails is a finding too, so that
+the other pairs are still checked.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.finding import Examined, examine, indeterminate
-from satcheck.audit.ladder.core_climb import start_climbs
-from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.request.trace import Trace
+from satcheck import core
+from satcheck.audit.draft import Draft, indeterminate
+from satcheck.audit.finding import examine
+from satcheck.audit.pair import Pair
+from satcheck.audit.parallel import in_parallel
+from satcheck.audit.stages.relation import leaves_work, start_climbs
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue
 
 if TYPE_CHECKING:
+    from satcheck.audit.body import PlacedBody
     from satcheck.core import Climb
+    from satcheck.report.certificate import Certificate
+
+# Below this many pairs, starting threads costs more than they save.
+PARALLEL_PAIRS = 8
+# The most pairs of a batch. Two batches are under way at a time. A larger batch would hold more
+# results in memory and delay Ctrl-C. BATCH_TRIANGLES: the most triangles of a batch for each
+# thread; ten million take about a second and a gigabyte.
+BATCH_PAIRS = 256
+BATCH_TRIANGLES = 250_000
 
 Progress = Callable[[int, int], None]
 
@@ -31,44 +46,116 @@ class CheckedPair(Struct, frozen=True):
 
 
 def examine_pairs(
-    pairs: Sequence[Pair], queue: PairQueue, progress: Progress | None = None
+    pairs: Sequence[Pair], jobs: int, progress: Progress | None = None, *, keep: bool = False
 ) -> list[CheckedPair]:
-    """The findings of pairs with the same settings, in their order."""
+    """Return the findings of pairs with the same settings, in their order. jobs: threads, 0 for one
+    a core. keep: do not release the data of the bodies, because another check needs them."""
+    order = _along_curve(pairs)
+    leaving = {} if keep else _leaving(pairs, order)
     done: dict[int, CheckedPair] = {}
-    careful = is_careful()
-    examine = _examine_carefully if careful else _examine
-    for k, checked in queue.each(pairs, examine, alone=careful):
+    for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         done[k] = checked
+        for body in leaving.get(k, ()):
+            body.release()
         if progress is not None:
             progress(len(done), len(pairs))
     return [done[k] for k in range(len(pairs))]
 
 
-def _examine_carefully(pair: Pair, _: Climb | None) -> CheckedPair:
-    """One pair after another, and none that has ended the process before."""
-    a, b = pair.a.id, pair.b.id
-    try:
-        with risky_step(f"checking {a!r} and {b!r}"):
-            return _examine(pair, *start_climbs([pair], 1)())
-    except LeftOut as error:
-        reason = f"the process that checked this pair {error.message}"
-        issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
-        return CheckedPair(indeterminate(a, b, reason, Trace()), (issue,))
+def _along_curve(pairs: Sequence[Pair]) -> list[int]:
+    bodies = {id(body): body for pair in pairs for body in (pair.a, pair.b)}
+    order = core.order_along_curve([body.bounds for body in bodies.values()])
+    keys, count = list(bodies), len(bodies)
+    rank = {keys[number]: place for place, number in enumerate(order)}
+    places = []  # sort key: the position of the earlier body, then of the other one
+    for pair in pairs:
+        a, b = rank[id(pair.a)], rank[id(pair.b)]
+        places.append(a * count + b if a < b else b * count + a)
+    return sorted(range(len(pairs)), key=places.__getitem__)
+
+
+def _leaving(pairs: Sequence[Pair], order: Sequence[int]) -> dict[int, list[PlacedBody]]:
+    """Return the number of a pair -> the bodies that no later pair needs."""
+    last = {body: k for k in order for body in (pairs[k].a, pairs[k].b)}
+    leaving: dict[int, list[PlacedBody]] = {}
+    for body, k in last.items():
+        leaving.setdefault(k, []).append(body)
+    return leaving
+
+
+def _batched(
+    pairs: Sequence[Pair], order: Sequence[int], jobs: int
+) -> Iterator[tuple[int, CheckedPair]]:
+    """Yield the pairs batch by batch, each while the next one climbs."""
+    import os
+
+    threads = min(jobs or os.cpu_count() or 1, len(pairs)) if len(pairs) >= PARALLEL_PAIRS else 1
+    ahead: tuple[list[int], Callable[[], list[Climb | None]]] | None = None
+    for batch in _batches(pairs, order, threads):
+        before = ahead and (ahead[0], ahead[1]())
+        ahead = batch, start_climbs([pairs[k] for k in batch], threads)
+        if before is not None:
+            yield from _examined(pairs, *before, threads)
+    if ahead is not None:
+        yield from _examined(pairs, ahead[0], ahead[1](), threads)
+
+
+def _batches(pairs: Sequence[Pair], order: Iterable[int], threads: int) -> Iterator[list[int]]:
+    batch: list[int] = []
+    triangles = 0
+    for k in order:
+        batch.append(k)
+        triangles += pairs[k].triangles
+        is_heavy = triangles >= threads * BATCH_TRIANGLES and len(batch) >= threads
+        if is_heavy or len(batch) == BATCH_PAIRS:
+            yield batch
+            batch, triangles = [], 0
+    if batch:
+        yield batch
+
+
+def _examined(
+    pairs: Sequence[Pair], batch: Sequence[int], climbs: Sequence[Climb | None], threads: int
+) -> Iterator[tuple[int, CheckedPair]]:
+    """Yield the pairs of a batch, those that take long from threads."""
+    climb = dict(zip(batch, climbs, strict=True))
+    heavy = [k for k in batch if threads > 1 and leaves_work(pairs[k], climb[k])]
+    if len(heavy) < PARALLEL_PAIRS:
+        for k in batch:
+            yield k, _examine(pairs[k], climb[k])
+        return
+    results = in_parallel(lambda k: _examine(pairs[k], climb[k]), heavy, threads)
+    is_heavy = set(heavy)
+    for k in batch:
+        yield k, next(results) if k in is_heavy else _examine(pairs[k], climb[k])
+
+
+def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int, CheckedPair]]:
+    """Yield one pair after another, and none that has ended the process before."""
+    for k in order:
+        a, b = pairs[k].a.id, pairs[k].b.id
+        try:
+            with risky_step(f"checking {a!r} and {b!r}"):
+                checked = _examine(pairs[k])
+        except LeftOut as error:
+            reason = f"the process that checked this pair {error.message}"
+            issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
+            checked = CheckedPair(indeterminate(a, b, reason), (issue,))
+        yield k, checked
 
 
 def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
-    """One pair. A failure becomes a finding, so that the other pairs are still checked."""
-    trace = Trace()
+    """Return the finding of one pair. A failure becomes a finding."""
+    draft = Draft(pair)
     try:
-        examined = examine(pair, trace, climb)
+        finding = examine(draft, climb)
         if pair.paths is not None:
             from satcheck.audit.motion.swept_finding import with_sweep
 
-            examined = with_sweep(examined, pair, pair.paths, trace)
-        finding = examined.finding
+            finding = with_sweep(finding, draft, pair.paths)
         if pair.request.wants("certificate"):
-            finding = with_certificate(pair, examined)
-        return CheckedPair(finding, tuple(trace.issues))
+            finding = with_certificate(finding, draft)
+        return CheckedPair(finding, tuple(draft.issues))
     except Exception as error:
         not_for_lack_of_memory(error)
         import logging
@@ -77,26 +164,25 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
-        finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
-        return CheckedPair(finding, (*trace.issues, issue))
+        return CheckedPair(draft.indeterminate(reason), (*draft.issues, issue))
 
 
-def with_certificate(pair: Pair, examined: Examined) -> Finding:
-    """The finding with its evidence, or with a stage that says why there is none."""
+def with_certificate(finding: Finding, draft: Draft) -> Finding:
+    """Return the finding with its evidence, or with a stage that says why there is none."""
     from satcheck.audit.certify import NoCertificate, certified
 
-    trace, finding = Trace(), examined.finding
-    if finding.motion is not None:
-        trace.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
-        return replace(finding, plan=(*finding.plan, *trace.stages))
-    try:
-        certificate = certified(pair, examined)
-    except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-        not_for_lack_of_memory(error)
-        certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
+    certificate: Certificate | NoCertificate = NoCertificate(
+        "a sweep of moving bodies leaves no evidence"
+    )
+    if finding.motion is None:
+        try:
+            certificate = certified(draft, finding)
+        except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
+            not_for_lack_of_memory(error)
+            certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
     if isinstance(certificate, NoCertificate):
-        trace.record("certificate", "none", certificate.reason)
-        return replace(finding, plan=(*finding.plan, *trace.stages))
+        draft.record("certificate", "none", certificate.reason)
+        return replace(finding, plan=tuple(draft.stages))
     kind = certificate.relation.__struct_config__.tag
-    trace.record("certificate", str(kind), "accepted by the checker")
-    return replace(finding, certificate=certificate, plan=(*finding.plan, *trace.stages))
+    draft.record("certificate", str(kind), "accepted by the checker")
+    return replace(finding, certificate=certificate, plan=tuple(draft.stages))

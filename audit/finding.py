@@ -1,27 +1,26 @@
-"""The finding of one pair: the verdict of the ladder, the requested figures, and their words.
+"""The finding of one pair: its stages in order, then the judgement of what they found.
 
 The exact gap decides whether a clearance is kept, even if the touch band calls the pair touching.
-An overlap has no gap, so it keeps no clearance.
+An overlap has no gap, so it keeps no clearance. What decides `touching` is `report.judge.named`.
 """
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.draft import Draft
-from satcheck.audit.figures.depth import Depth, measure_depth
-from satcheck.audit.figures.gap import measure_gap
-from satcheck.audit.figures.touch_band import Band, band_of, touch_band
-from satcheck.audit.figures.volume import NOTHING, common_volume
-from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
-from satcheck.audit.ladder.ladder import boxes_verdict, settle
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.draft import Band, Depth, Draft
+from satcheck.audit.stages.components import find_components
+from satcheck.audit.stages.contacts import find_contacts
+from satcheck.audit.stages.cross_check import ask_peers
+from satcheck.audit.stages.depth import measure_depth
+from satcheck.audit.stages.gap import measure_gap
+from satcheck.audit.stages.relation import apart_by_boxes, settle, why_open
+from satcheck.audit.stages.thickness import measure_thickness, thickness_ahead, why_not_thick
+from satcheck.audit.stages.touch_band import band_of, touch_band
+from satcheck.audit.stages.volume import measure_volume
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.judge import (
@@ -32,55 +31,179 @@ from satcheck.report.judge import (
     judged,
     named,
 )
-from satcheck.report.report import OVERLAPS, Finding, finding_id
+from satcheck.report.report import OVERLAPS, Effect, Finding
 from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
-    from satcheck.audit.figures.thickness_ahead import Ahead
+    from satcheck.audit.pair import Pair
     from satcheck.core import Climb
 
 INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
+# The stages that run on request, in their order, after those that decide the relation. A curved
+# shape has none of those on triangles.
+ON_REQUEST: dict[Effect, Callable[[Draft], None]] = {
+    "thickness": measure_thickness,
+    "volume": measure_volume,
+    "contacts": find_contacts,
+    "components": find_components,
+    "cross-check": ask_peers,
+}
 
 
-class Examined(Struct, frozen=True):
-    """A finding and what it follows from."""
-
-    finding: Finding
-    draft: Draft
-
-
-def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
-    """Computes everything that is requested for one pair. Warnings go to the trace. climb: the
-    climb of the core; None: not made yet."""
-    draft = Draft(pair, trace, settle(pair, trace, climb))
-    undecided = _why_open(draft)
+def examine(draft: Draft, climb: Climb | None = None) -> Finding:
+    """Compute everything that is requested for the pair of a draft, which keeps what the stages
+    find. climb: of the core; None: not made yet."""
+    settle(draft, climb)
+    undecided = why_open(draft)
     if undecided is None:
-        with _thickness_ahead(draft) as ahead:
-            if draft.verdict.relation in OVERLAPS:
-                undecided = _overlap(draft)
+        with thickness_ahead(draft):
+            if draft.exact in OVERLAPS:
+                undecided = _find_overlap(draft)
             else:
-                _gap(draft)
+                _find_gap(draft)
             if undecided is None:
-                _add_extras(draft, ahead)
-    if undecided is not None:
-        return Examined(indeterminate(pair.a.id, pair.b.id, undecided, trace), draft)
-    return Examined(_judged(draft), draft)
+                _run_on_request(draft)
+    return _judged(draft) if undecided is None else draft.indeterminate(undecided)
+
+
+def examine_boxes(draft: Draft) -> Finding:
+    """Return the finding of a pair that the broad phase settled."""
+    if not apart_by_boxes(draft):
+        raise RuntimeError(f"the broad phase dropped {draft.pair.a.id} and {draft.pair.b.id}")
+    asked = draft.pair.request.by
+    draft.relation = draft.exact_relation = "separated"
+    draft.volume = draft.volume_error = 0.0 if "volume" in asked else None
+    draft.contacts = Contacts() if "contacts" in asked else None
+    draft.components = Components() if "components" in asked else None
+    _cap(draft)
+    return draft.finding()
+
+
+def deep_overlap(pair: Pair) -> Finding:
+    """Return the finding of bodies that are proven to overlap by more than the touch band, while
+    neither holds the other. No figure is requested."""
+    draft = Draft(pair, relation="penetrating", exact_relation="penetrating")
+    draft.record("sort", "penetrating", "an overlap beyond the touch band")
+    return _judged(draft)
+
+
+def _run_on_request(draft: Draft) -> None:
+    if draft.pair.curved:
+        from satcheck.audit.stages.curved import note_unavailable
+
+        if draft.pair.request.wants("thickness"):
+            measure_thickness(draft)
+        note_unavailable(draft)
+        return
+    for effect, run in ON_REQUEST.items():
+        if draft.pair.request.wants(effect):
+            run(draft)
+
+
+def _find_overlap(draft: Draft) -> str | None:
+    """Find what is known of an overlap. Returns why it is unknown whether the overlap is within the
+    tolerance; None: it is known."""
+    pair = draft.pair
+    band, depth = touch_band(draft), None
+    guess = band.side == "within" and not draft.exact_proven
+    if pair.request.wants("depth") and not guess:
+        depth = measure_depth(draft, band.move)
+        if band.side in ("open", "hidden"):
+            band = _band_of_depth(pair, depth) or band
+    if band.side == "hidden":
+        return f"undecided: {band.why}"
+    is_open = pair.curved and draft.signed is not None and band.side == "open"
+    draft.relation = named(draft.exact, band.side == "within")
+    shown = draft.exact_proven
+    draft.reason = _weakness(draft) or (OPEN_BAND if is_open else None)
+    if pair.excuses and draft.relation in OVERLAPS:
+        draft.reason = draft.reason or _unexcused(pair, band)
+    if pair.closer:
+        from satcheck.audit.stages.in_plane import depth_of_curves, overlap_of_curves
+
+        depth = depth and depth_of_curves(draft, depth)
+        shown = shown and overlap_of_curves(draft)
+    draft.exact_relation = draft.exact if shown else None
+    draft.proven, draft.band, draft.depth = draft.exact_proven, band, depth
+    return None
+
+
+def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
+    """Return the touch band by the translation that frees A; None: it is not verified, or the depth
+    exceeds the tolerance."""
+    if not depth.escape.verified or depth.lower > pair.tolerance:
+        return None
+    return band_of(pair, depth.escape.mtv)
+
+
+def _unexcused(pair: Pair, band: Band) -> str | None:
+    """Return why a surface tolerance does not apply; None: it applies."""
+    why_not = why_not_thick(pair) or band.unexcused
+    return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
+
+
+def _find_gap(draft: Draft) -> None:
+    """Find what is known of bodies without a common interior."""
+    pair, gap = draft.pair, measure_gap(draft)
+    if pair.closer:
+        from satcheck.audit.stages.in_plane import gap_of_curves
+
+        gap = gap_of_curves(pair, gap)
+    proven, reason = draft.exact_proven, _weakness(draft)
+    kept = True if gap.kept is None and gap.distance is not None else gap.kept
+    draft.relation = named(draft.exact, gap.within, kept)
+    if gap.within:
+        # The band is proven, even if it is unknown whether the bodies overlap a little.
+        lower = None if draft.signed is None else draft.signed.lower
+        proven = proven or (lower is not None and lower >= -pair.tolerance)
+    elif draft.relation == "near" and kept is None:
+        proven, reason = False, _open_gap(pair)
+    elif draft.relation == "separated" and gap.within is None:
+        reason = reason or OPEN_BAND
+    shown = draft.exact_proven
+    if pair.closer and gap.lower == 0:  # the curves may meet
+        shown = False
+        if pair.tolerance < pair.closer:
+            proven = False
+            reason = reason or (
+                f"undecided: the curves may be {pair.closer:.3g} off their polygons"
+            )
+    draft.gap, draft.reason, draft.proven = gap, reason, proven
+    draft.exact_relation = draft.exact if shown else None
+
+
+def _open_gap(pair: Pair) -> str:
+    if not pair.may("exact"):
+        return f"the gap is {_unproven(pair)}"
+    return "the gap may be less: the fill of a hole may be nearer than the surface"
+
+
+def _weakness(draft: Draft) -> str | None:
+    """Return why an answer is weaker than a proof; None: it is proven. Separate hulls prove their
+    relation."""
+    if draft.weak is not None or draft.exact_proven:
+        return draft.weak
+    pair = draft.pair
+    return "a degenerate contact was sampled" if pair.may("exact") else _unproven(pair)
+
+
+def _unproven(pair: Pair) -> str:
+    return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
 def _judged(draft: Draft) -> Finding:
     """Return the finding that the stages have drafted, with its severity."""
     pair, gap = draft.pair, draft.gap
-    contradiction = _contradiction(draft)
     was_proven = draft.proven
     _cap(draft)
     finding = draft.finding()
     bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
     judgement = judged(finding, pair.request, bounds, kept)
     if not was_proven:
-        judgement = _of_estimate(judgement, finding, pair, overlaps=draft.verdict.overlaps)
-    if contradiction is not None:
-        judgement = disputed(judgement, contradiction)
+        judgement = _of_estimate(judgement, finding, pair, overlaps=draft.overlaps)
+    if draft.disputed is not None:
+        judgement = disputed(judgement, draft.disputed)
     return replace(
         finding,
         severity=judgement.severity,
@@ -110,211 +233,9 @@ def _of_estimate(
     return judgement.warned("relation") if judgement.passes else judgement
 
 
-def apart_by_boxes(pair: Pair) -> Examined:
-    """A pair that the broad phase settled."""
-    trace, asked = Trace(), pair.request.by
-    verdict = boxes_verdict(pair, trace)
-    if verdict is None:
-        raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
-    draft = Draft(pair, trace, verdict, "separated", "separated")
-    draft.volume = NOTHING if "volume" in asked else None
-    draft.contacts = Contacts() if "contacts" in asked else None
-    draft.components = Components() if "components" in asked else None
-    _cap(draft)
-    return Examined(draft.finding(), draft)
-
-
-def deep_overlap(pair: Pair) -> Finding:
-    """Return the finding of bodies that are proven to overlap by more than the touch band, while
-    neither holds the other. No figure is requested."""
-    trace = Trace()
-    trace.record("sort", "penetrating", "an overlap beyond the touch band")
-    verdict = Verdict("penetrating", proven=True)
-    return _judged(Draft(pair, trace, verdict, "penetrating", "penetrating"))
-
-
-def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
-    return Finding(
-        id=finding_id(a, b),
-        a=a,
-        b=b,
-        severity="warning",
-        undecided="relation",
-        relation="indeterminate",
-        reason=reason,
-        plan=tuple(trace.stages),
-    )
-
-
 def _cap(draft: Draft) -> None:
     """Make the draft an estimate if a reader may have left out what would overlap. The issue of the
     file keeps the check from passing, until somebody accepts it."""
-    bodies = draft.pair.a, draft.pair.b
-    known = all(is_complete(placed.body.file.format) for placed in bodies)
+    known = all(is_complete(body.body.file.format) for body in (draft.pair.a, draft.pair.b))
     if not known and draft.relation not in OVERLAPS:
         draft.proven, draft.reason = False, draft.reason or INCOMPLETE
-
-
-def _why_open(draft: Draft) -> str | None:
-    """Return the reason why the relation is undecided; None: it is decided."""
-    relation = draft.verdict.relation
-    if relation == "indeterminate":
-        return draft.verdict.reason or "undecided"
-    return open_pieces_around(draft.pair) if relation in ("separated", "touching") else None
-
-
-def _thickness_ahead(draft: Draft) -> AbstractContextManager[Ahead | None]:
-    """The search for the thickness of the only pair, if it runs beside that for the depth."""
-    pair = draft.pair
-    both = pair.request.wants("depth") and pair.request.wants("thickness")
-    if not (pair.alone and both and draft.verdict.relation in OVERLAPS):
-        return nullcontext()
-    from satcheck.audit.figures.thickness_ahead import thickness_ahead
-
-    return thickness_ahead(pair)
-
-
-def _add_extras(draft: Draft, ahead: Ahead | None) -> None:
-    """Adds the figures that are computed only on request."""
-    pair, verdict, trace, asked = draft.pair, draft.verdict, draft.trace, draft.pair.request.by
-    if "thickness" in asked and verdict.relation in OVERLAPS:
-        _add_thickness(draft, ahead)
-    if pair.curved:
-        from satcheck.audit.figures.curved import without_meshes
-
-        draft.reason = without_meshes(draft.reason, pair, trace)
-        return
-    if "volume" in asked:
-        draft.volume = common_volume(pair, verdict, trace)
-        draft.reason = draft.reason or draft.volume.refusal
-    if "contacts" in asked:
-        from satcheck.audit.figures.contacts import find_contacts
-
-        draft.contacts = find_contacts(pair, verdict, trace)
-    if "components" in asked:
-        from satcheck.audit.figures.components import find_components
-
-        draft.components = find_components(pair, verdict, trace)
-
-
-def _add_thickness(draft: Draft, ahead: Ahead | None) -> None:
-    from satcheck.audit.figures.thickness import STAGE, measure_thickness, why_not_thick
-
-    why_not = why_not_thick(draft.pair)
-    if why_not is None:
-        draft.thickness = measure_thickness(draft.pair, draft.depth, draft.trace, ahead)
-        return
-    draft.trace.record(STAGE, "not known", why_not)
-    draft.reason = draft.reason or f"no thickness: {why_not}"
-
-
-def _contradiction(draft: Draft) -> str | None:
-    """The answer of another library that contradicts the relation; None: no contradiction."""
-    if draft.pair.peers is None or draft.pair.curved:
-        return None
-    from satcheck.audit.cross_check import say
-
-    return say(draft.pair, draft.verdict, draft.pair.peers, draft.trace)
-
-
-def _weakness(pair: Pair, verdict: Verdict) -> str | None:
-    """The reason why an answer is weaker than a proof; None: it is proven. Separate hulls prove
-    their relation."""
-    if verdict.reason is not None:
-        return verdict.reason
-    if not verdict.proven:
-        return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
-    return None
-
-
-def _unproven(pair: Pair) -> str:
-    return f"not proven at --accuracy {pair.settings.accuracy}"
-
-
-def _overlap(draft: Draft) -> str | None:
-    """Fills in what is known of an overlap. Returns why it is unknown whether the overlap is within
-    the tolerance; None: it is known."""
-    pair, verdict, trace = draft.pair, draft.verdict, draft.trace
-    band = touch_band(pair, verdict, trace)
-    guess = band.side == "within" and not verdict.proven
-    depth = None
-    if pair.request.wants("depth") and not guess:
-        depth = measure_depth(pair, verdict, band.move, trace)
-    if depth is not None and band.side in ("open", "hidden"):
-        band = _band_of_depth(pair, depth) or band
-    if band.side == "hidden":
-        return f"undecided: {band.why}"
-    is_open = pair.curved and verdict.signed_distance is not None and band.side == "open"
-    draft.relation = named(verdict.relation, band.side == "within")
-    shown = verdict.proven
-    draft.reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
-    if pair.excuses and draft.relation in OVERLAPS:
-        draft.reason = draft.reason or _unexcused(pair, band)
-    if pair.closer:
-        from satcheck.audit.figures.curve_error import depth_of_curves, overlap_of_curves
-
-        depth = depth and depth_of_curves(pair, verdict, depth, trace)
-        shown = shown and overlap_of_curves(pair, verdict)
-    draft.exact_relation = verdict.relation if shown else None
-    draft.proven, draft.band, draft.depth = verdict.proven, band, depth
-    return None
-
-
-def _unexcused(pair: Pair, band: Band) -> str | None:
-    """The reason why a surface tolerance does not apply; None: it applies."""
-    from satcheck.audit.figures.thickness import why_not_thick
-
-    why_not = why_not_thick(pair) or band.unexcused
-    return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
-
-
-def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
-    """The touch band by the translation that frees A; None: it is not verified, or the depth
-    exceeds the tolerance."""
-    if not depth.escape.verified or depth.lower > pair.tolerance:
-        return None
-    return band_of(pair, depth.escape.mtv)
-
-
-def _gap(draft: Draft) -> None:
-    """Fills in what is known of bodies without a common interior."""
-    pair, verdict = draft.pair, draft.verdict
-    gap = measure_gap(pair, verdict, draft.trace)
-    if pair.closer:
-        from satcheck.audit.figures.curve_error import gap_of_curves
-
-        gap = gap_of_curves(pair, gap)
-    proven, reason = verdict.proven, _weakness(pair, verdict)
-    kept = True if gap.kept is None and gap.distance is not None else gap.kept
-    draft.relation = relation = named(verdict.relation, gap.within, kept)
-    if gap.within:
-        # The band is proven, even if it is unknown whether the bodies overlap a little.
-        proven = proven or _overlaps_within(verdict, pair.tolerance)
-    elif relation == "near" and kept is None:
-        proven, reason = False, _open_gap(pair)
-    elif relation == "separated" and gap.within is None:
-        reason = reason or OPEN_BAND
-    shown = verdict.proven
-    if pair.closer and gap.lower == 0:  # the curves may meet
-        shown = False
-        if pair.tolerance < pair.closer:
-            proven, reason = False, reason or _within_curves(pair)
-    draft.gap, draft.reason = gap, reason
-    draft.exact_relation, draft.proven = verdict.relation if shown else None, proven
-
-
-def _within_curves(pair: Pair) -> str:
-    return f"undecided: the curves may be {pair.closer:.3g} off their polygons"
-
-
-def _overlaps_within(verdict: Verdict, tolerance: float) -> bool:
-    """Return whether any overlap of two convex bodies is proven to be at most the tolerance
-    deep."""
-    lower = None if verdict.signed_distance is None else verdict.signed_distance.lower
-    return lower is not None and lower >= -tolerance
-
-
-def _open_gap(pair: Pair) -> str:
-    if not pair.may("exact"):
-        return f"the gap is {_unproven(pair)}"
-    return "the gap may be less: the fill of a hole may be nearer than the surface"

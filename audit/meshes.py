@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.request.settings import Settings, require_settings
+from satcheck.audit.settings import Settings, require_settings
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import MeshLike
 from satcheck.report.report import Finding

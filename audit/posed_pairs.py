@@ -16,10 +16,10 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.bodies.placed_body import PlacedBody, world_bounds
-from satcheck.audit.request.planner import Planner
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.body import PlacedBody, world_bounds
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import Planner
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
@@ -30,7 +30,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
-    from satcheck.audit.request.settings import Settings
+    from satcheck.audit.settings import Settings
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Body, Scene
 

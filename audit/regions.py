@@ -19,9 +19,9 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.body import PlacedBody
+from satcheck.audit.settings import Settings
 from satcheck.audit.statics.answers import rule_report
 from satcheck.audit.statics.subjects import contact_tolerance
 from satcheck.core.conventions import Vector

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, get_args
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import check
-from satcheck.audit.request.settings import FailOn, Settings
+from satcheck.audit.messages import finding_message
+from satcheck.audit.settings import FailOn, Settings
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.report.samples import (
     SampledBody,
@@ -99,7 +100,7 @@ class SampleResults:
             bodies=tuple(SampledBody(b.id, b.file, b.sha256, b.shape) for b in first.bodies),
             exempt=first.exempt,
             rules=first.rules,
-            samples=tuple(self.listed),
+            samples=tuple(_with_messages(sample, first) for sample in self.listed),
             pairs=pairs,
             issues=tuple(self.issues),
             truncated=self._truncated(number),
@@ -112,6 +113,12 @@ class SampleResults:
         beyond = f", or come after the first {LISTED_NOTED:,} with one"
         reason = f"they have no finding{beyond if len(self.listed) == LISTED_NOTED else ''}"
         return SamplesTruncated(left_out, reason)
+
+
+def _with_messages(sample: SampledPose, first: Report) -> SampledPose:
+    """first: of the poses; all have its units, rules and settings."""
+    found = (replace(f, message=finding_message(f, first)) for f in sample.findings)
+    return replace(sample, findings=tuple(found))
 
 
 def _incomplete_at_most(sample: SampledPose) -> SampledPose:

@@ -14,14 +14,14 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.placed_bodies import BodyCache, place
+from satcheck.audit.bodies import BodyCache, place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
-from satcheck.audit.doubtful_sizes import size_of
+from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import PosedPair, PosedPairs, same_way
-from satcheck.audit.request.planner import Planner
-from satcheck.audit.request.settings import Settings
 from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, SingleChecks
+from satcheck.audit.settings import Settings
 from satcheck.audit.sorted_poses import sorted_and_counted
+from satcheck.audit.summary import size_of
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose

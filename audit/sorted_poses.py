@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.finding import deep_overlap
-from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
@@ -24,8 +23,8 @@ from satcheck.report.verdict import fails
 from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.boxes import Box
-    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.body import Box
+    from satcheck.audit.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
     from satcheck.core.overlap_volume import VolumeMeter
 
@@ -123,8 +122,8 @@ class _SortedBatch:
         self._climb(climbing)
 
     def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
-        queue = PairQueue(self._checks.settings.jobs)
-        checked = examine_pairs([pair for *_, pair in climbing], queue)
+        pairs = [pair for *_, pair in climbing]
+        checked = examine_pairs(pairs, self._checks.settings.jobs)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
             self._found[row][number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import BodyCache, code_of_placing
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.bodies import BodyCache, code_of_placing
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Body, Scene
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.body import PlacedBody
     from satcheck.core.overlap_volume import VolumeMeter
 
 Bodies = tuple[Body, Body]

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.report.report import OVERLAPS, Finding, Issue, Report
 from satcheck.report.suggestions import Names, Suggestion, SuggestionsReport, Unchecked, Why
 
 if TYPE_CHECKING:
-    from satcheck.audit.request.settings import Settings
+    from satcheck.audit.settings import Settings
     from satcheck.report.samples import SampledPair, SamplesReport
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose

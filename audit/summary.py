@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
 from satcheck.audit.acceptance import with_states
-from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.body import PlacedBody
+from satcheck.core import largest_stretch
+from satcheck.core.conventions import Plane, axes_of
 from satcheck.core.errors import SatcheckError
 from satcheck.report.bodies import Outline, StatedShape
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     NOTHING_TO_COMPARE,
+    SIZES_DIFFER,
+    TOLERANCE_LARGE,
     BodyReport,
     Exempt,
     Finding,
@@ -162,3 +166,63 @@ def _nothing_to_check(
     said = ", ".join(f"{count:,} {what}" for what, count in why.items() if count)
     message = f"no pair was checked: {said}"
     return Issue(NOTHING_TO_CHECK, "note" if allowed else "warning", None, None, message)
+
+
+# Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.
+UNLIKE = 500.0
+_SHOWN = 5  # bodies in one message
+
+
+def doubtful_sizes(
+    bodies: PlacedBodies, findings: Sequence[Finding], plane: Plane | None
+) -> Iterator[Issue]:
+    """Bodies smaller than the tolerance of one of their pairs, and bodies of very different
+    sizes."""
+    sizes = {bodies.ids[k]: size_of(body, plane) for k, body in bodies.placed.items()}
+    yield from _tolerances(sizes, findings)
+    alike: dict[str | None, dict[str, float]] = {}
+    for k, body in bodies.placed.items():
+        if not body.endless:
+            alike.setdefault(bodies.units[k], {})[body.id] = sizes[body.id]
+    for of_unit in alike.values():
+        yield from _unlike(of_unit)
+
+
+def size_of(body: PlacedBody, plane: Plane | None) -> float:
+    """The longest side of its own box, world units: the same in every pose."""
+    low, high = body.body.file.mesh.bounds
+    axes = (0, 1, 2) if plane is None else axes_of(plane)
+    transform = body.body.transform
+    stretch = 1.0 if transform is None else largest_stretch(transform)
+    return stretch * max(high[axis] - low[axis] for axis in axes)
+
+
+def _tolerances(sizes: dict[str, float], findings: Sequence[Finding]) -> Iterator[Issue]:
+    largest: dict[str, float] = {}
+    for finding in findings:
+        for id_ in (finding.a, finding.b):
+            largest[id_] = max(largest.get(id_, 0.0), finding.tolerance or 0.0)
+    small = [id_ for id_, size in sizes.items() if size < largest.get(id_, 0.0)]
+    if not small:
+        return
+    tolerance = max(largest[id_] for id_ in small)
+    verb = "is" if len(small) == 1 else "are"
+    more = f" and {len(small) - _SHOWN} more" if len(small) > _SHOWN else ""
+    message = (
+        f"{', '.join(small[:_SHOWN])}{more} {verb} smaller than the tolerance {tolerance:.3g}, "
+        "within which an overlap counts as touching"
+    )
+    yield Issue(TOLERANCE_LARGE, "warning", small[0] if len(small) == 1 else None, None, message)
+
+
+def _unlike(sizes: dict[str, float]) -> Iterator[Issue]:
+    if len(sizes) < 2:
+        return
+    smallest, largest = (pick(sizes, key=sizes.__getitem__) for pick in (min, max))
+    low, high = sizes[smallest], sizes[largest]
+    if low * UNLIKE > high:
+        return
+    message = (
+        f"{smallest} is {low:.3g} in size and {largest} {high:.3g}: is one of them in another unit?"
+    )
+    yield Issue(SIZES_DIFFER, "warning", None, None, message)

@@ -17,13 +17,12 @@ from msgspec.structs import replace
 
 # What the first question needs is imported here: it is no cost of the rung that asks it.
 import satcheck.decompose.computation  # noqa: F401
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.checked_pairs import Progress
-from satcheck.audit.figures.volume import common_volume
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.request.settings import Method, Settings
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Pair
+from satcheck.audit.settings import Method, Settings
+from satcheck.audit.stages.volume import measure_volume
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
@@ -166,13 +165,13 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Row, list[D
     if these cannot be made."""
     cpu, start = _cpu_seconds(), perf_counter()
     pair = pair_of(bodies, settings)
-    examined = examine(pair, Trace())
+    draft = Draft(pair)
+    finding = examine(draft)
     cold, cpu = perf_counter() - start, _cpu_seconds() - cpu
-    finding = examined.finding
     # A clearance is asked only to have the gap measured.
     relation = "separated" if finding.relation == "near" else finding.relation
     known = is_of_bodies(finding) and relation != "indeterminate"
-    value, bounds = signed_distance(finding, examined.draft.verdict) or (None, None)
+    value, bounds = signed_distance(finding, draft) or (None, None)
     row = Row(
         rung=rung.name,
         threshold=rung.threshold,
@@ -209,8 +208,8 @@ def is_of_bodies(finding: Finding) -> bool:
     return finding.undecided not in ("relation", "inside")
 
 
-def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] | None:
-    """Return it with its bounds. verdict: of the same ladder, for what it proves and nobody asked
+def signed_distance(finding: Finding, draft: Draft) -> tuple[float, Bounds] | None:
+    """Return it with its bounds. draft: of the same ladder, for what it proves and nobody asked
     to report. None: no figure of the bodies; how far their surfaces are apart says nothing of one
     that may lie inside."""
     if not is_of_bodies(finding):
@@ -218,15 +217,15 @@ def signed_distance(finding: Finding, verdict: Verdict) -> tuple[float, Bounds] 
     if finding.depth_bounds is not None:
         low, high = finding.depth_bounds
         # An overlap that is not proven may be a gap, of any width.
-        return -high + 0.0, (-high + 0.0, -low + 0.0 if verdict.proven else None)
-    signed = verdict.signed_distance
+        return -high + 0.0, (-high + 0.0, -low + 0.0 if draft.exact_proven else None)
+    signed = draft.signed
     if signed is not None and signed.distance is not None:
         return signed.distance, (signed.lower, signed.upper)
     if finding.distance is not None:
         return finding.distance, (finding.distance, finding.distance)
-    if verdict.relation == "separated":
-        return verdict.gap_lower, (verdict.gap_lower if verdict.proven else None, None)
-    if verdict.relation == "touching":
+    if draft.exact == "separated":
+        return draft.gap_lower, (draft.gap_lower if draft.exact_proven else None, None)
+    if draft.exact == "touching":
         return 0.0, (0.0, 0.0)
     band = finding.tolerance
     return None if finding.relation != "touching" or band is None else (0.0, (-band, None))
@@ -251,10 +250,11 @@ def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> Row:
     pair = pair_of(bodies, settings, meter)
     if pair.curved:
         raise SatcheckError("curved-shape", "a curved shape has no triangles")
-    common = common_volume(pair, Verdict("penetrating", False), Trace())
-    seconds, volume, error = perf_counter() - start, common.volume, common.error
+    draft = Draft(pair, exact="penetrating")
+    measure_volume(draft)
+    seconds, volume, error = perf_counter() - start, draft.volume, draft.volume_error
     if volume is None or error is None:
-        raise SatcheckError("no-volume", common.refusal or "no volume")
+        raise SatcheckError("no-volume", draft.reason or "no volume")
     known = volume == 0 or volume > error
     return Row(
         rung="boolean",

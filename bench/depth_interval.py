@@ -30,13 +30,13 @@ from typing import Any
 
 from satcheck import core
 from satcheck.audit import Settings
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.ladder.ladder import settle
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import WORK_PER_SECOND
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.body import PlacedBody, SharedMesh
+from satcheck.audit.draft import Draft
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import WORK_PER_SECOND
+from satcheck.audit.stages.depth import way_out_of_hulls
+from satcheck.audit.stages.relation import settle
 from satcheck.report.report import OVERLAPS
 from satcheck.scene import load_scene
 
@@ -84,7 +84,9 @@ def pair_of(entry: dict[str, Any], folder: Path, settings: Settings) -> Pair | N
         return None
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
     pair = Pair(a, b, settings, request_for(settings))
-    if pair.both_convex or settle(pair, Trace()).relation not in OVERLAPS:
+    draft = Draft(pair)
+    settle(draft)
+    if pair.both_convex or draft.exact not in OVERLAPS:
         return None
     return pair
 

@@ -34,10 +34,10 @@ from numpy.typing import NDArray
 
 from bench.impact_judges import OFF, Answer
 from satcheck.audit import Settings
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.body import PlacedBody, SharedMesh
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.request.planner import request_for
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
 from satcheck.core import transform
 from satcheck.scene import load_scene
 from satcheck.scene.motion import Path as MotionPath

@@ -26,11 +26,11 @@ import numpy as np
 from bench.depth_interval import say
 from satcheck import core
 from satcheck.audit import Settings
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import WORK_PER_SECOND
+from satcheck.audit.body import PlacedBody, SharedMesh
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import WORK_PER_SECOND
+from satcheck.audit.stages.depth import way_out_of_hulls
 from satcheck.scene import load_scene
 
 # What thickness/README.md grants: relative to the bounds, and relative to the size of the pair.

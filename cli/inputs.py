@@ -11,8 +11,8 @@ import click
 from click.core import ParameterSource
 from msgspec import Struct
 
-from satcheck.cli.formats.words import counted, issue_line
-from satcheck.cli.output import cannot_write, talk
+from satcheck.audit.words import counted
+from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError

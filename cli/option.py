@@ -1,9 +1,10 @@
 """The options that several commands share, each spelled here once. Those named like a field of
-`audit.Settings` set that field; their defaults are those of the fields."""
+`audit.Settings` set that field; their defaults are those of the fields. A length is a number with
+or without a unit, and is converted to the units of the scene."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,14 +13,51 @@ from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
 from satcheck.audit.batch.options import Limits
-from satcheck.audit.request.settings import METHODS
-from satcheck.cli.lengths import length
+from satcheck.audit.settings import METHODS, documentation, length_in_units, settings_in_units
 from satcheck.core.conventions import PLANES
+from satcheck.scene import Scene
+from satcheck.scene.units import Length, parse_length
 
 DEFAULTS = Settings()
 _STANDARD_OUTPUT = Path("-")
 _NO_CONFIG = "satcheck.no-config"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+def length(text: str) -> Length:
+    """A click parameter type; click.BadParameter for what is not a length."""
+    try:
+        return parse_length(text)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def in_units_of(value: Length, declared: str | None, option: str) -> float:
+    """The length in the declared units of the scene; click.UsageError if they are unknown."""
+    try:
+        return length_in_units(value, declared, option)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
+    """options: values of fields of Settings; a Length is converted to the units of the scene."""
+    try:
+        return settings_in_units(options, scene, names_of_lengths(options))
+    except ValueError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
+    """What the user wrote for each length: `--clearance`, or `satcheck.toml:1: clearance`."""
+    return {name: _origin(name) for name, value in options.items() if isinstance(value, Length)}
+
+
+def _origin(name: str) -> str:
+    from satcheck.cli.config import origin
+
+    ctx = click.get_current_context(silent=True)
+    return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
 
 
 def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
@@ -139,34 +177,27 @@ root = click.option(
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
-planar = click.option(
-    "--planar",
-    type=click.Choice(PLANES),
-    metavar="PLANE",
-    default=DEFAULTS.planar,
-    help="Check outlines in this plane (xy, yz or xz): flat layouts.",
-)
-tolerance = click.option(
-    "--tolerance",
-    type=length,
-    default=DEFAULTS.tolerance,
-    help="A gap or a depth up to this counts as touching.  [default: the precision of the files]",
-)
-method = click.option(
-    "--method",
-    type=click.Choice(METHODS),
-    metavar="METHOD",
-    default=DEFAULTS.method,
-    show_default=True,
-    help="Compare hulls by the separating axis test (sat), by portals, GJK and EPA (gjk), or by "
-    "the faster one (auto).",
-)
-open_meshes = click.option(
-    "--allow-open",
-    is_flag=True,
-    default=DEFAULTS.allow_open,
-    help="Open meshes are meant to be open: sheets without an inside, not solids with holes.",
-)
+
+
+def setting(name: str, *spelled: str, note: str = "", **how: Any) -> Callable[[_Command], _Command]:
+    """Return the option that sets a field of `Settings`. Its help is the documentation of the
+    field, and its default that of the field. spelled: if it is not named like the field. note: what
+    the default is."""
+    value = getattr(DEFAULTS, name)
+    if value is False:
+        how["is_flag"] = True
+    elif value is not None and "multiple" not in how:
+        how["show_default"] = True
+    text = f"{documentation(name)}  [default: {note}]" if note else documentation(name)
+    return click.option(
+        *(spelled or (f"--{name.replace('_', '-')}",)), default=value, help=text, **how
+    )
+
+
+planar = setting("planar", type=click.Choice(PLANES), metavar="PLANE")
+tolerance = setting("tolerance", type=length, note="the precision of the files")
+method = setting("method", type=click.Choice(METHODS), metavar="METHOD")
+open_meshes = setting("allow_open")
 
 
 def _known(_: click.Context, __: click.Parameter, accepted: tuple[str, ...]) -> tuple[str, ...]:
@@ -178,29 +209,14 @@ def _known(_: click.Context, __: click.Parameter, accepted: tuple[str, ...]) -> 
     return accepted
 
 
-accept = click.option(
-    "--accept",
-    multiple=True,
-    callback=_known,
-    metavar="CODE[:NAME]",
-    help="Issues that may stay: what blocks a pass, by its code and the name of its file or body "
-    "(`*` for any part). Repeatable.",
-)
+accept = setting("accept", multiple=True, callback=_known, metavar="CODE[:NAME]")
 exclude = click.option(
     "--exclude",
     multiple=True,
     metavar="PATTERN",
     help="Files of folders to leave out, or folders, by name or path. Repeatable.",
 )
-jobs = click.option(
-    "-j",
-    "--jobs",
-    type=click.IntRange(min=0),
-    metavar="N",
-    default=DEFAULTS.jobs,
-    show_default=True,
-    help="Threads; 0 is one per core. Changes no answer.",
-)
+jobs = setting("jobs", "-j", "--jobs", type=click.IntRange(min=0), metavar="N")
 cache = click.option(
     "--no-cache",
     "cache",

@@ -9,11 +9,15 @@ import re
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NamedTuple, TextIO
+from typing import TYPE_CHECKING, NamedTuple, TextIO
 
 import click
 
 from satcheck.report.atomic_file import last_link, replace_file
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Issue
+    from satcheck.scene import Issue as InputIssue
 
 # Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
 UNBOUNDED_WIDTH = 100_000
@@ -195,3 +199,12 @@ def _page(stream: TextIO) -> Page:
         colour=_wants_colour(terminal),
         unicode=encoding.startswith("utf"),
     )
+
+
+def issue_line(issue: Issue | InputIssue) -> str:
+    """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr; one line, whatever
+    the names are."""
+    where = issue.body or issue.file
+    known = tuple(filter(None, (where, issue.file)))
+    named = f"{where}: " if known and not issue.message.startswith(known) else ""
+    return harmless(f"{issue.severity}: {named}{issue.message} [{issue.code}]")

@@ -18,6 +18,7 @@ from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot_server import Answer, Wanted
+from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.formats.assets import (
     AssetReports,
@@ -27,11 +28,10 @@ from satcheck.cli.formats.assets import (
     tell_issues,
     written,
 )
-from satcheck.cli.formats.words import counted, issue_line
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.lengths import names_of_lengths
-from satcheck.cli.output import Document, talk
+from satcheck.cli.option import names_of_lengths
+from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.core.errors import SatcheckError

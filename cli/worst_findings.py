@@ -13,7 +13,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.key import digest
 from satcheck.audit.batch.stored import Stored
-from satcheck.cli.formats.order import is_listed, rank, worst_of
+from satcheck.audit.words import is_listed, rank
+from satcheck.cli.formats.assets import worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.stated_scene import stated_scene

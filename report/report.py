@@ -175,6 +175,7 @@ class Finding(Value, frozen=True, kw_only=True):
     quality: the weakest quality of relation, depth and gap. exact: proven, numbers up to rounding.
     bounded: the relation is proven, and the depth or the gap is a proven interval. estimate: not
     proven.
+    message: a sentence that says all this of the bodies, by the names that people know.
     rule: what decided the severity, if it is not the default: "clearance", or the name of a rule.
     undecided: the question that could not be decided; the severity is then at least a warning.
     distance: the gap of bodies without a common interior; also None if it was not requested, or if
@@ -200,6 +201,7 @@ class Finding(Value, frozen=True, kw_only=True):
     b: str
     rule: str | None = None
     severity: Severity
+    message: str = ""
     undecided: Undecided | None = None
     relation: Relation
     placed_relation: Relation | None = None
@@ -333,7 +335,8 @@ class Report(Value, frozen=True, kw_only=True):
     """World frame, right-handed; lengths in the units of the files. A figure that was not computed
     is None, never 0. Numbers are finite.
 
-    units: of all lengths; None: the unit of a body is unknown. pose: of the robots: joint ->
+    units: of all lengths; None: the unit of a body is unknown. message: PASS, FAIL, INCOMPLETE or
+    ERROR, and why. pose: of the robots: joint ->
     radians, metres for a prismatic joint, [x, y, angle] for a planar one, [x, y, z, roll, pitch,
     yaw] for a floating one, [w, x, y, z] for a ball joint, [x, y, z, w, x, y, z] for a free one,
     without joints that mimic others; None without robots. rules: if several rules for a pair set
@@ -352,6 +355,7 @@ class Report(Value, frozen=True, kw_only=True):
     units: str | None
     settings: StatedSettings
     summary: Summary
+    message: str = ""
     reading: StatedReading | None = None
     pose: Mapping[str, float | JointValues] | None = None
     motions: tuple[StatedMotion, ...] = ()

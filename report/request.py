@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from satcheck.report.report import Effect, RuleReport
+from satcheck.report.report import Effect
 from satcheck.report.rule_book import Terms
 
 # The keys that limit an overlap.
@@ -51,12 +51,10 @@ def request_of(
 ) -> Request:
     """Return what rules make of the settings for their pairs. A key of a rule overrides the
     setting. A pair that may overlap within limits has no clearance."""
-    deciding: dict[str, RuleReport | None] = {
-        key: getattr(terms, key) for key in (*LIMITS, "clearance", "tolerance", "severity")
-    }
-    if any(deciding[key] for key in LIMITS):
-        clearance = deciding["clearance"] = None
-    by = {key: rule for key, rule in deciding.items() if rule is not None}
+    by = {key: rule for key, rule in terms.items() if key != "allowed"}
+    if not by.keys().isdisjoint(LIMITS):
+        clearance = None
+        by.pop("clearance", None)
     values: dict[str, Any] = {"clearance": clearance, "tolerance": tolerance}
     values |= {key: getattr(rule, key) for key, rule in by.items()}
     if "clearance" in by:

@@ -7,11 +7,8 @@ kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for eac
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Protocol
-
-from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck.report.pair_rows import A, B, Kind, PairRows, Sides, ones, row_of
 from satcheck.report.report import RuleReport
@@ -20,25 +17,17 @@ from satcheck.report.report import RuleReport
 _MOST_KINDS = 1_000_000
 
 
-class Terms(Struct, frozen=True):
-    """For each key the rule that decides it for a pair: the last rule that sets it; None: no rule
-    does."""
-
-    allowed: RuleReport | None = None
-    max_depth: RuleReport | None = None
-    max_thickness: RuleReport | None = None
-    max_volume: RuleReport | None = None
-    clearance: RuleReport | None = None
-    tolerance: RuleReport | None = None
-    severity: RuleReport | None = None
-
-    @property
-    def allows(self) -> bool:
-        return self.allowed is not None and self.allowed.allowed is True
-
-
-NO_TERMS = Terms()
-_KEYS = Terms.__struct_fields__
+# For each key that rules set for a pair the last rule that sets it, which decides it.
+Terms = Mapping[str, RuleReport]
+_KEYS = (
+    "allowed",
+    "max_depth",
+    "max_thickness",
+    "max_volume",
+    "clearance",
+    "tolerance",
+    "severity",
+)
 
 
 class Subject(Protocol):
@@ -111,6 +100,11 @@ class RuleBook:
                 about[number].append((rule, side))
         return chosen_by, about
 
+    @property
+    def _is_plain(self) -> bool:
+        """Return whether there is no rule, and no pair is exempt."""
+        return not self.rules and not any(k.fixed or k.ignored_groups for k in self._kinds)
+
     def key(self, i: int, j: int) -> tuple[int, ...]:
         """A cache key: pairs with equal keys have the same terms."""
         pair = (i, j) if i < j else (j, i)
@@ -122,7 +116,7 @@ class RuleBook:
         return (a.fixed and b.fixed) or not a.ignored_groups.isdisjoint(b.ignored_groups)
 
     def is_checked(self, i: int, j: int) -> bool:
-        return not self.is_ignored(i, j) and not self.terms(i, j).allows
+        return not self.is_ignored(i, j) and not _allows(self.terms(i, j))
 
     def checked_pairs(self) -> Iterator[tuple[int, int]]:
         """All checked pairs, i < j, in the order of j. Quadratic, so only for few bodies."""
@@ -161,7 +155,7 @@ class RuleBook:
         for number in numbers:
             rule = self.rules[number]
             deciding |= {key: rule for key in _KEYS if getattr(rule, key) is not None}
-        return replace(NO_TERMS, **deciding) if deciding else NO_TERMS
+        return deciding
 
     def sets(self, key: str) -> bool:
         """Whether any rule sets the key."""
@@ -187,6 +181,9 @@ class RuleBook:
     def count(self, among: Collection[int] | None = None) -> tuple[int, int]:
         """The number of pairs that are not exempt, and the number of these that are allowed.
         among: of these bodies; None: of all."""
+        if self._is_plain:
+            number = self._count if among is None else len(among)
+            return number * (number - 1) // 2, 0
         total = allowed = 0
         everyone = (1 << self._count) - 1 if among is None else row_of(among)
         rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
@@ -198,7 +195,7 @@ class RuleBook:
         total, allowed = total // 2, allowed // 2
         for i, j in self._named:
             if (among is None or (i in among and j in among)) and not self.is_ignored(i, j):
-                allowed += self.terms(i, j).allows - self._merged(self._about(i, j)).allows
+                allowed += _allows(self.terms(i, j)) - _allows(self._merged(self._about(i, j)))
         return total, allowed
 
     def exempt_named(self) -> list[tuple[int, int]]:
@@ -208,6 +205,8 @@ class RuleBook:
     def exempt_kinds(self) -> list[tuple[int, int]]:
         """Pairs of kinds, the lower first, without a checked pair of bodies. The list is cut off at
         _MOST_KINDS."""
+        if self._is_plain:
+            return []
         alone = [frozenset((k,)) for k in range(len(self._kinds))]
         kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
         kind_sets = {
@@ -230,6 +229,10 @@ class RuleBook:
                 if pair not in taken_back:
                     exempt.append(pair)
         return exempt
+
+
+def _allows(terms: Terms) -> bool:
+    return "allowed" in terms and terms["allowed"].allowed is True
 
 
 def _sides_of(

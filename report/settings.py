@@ -26,32 +26,38 @@ Budget = Annotated[float, Meta(gt=0, le=MOST_BUDGET)]
 
 class StatedSettings(Value, frozen=True, kw_only=True):
     """The settings that can change an answer. Lengths are in the units of the files. None means
-    "not computed" unless said otherwise.
+    "not computed" unless said otherwise. What is said of a field here is the help of its option.
 
-    depth: depth and MTV of overlapping pairs; None: for mesh files always, in a scene only if a
-    rule requests it. thickness: of overlapping pairs; None: whenever `depth` requests the depth. A
-    report says whether they are computed for every overlap.
-    volume: the volume that bodies have in common; volume_*: limits for one pair.
-    contacts: where surfaces meet; contact_points: the most points listed for a pair.
-    components: the connected components of each overlap, with their thickness.
-    clearance: the gap that bodies must keep; pairs closer than this are `near`.
-    tolerance: half width of the touch band; None: the input precision of each pair.
-    surface_tolerance: how far surfaces may be off, for bodies whose scene does not state it; None:
-    0, or the chord tolerance of facets that a reader made.
-    accuracy: the highest rung of the ladder that is allowed.
-    method: for convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster one. It
-    changes no relation, and of a depth only the last digits.
-    fail_on: the least severity that makes a check fail. accept: issues that need not be solved
-    before a check passes, each as `CODE` or `CODE:NAME`.
-    allow_open: open meshes are intended. An open surface is then a sheet without an inside.
-    cross_check: also asks other libraries.
-    planar: check the outlines of the bodies in this plane; None: check in space.
-    list_pruned: findings for pairs that the broad phase settled; None: if there are few pairs.
-    depth_width, thickness_width: a search ends when its interval has this relative width.
-    depth_budget: for the interval of one depth, in seconds of a slow machine; one thickness gets
-    half of it. It limits the number of steps and not the time, so that the same input gives the
-    same answer on every machine.
-    part_*: how concave meshes are split into convex parts, and the limits for it.
+    depth: How deep and how thick overlaps are, and the shortest way out.
+    volume: The volume that solids share.
+    contacts: Where surfaces meet: curves, flush patches, points.
+    components: The connected parts of each overlap: place, thickness, and whether a body passes
+    through the other there.
+    clearance: Pairs with a smaller gap fail; shows the gap.
+    tolerance: A gap or a depth up to this counts as touching.
+    surface_tolerance: How far surfaces of closed bodies may be off: overlaps that this explains
+    count as touching.
+    accuracy: The finest test: aabb, obb, hull, parts or exact. Those below exact may report false
+    overlaps, called possible.
+    method: Compare hulls by the separating axis test (sat), by portals, GJK and EPA (gjk), or by
+    the faster one (auto).
+    fail_on: Findings of this severity fail: error (without rules overlaps), warning or note
+    (touches).
+    accept: Issues that may stay: what blocks a pass, by its code and the name of its file or body
+    (`*` for any part). Repeatable.
+    allow_open: Open meshes are meant to be open: sheets without an inside, not solids with holes.
+    cross_check: Compare with python-fcl and manifold3d. A contradiction makes the check incomplete.
+    planar: Check outlines in this plane (xy, yz or xz): flat layouts.
+    depth_width: Narrow the depth of concave pairs to an interval this wide, as a share of it.
+    depth_budget: Stop narrowing after this much work on a pair. Steps are counted, not time: every
+    machine gives the same answer.
+    thickness_width: The same for the thickness.
+
+    depth, thickness: a report says whether they are computed for every overlap; None: the thickness
+    whenever the depth is. volume_*, part_*, *_per_file: limits. contact_points: the most points
+    listed for a pair. list_pruned: findings for pairs that the broad phase settled; None: if there
+    are few pairs. method: changes no relation, and of a depth only the last digits. depth_budget:
+    of the thickness half of it.
     """
 
     depth: bool | None = None

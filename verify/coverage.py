@@ -87,6 +87,7 @@ GROUPS: dict[Kind, dict[str, str]] = {
         "times": "effects[].microseconds regions.microseconds statics.microseconds",
         "the components of overlaps": "findings[].components",
         "what happens while bodies move": "findings[].motion",
+        "messages": "message findings[].message",
         "reasons": """
             findings[].reason truncated.reason regions.findings[].reason statics.findings[].reason
         """,

@@ -10,9 +10,10 @@ from msgspec.structs import replace
 from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
 from satcheck.audit.baseline import asset_key, beside_baseline, current_baseline
 from satcheck.audit.batch.options import CheckOptions, World
-from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
+from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.check import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.messages import with_messages
+from satcheck.audit.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
@@ -85,7 +86,7 @@ def _line_of(error: SatcheckError) -> int | None:
 def _without_bodies(issues: Sequence[Issue]) -> Report:
     settings = Settings()
     none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
-    return Report(
+    report = Report(
         tool=tool(),
         units=None,
         settings=settings.stated(depth=False, thickness=False),
@@ -94,6 +95,7 @@ def _without_bodies(issues: Sequence[Issue]) -> Report:
         findings=(),
         issues=tuple(issues),
     )
+    return with_messages(report)
 
 
 def lost_asset(file: str, loss: Loss) -> Asset:

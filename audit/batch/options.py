@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from msgspec import Struct
 
 from satcheck.audit import Settings
-from satcheck.audit.request.in_units import settings_in_units
+from satcheck.audit.settings import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import StatedConfig
 from satcheck.scene import Scene

@@ -10,7 +10,6 @@ from msgspec import UNSET
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import CurvedMaker
 from satcheck.audit.certify.maker import (
@@ -24,8 +23,8 @@ from satcheck.audit.certify.maker import (
     or_unset,
 )
 from satcheck.audit.certify.thickness import cells, excuse
-from satcheck.audit.figures.exact_hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.finding import Examined
+from satcheck.audit.draft import Draft
+from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.report.certificate import (
     AxisProof,
     Band,
@@ -49,14 +48,14 @@ from satcheck.verify.in_plane import reaching
 from satcheck.verify.pairs import vector
 
 
-def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
+def certified(draft: Draft, finding: Finding) -> Certificate | NoCertificate:
     """A certificate that the checker accepts, or why there is none."""
-    finding = examined.finding
+    pair = draft.pair
     if finding.exact_relation is None:
         return NoCertificate("the relation is not proven")
     a, b = pair.a.checked(), pair.b.checked()
     try:
-        maker = CurvedMaker(pair, finding) if pair.curved else _MeshMaker(pair, examined)
+        maker = CurvedMaker(pair, finding) if pair.curved else _MeshMaker(draft, finding)
     except Rejected as open_:
         return NoCertificate(str(open_))
     certificate = maker.certificate()
@@ -81,10 +80,10 @@ def _refusal(finding: Finding, a: Placed, b: Placed, request: Request) -> str | 
 class _MeshMaker(Maker):
     placed: pairs.Pair
 
-    def __init__(self, pair: Pair, examined: Examined) -> None:
-        super().__init__(pair, examined.finding)
-        self.draft = examined.draft
-        self.across = pair.request.across
+    def __init__(self, draft: Draft, finding: Finding) -> None:
+        super().__init__(draft.pair, finding)
+        self.draft = draft
+        self.across = draft.pair.request.across
         self.ends = self.placed
         if self.across is not None:
             worlds = (self.placed.a.world, self.placed.b.world)
@@ -117,7 +116,7 @@ class _MeshMaker(Maker):
 
     def _crossing(self) -> tuple[int, int] | None:
         """Triangles that meet. A lower rung may have settled the pair without any."""
-        climb = self.draft.verdict.climb
+        climb = self.draft.climb
         if climb is not None and climb.triangles is not None:
             return climb.crossing
         relation = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
@@ -127,7 +126,7 @@ class _MeshMaker(Maker):
 
     def hints(self) -> Iterator[Iterable[Any]]:
         """Yield how the hulls are apart; a lower rung may have settled the pair."""
-        climb = self.draft.verdict.climb
+        climb = self.draft.climb
         hulls = None if climb is None else climb.hulls
         if hulls is None:
             shapes = self.pair.a.hull_shape(), self.pair.b.hull_shape()

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from msgspec import UNSET, Struct, UnsetType
 
-from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.pair import Pair
 from satcheck.report.certificate import (
     AxisProof,
     Band,

@@ -14,7 +14,7 @@ from msgspec import UNSET
 
 from satcheck import core
 from satcheck.audit.certify.maker import NoCertificate
-from satcheck.audit.figures.explained import (
+from satcheck.audit.stages.explained import (
     ball_in,
     deeper,
     limit_of,
@@ -27,7 +27,7 @@ from satcheck.report.certificate import Cells, Excuse, Face, InnerBall, Plane
 from satcheck.verify.partition import MOST_CELLS
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.pair import Pair
 
 BODIES: tuple[Literal["a"], Literal["b"]] = ("a", "b")
 

@@ -7,17 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.boxes import Box, around_both
-from satcheck.audit.bodies.pair import Paths
-from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.body import Box, around_both
 from satcheck.audit.joint_path.search import Search, SweptPair
 from satcheck.audit.joint_path.travel import Interval, Travel
-from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
 from satcheck.audit.motion.sweep import swept
 from satcheck.audit.motion.worst import Worst
+from satcheck.audit.pair import Paths
+from satcheck.audit.planner import IndexPair, Planner, close_pairs
 from satcheck.audit.posed_pairs import PosedPairs
-from satcheck.audit.request.planner import Planner
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.motions import JointPath as StatedPath
 from satcheck.report.motions import JointWaypoint, StatedMotion

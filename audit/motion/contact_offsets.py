@@ -10,12 +10,11 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.figures.escape import FREE, relation_after
-from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
+from satcheck.audit.body import PlacedBody
 from satcheck.audit.motion.limits import is_step
 from satcheck.audit.motion.moving_pair import MovingPair, overlaps
+from satcheck.audit.pair import Pair
+from satcheck.audit.stages.depth import FREE, relation_after, way_out_of_hulls
 from satcheck.audit.vectors import crossed, scaled, unit
 from satcheck.core.conventions import Vector
 

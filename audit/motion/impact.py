@@ -22,8 +22,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.figures.escape import FREE
-from satcheck.audit.figures.thickness import why_not_thick
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import (
     PROBES,
@@ -34,10 +32,12 @@ from satcheck.audit.motion.limits import (
 )
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps
 from satcheck.audit.motion.swept_hull import safe_slide
+from satcheck.audit.stages.depth import FREE
+from satcheck.audit.stages.thickness import why_not_thick
 from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.pair import Pair
     from satcheck.core.conventions import Vector
 
 

@@ -9,13 +9,12 @@ from functools import reduce
 from msgspec import convert, to_builtins
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box, around_both, corners
-from satcheck.audit.bodies.pair import Paths
-from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.body import Box, around_both, corners
 from satcheck.audit.motion.limits import HALVINGS
 from satcheck.audit.motion.track import STANDS, Piece, Track, track_of
-from satcheck.audit.request.planner import Planner
+from satcheck.audit.pair import Paths
+from satcheck.audit.planner import IndexPair, Planner, close_pairs
 from satcheck.core.transform import Transform
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue

@@ -10,14 +10,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import diagonal
-from satcheck.audit.bodies.pair import TOUCH_FRACTION, Pair
-from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.body import PlacedBody, diagonal
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
-from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import TOUCH_FRACTION, Pair
+from satcheck.audit.planner import ALWAYS
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose, placed
@@ -159,7 +158,7 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
-        return examine(self.placed(t), Trace()).finding
+        return examine(Draft(self.placed(t)))
 
     def _hulls(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float

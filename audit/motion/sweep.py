@@ -7,7 +7,6 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
@@ -17,6 +16,7 @@ from satcheck.audit.motion.worst import (
     least_distance,
     least_hull_distance,
 )
+from satcheck.audit.pair import Pair
 from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene.motion import Path, Rotation, Translation
 

@@ -6,10 +6,9 @@ import math
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.pair import Pair, Paths
-from satcheck.audit.finding import Examined
+from satcheck.audit.draft import Draft
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Paths
 from satcheck.report.judge import Judgement, by_rule, judged
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Relation
 from satcheck.report.request import Request
@@ -18,12 +17,12 @@ from satcheck.report.sweep import Sweep
 CLEAR = "clear"  # the rule of a touch on a way that must be free
 
 
-def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Examined:
-    """The finding with the sweep of the pair, its stage in the trace, and a severity that counts
+def with_sweep(finding: Finding, draft: Draft, paths: Paths) -> Finding:
+    """The finding with the sweep of the pair, its stage in the draft, and a severity that counts
     both."""
-    finding = examined.finding
+    pair = draft.pair
     motion = paths.known or sweep(pair, paths.a, paths.b)
-    trace.record("sweep", motion.relation, _detail(motion))
+    draft.record("sweep", motion.relation, _detail(motion))
     judgement = _judged(finding, motion, pair.request)
     if paths.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
         judgement = Judgement("error", CLEAR)
@@ -32,7 +31,7 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     relation = _worse(finding.relation, motion.relation)
     undecided = relation == "indeterminate"
     quality = finding.quality if motion.proven else "estimate"
-    swept = replace(
+    return replace(
         finding,
         relation=relation,
         placed_relation=finding.relation,
@@ -42,9 +41,8 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
         rule=judgement.rule if graver else finding.rule,
         undecided=finding.undecided or judgement.undecided,
         reason=finding.reason or judgement.reason or (motion.reason if undecided else None),
-        plan=tuple(trace.stages),
+        plan=tuple(draft.stages),
     )
-    return replace(examined, finding=swept)
 
 
 def _worse(placed: Relation, on_the_way: Relation) -> Relation:

@@ -17,9 +17,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.figures.escape import FREE
 from satcheck.audit.motion.limits import SLID, SLIDES
 from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.stages.depth import FREE
 from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import Vector
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.body import PlacedBody
     from satcheck.audit.motion.moving_pair import MovingPair
 
 # What a body has to keep of its size without the margin. A smaller one may lie in the other body.

@@ -15,7 +15,7 @@ from itertools import pairwise
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box, corners
+from satcheck.audit.body import Box, corners
 from satcheck.audit.vectors import added, crossed, dot
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import UNIT_ROUNDOFF

@@ -16,11 +16,11 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.planner import ALWAYS
 from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
 
@@ -133,7 +133,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     placed = pair.placed(t)
     request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
-    finding = examine(replace(placed, settings=settings, request=request), Trace()).finding
+    finding = examine(Draft(replace(placed, settings=settings, request=request)))
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

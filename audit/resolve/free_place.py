@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.body import PlacedBody
 from satcheck.core.conventions import Vector
 from satcheck.core.half_space import plane_of
 from satcheck.core.rounding import rounding_pad

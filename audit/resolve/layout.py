@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies import place
+from satcheck.audit.body import PlacedBody
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
+from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
-from satcheck.audit.request.planner import Planner
-from satcheck.audit.request.settings import Settings
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.planner import Planner
 from satcheck.audit.resolve.pair_state import PairState, state_of
+from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
@@ -128,7 +128,7 @@ class Layout:
         at_home = known is None and all(self.offsets[i] == ORIGIN for i in pair)
         banded = at_home or (known is not None and known[2].excused)
         asked = replace(strict, request=request) if banded else strict
-        return state_of(strict, examine(asked, Trace()).finding, banded=banded)
+        return state_of(strict, examine(Draft(asked)), banded=banded)
 
 
 def translated(body: Body, offset: Vector) -> Body:

@@ -9,10 +9,10 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import diagonal
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.request.settings import FailOn
+from satcheck.audit.body import diagonal
+from satcheck.audit.pair import Pair
+from satcheck.audit.settings import FailOn
+from satcheck.audit.stages.depth import way_out_of_hulls
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import rounding_pad

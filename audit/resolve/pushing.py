@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from satcheck.audit.bodies.boxes import largest_coordinate
+from satcheck.audit.body import largest_coordinate
 from satcheck.audit.resolve.free_place import AXES, extents, free_place
 from satcheck.audit.resolve.layout import BodyPair, Layout
 from satcheck.audit.resolve.pair_state import longer

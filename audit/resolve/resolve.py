@@ -10,10 +10,10 @@ from contextlib import ExitStack
 from msgspec.structs import replace
 
 from satcheck.audit.check import check, volume_meter
-from satcheck.audit.request.settings import Settings
 from satcheck.audit.resolve.layout import ORIGIN, BodyPair, Layout, translated
 from satcheck.audit.resolve.pair_state import is_objected
 from satcheck.audit.resolve.pushing import Progress, Pushing
+from satcheck.audit.settings import Settings
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OVERLAPS, Finding, Report

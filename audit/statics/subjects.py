@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from msgspec import Struct
 
-from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.body import PlacedBody
 from satcheck.audit.statics.features import Features, features_of
 from satcheck.audit.statics.near import Floats, Indices, cross
 from satcheck.core.conventions import Vector
@@ -19,7 +19,7 @@ from satcheck.scene.statics import FRICTION, BodyTerms, StaticsTerms, down_of
 from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.body import PlacedBody
     from satcheck.scene import Scene
 
 

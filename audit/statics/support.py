@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from satcheck.audit.bodies.placed_bodies import UNUSED_RULE, PlacedBodies
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.bodies import UNUSED_RULE, PlacedBodies
+from satcheck.audit.settings import Settings
 from satcheck.audit.statics.answers import (
     NOT_DECIDED,
     NOT_LET_GO,

@@ -11,13 +11,13 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec import Struct
 
-from satcheck.audit.bodies.boxes import largest_coordinate
-from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.body import largest_coordinate
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.ladder.core_climb import start_climbs
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import Settings
-from satcheck.audit.request.trace import Trace
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import Settings
+from satcheck.audit.stages.relation import start_climbs
 from satcheck.audit.statics.contacts import (
     NOBODY,
     Points,
@@ -94,7 +94,7 @@ def _relations(
     findings: list[Finding | str] = []
     for pair, climb in zip(pairs, climbs, strict=True):
         try:
-            findings.append(examine(pair, Trace(), climb).finding)
+            findings.append(examine(Draft(pair), climb))
         except Exception as error:  # noqa: BLE001 the other pairs are still looked at
             not_for_lack_of_memory(error)
             findings.append(f"internal error: {type(error).__name__}: {error}")

@@ -12,7 +12,7 @@ from bench.accuracy.palette import ink_on, outcomes, stages
 from bench.accuracy.rungs import RungSummary
 from bench.accuracy.stages import GROUPS, OTHER, StageTimes
 from bench.accuracy.verdicts import OUTCOMES
-from satcheck.cli.formats.numbers import duration
+from satcheck.audit.words import duration
 from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
 
 WIDTH = 780.0  # points

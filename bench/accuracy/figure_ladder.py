@@ -17,7 +17,7 @@ from bench.accuracy.labels import Labels, Point
 from bench.accuracy.palette import Colours, kind_of, series
 from bench.accuracy.rungs import PARTS, Cost
 from bench.drawing import name_decades, percent, plain
-from satcheck.cli.formats.numbers import number
+from satcheck.audit.words import number
 from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
 
 # Points, 72 to the inch.

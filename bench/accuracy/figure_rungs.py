@@ -15,7 +15,7 @@ from bench.accuracy.rungs import RungSummary, relative_error, rows_of, seconds, 
 from bench.accuracy.spread import Spread, spread
 from bench.accuracy.verdicts import outcome
 from bench.drawing import name_decades, percent
-from satcheck.cli.formats.numbers import duration
+from satcheck.audit.words import duration
 from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
 
 Record = dict[str, Any]

@@ -31,7 +31,7 @@ from bench.accuracy.sections import (
 from bench.accuracy.stages import stage_times
 from bench.accuracy.verdicts import overlaps
 from bench.drawing import both
-from satcheck.cli.formats.words import counted
+from satcheck.audit.words import counted
 
 Record = dict[str, Any]
 

@@ -13,7 +13,7 @@ from bench.accuracy.rungs import EXACT, PARTS, RungSummary, depth_widths, labels
 from bench.accuracy.stages import process, settled_by, stage_times
 from bench.accuracy.verdicts import agreement
 from bench.drawing import embedded
-from satcheck.cli.formats.words import counted
+from satcheck.audit.words import counted
 
 Record = dict[str, Any]
 HULL = "hull"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bench.accuracy.spread import Spread
-from satcheck.cli.formats.numbers import duration
+from satcheck.audit.words import duration
 
 NONE = "-"
 _MICROSECONDS = 1e6

@@ -16,8 +16,8 @@ from satcheck.audit.baseline import (
     read_baseline,
     updated,
 )
+from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
-from satcheck.cli.formats.words import counted
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.stated_scene import read_report
 from satcheck.report.baseline import Baseline, KnownFinding

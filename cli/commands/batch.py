@@ -22,11 +22,11 @@ from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
 from satcheck.audit.batch.results import PART, ResultsFile
 from satcheck.audit.batch.run import ENGINES, Tally, run
 from satcheck.audit.batch.slot_server import Answer
+from satcheck.audit.words import counted
 from satcheck.cli import exit_codes, option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
-from satcheck.cli.formats.words import counted
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.output import talk

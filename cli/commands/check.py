@@ -13,29 +13,30 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline, names_in_baseline, read_baseline
-from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
+from satcheck.audit.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
-from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
-from satcheck.cli.lengths import length, settings_of
+from satcheck.cli.option import length, settings_of
 from satcheck.cli.output import Document
-from satcheck.cli.pictures import (
+from satcheck.cli.progress import Bar
+from satcheck.cli.rendering import (
+    Delivery,
     Pictures,
     files_line,
     refuse_certificate,
     refuse_of_poses,
     refuse_of_worlds,
     refuse_pictures,
+    rendered,
     taken_pictures,
+    tell,
     write_pictures,
 )
-from satcheck.cli.progress import Bar
-from satcheck.cli.rendering import Delivery, rendered, tell
 from satcheck.report.baseline import Baseline
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
@@ -49,6 +50,7 @@ SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
+WIDTH = click.FloatRange(0, 1, min_open=True, max_open=True)
 
 
 class _Known(NamedTuple):
@@ -139,82 +141,27 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Show the steps of each pair: what each proved, its time.",
 )
 @option.top
-@click.option(
+@option.setting(
+    "depth",
     "--depth/--no-depth",
-    default=option.DEFAULTS.depth,
-    help="How deep and how thick overlaps are, and the shortest way out.  [default: for mesh files "
-    "of one body each; otherwise only where a rule needs it]",
+    note="for mesh files of one body each; otherwise only where a rule needs it",
 )
-@click.option(
-    "--contacts",
-    is_flag=True,
-    help="Where surfaces meet: curves, flush patches, points.",
-)
-@click.option(
-    "--components",
-    is_flag=True,
-    help="The connected parts of each overlap: place, thickness, and whether a body passes "
-    "through the other there.",
-)
-@click.option("--volume", is_flag=True, help="The volume that solids share.")
-@click.option(
-    "--clearance",
-    type=length,
-    help="Pairs with a smaller gap fail; shows the gap.",
-)
+@option.setting("contacts")
+@option.setting("components")
+@option.setting("volume")
+@option.setting("clearance", type=length)
 @option.tolerance
-@click.option(
-    "--surface-tolerance",
-    type=length,
-    help="How far surfaces of closed bodies may be off: overlaps that this explains count as "
-    "touching.  [default: of the scene, else 0]",
-)
-@click.option(
-    "--accuracy",
-    type=click.Choice(ACCURACIES),
-    metavar="LEVEL",
-    default=option.DEFAULTS.accuracy,
-    show_default=True,
-    help="The finest test: aabb, obb, hull, parts or exact. Those below exact may report false "
-    "overlaps, called possible.",
-)
+@option.setting("surface_tolerance", type=length, note="of the scene, else 0")
+@option.setting("accuracy", type=click.Choice(ACCURACIES), metavar="LEVEL")
 @option.method
-@click.option(
-    "--depth-width",
-    type=click.FloatRange(0, 1, min_open=True, max_open=True),
-    metavar="RATIO",
-    default=option.DEFAULTS.depth_width,
-    show_default=True,
-    help="Narrow the depth of concave pairs to an interval this wide, as a share of it.",
+@option.setting("depth_width", type=WIDTH, metavar="RATIO")
+@option.setting(
+    "depth_budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS"
 )
-@click.option(
-    "--depth-budget",
-    type=click.FloatRange(0, MOST_BUDGET, min_open=True),
-    metavar="SECONDS",
-    default=option.DEFAULTS.depth_budget,
-    show_default=True,
-    help="Stop narrowing after this much work on a pair. Steps are counted, not time: every "
-    "machine gives the same answer.",
-)
-@click.option(
-    "--thickness-width",
-    type=click.FloatRange(0, 1, min_open=True, max_open=True),
-    metavar="RATIO",
-    default=option.DEFAULTS.thickness_width,
-    show_default=True,
-    help="The same for the thickness.",
-)
+@option.setting("thickness_width", type=WIDTH, metavar="RATIO")
 @option.planar
 @scene_option.split
-@click.option(
-    "--fail-on",
-    type=click.Choice(FAIL_ON),
-    metavar="SEVERITY",
-    default=option.DEFAULTS.fail_on,
-    show_default=True,
-    help="Findings of this severity fail: error (without rules overlaps), warning or note "
-    "(touches).",
-)
+@option.setting("fail_on", type=click.Choice(FAIL_ON), metavar="SEVERITY")
 @click.option(
     "--baseline",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -226,16 +173,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @scene_option.merge
 @option.accept
 @option.open_meshes
-@click.option(
-    "--cross-check",
-    is_flag=True,
-    help="Compare with python-fcl and manifold3d. A contradiction makes the check incomplete.",
-)
-@click.option(
-    "--certificate",
-    is_flag=True,
-    help="Add evidence to a JSON report, for satcheck verify.",
-)
+@option.setting("cross_check")
+@option.setting("certificate")
 @option.jobs
 @option.cache
 @click.option(
@@ -288,7 +227,11 @@ def command(
     if pictures or kind_of(form) == "picture":
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
-    config = stated_config(click.get_current_context())
+    ctx, config = click.get_current_context(), None
+    if ctx.default_map:  # of a config file
+        from satcheck.cli.config import stated_config
+
+        config = stated_config(ctx)
     timings, cache = options["timings"], options["cache"]
     delivery = Delivery(form, output, quiet, exit_zero, timings, top, explain, cache)
     worlds = worlds_of(inputs)

@@ -11,7 +11,7 @@ from click.core import ParameterSource
 
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
 from satcheck.cli.config import COMMANDS, config_of, configurable, is_from_config, is_inverted
-from satcheck.cli.formats.words import toml
+from satcheck.cli.formats.summary import toml
 from satcheck.cli.output import Document
 
 # Words of a call are those of another command, not options of this one.

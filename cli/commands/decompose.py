@@ -12,14 +12,13 @@ from msgspec import Struct
 from msgspec.structs import astuple, replace
 
 from satcheck.audit.summary import tool
+from satcheck.audit.words import at_most, counted, duration, with_unit
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
-from satcheck.cli.formats.numbers import at_most, duration
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.words import counted, issue_line, with_unit
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.output import Page, harmless, talk, write_file
+from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved

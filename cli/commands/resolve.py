@@ -15,10 +15,9 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.resolution import render
-from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.lengths import in_units_of, length, settings_of
-from satcheck.cli.output import talk, write_file
+from satcheck.cli.option import in_units_of, length, settings_of
+from satcheck.cli.output import issue_line, talk, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
 from satcheck.core.conventions import Vector

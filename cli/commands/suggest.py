@@ -12,10 +12,9 @@ from satcheck.audit.suggest import suggest
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.formats.suggest import chosen, remark, srdf, toml
-from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, load, refuse_early
-from satcheck.cli.lengths import settings_of
-from satcheck.cli.output import Document, talk
+from satcheck.cli.option import settings_of
+from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.report.json import document as json_document

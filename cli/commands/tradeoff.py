@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from satcheck.audit.request.settings import Method
+from satcheck.audit.settings import Method
 from satcheck.audit.studied_pair import two_of
 from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli import exit_codes, option, scene_option

@@ -8,11 +8,10 @@ from typing import Any
 
 import click
 
+from satcheck.audit.words import counted, number
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
-from satcheck.cli.formats.numbers import number
-from satcheck.cli.formats.words import counted
 from satcheck.cli.output import harmless, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.stated_scene import MOST_BYTES

@@ -17,10 +17,9 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import form_of
 from satcheck.cli.formats.picture import render
-from satcheck.cli.formats.words import issue_line
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.output import Document, talk, write_file
-from satcheck.cli.pictures import files_line, refuse_pictures, taken_pictures, write_pictures
+from satcheck.cli.output import Document, issue_line, talk, write_file
+from satcheck.cli.rendering import files_line, refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.stated_scene import read_report, stated_scene
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report

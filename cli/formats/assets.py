@@ -5,16 +5,18 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
+from heapq import nsmallest
+from math import inf
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 from msgspec import Struct, field
 
 from satcheck.audit.summary import tool
+from satcheck.audit.words import counted, rank
 from satcheck.cli.formats.ci.problems import problems
-from satcheck.cli.formats.order import asset_rank, worst_of
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import BesideBaseline
+from satcheck.cli.formats.summary import BesideBaseline, config_lines
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -24,9 +26,8 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import config_lines, counted, issue_line
-from satcheck.cli.output import talk
-from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, worst_verdict
+from satcheck.cli.output import issue_line, talk
+from satcheck.report.assets import ASSET_VERDICTS, Asset, AssetsReport, AssetVerdict, worst_verdict
 from satcheck.report.assets import counted as counts_of
 from satcheck.report.json import render_assets
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
@@ -264,3 +265,20 @@ def overview(
     is_short = made.total <= LISTED
     made.shown = [each for each in worst if is_short or each.verdict != "pass"]
     return made
+
+
+_T = TypeVar("_T")
+
+
+def asset_rank(asset: Asset) -> tuple[float, ...]:
+    """The lower the worse: by verdict, then by the worst finding."""
+    worst = min(map(rank, asset.report.findings), default=(inf,))
+    return (ASSET_VERDICTS.index(asset.verdict), *worst)
+
+
+def worst_of(
+    things: Iterable[_T], top: int | None, rank: Callable[[_T], tuple[float, ...]]
+) -> list[_T]:
+    """The worst ones, at most `top`, from things that may be too many for the memory. Equals keep
+    their order."""
+    return sorted(things, key=rank) if top is None else nsmallest(top, things, key=rank)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.numbers import number, vector
+from satcheck.audit.words import counted, number, vector, with_unit
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     GREEN,
@@ -15,7 +15,6 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import counted, with_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.numbers import at_most, bounds, number, vector
+from satcheck.audit.words import NEGLIGIBLE, at_most, bounds, counted, number, vector, with_unit
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
-from satcheck.cli.formats.words import NEGLIGIBLE, counted, with_unit
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.numbers import at_most, duration, number
+from satcheck.audit.words import at_most, counted, duration, number
 from satcheck.cli.formats.tables import BOLD, aligned, fitted
-from satcheck.cli.formats.words import counted
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page

@@ -6,18 +6,19 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from satcheck.cli.formats.numbers import bounds, number
-from satcheck.cli.formats.tables import YELLOW
-from satcheck.cli.formats.words import (
+from satcheck.audit.words import (
+    bounds,
     counted,
     is_unusable,
-    issue_line,
     limits,
+    number,
     past_holes,
     place,
     rule_of,
     with_unit,
 )
+from satcheck.cli.formats.tables import YELLOW
+from satcheck.cli.output import issue_line
 from satcheck.report.report import (
     CROSS_CHECK,
     NO_ANSWER,

@@ -5,11 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.messages import verdict_line
-from satcheck.cli.formats.numbers import number, vector
+from satcheck.audit.words import counted, number, vector, with_unit
 from satcheck.cli.formats.summary import counts_line
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.formats.words import counted, with_unit
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -48,7 +46,7 @@ def render(resolution: ResolutionReport, report: Report, page: Page) -> str:
         said.append(f"{pairs} within the tolerance: they count as touching.")
     subject = resolution.output or "The moved scene"
     said.append(f"{subject}, checked again: {counts_line(report)}")
-    said.append(verdict_line(report))
+    said.append(report.message)
     lines = _moves(shown, page) if shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 

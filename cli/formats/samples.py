@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.summary import doubts, nothing_checked
+from satcheck.audit.messages import nothing_checked
+from satcheck.audit.words import counted, in_motion, interval, with_unit
+from satcheck.cli.formats.summary import config_line, doubts
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -15,14 +17,7 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.formats.words import (
-    config_line,
-    counted,
-    in_motion,
-    interval,
-    issue_line,
-    with_unit,
-)
+from satcheck.cli.output import issue_line
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 

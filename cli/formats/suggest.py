@@ -9,8 +9,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
-from satcheck.cli.formats.numbers import number
-from satcheck.cli.formats.words import counted, with_unit
+from satcheck.audit.words import counted, number, with_unit
 from satcheck.report.json import escaped
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.rules import Selector

@@ -3,17 +3,18 @@ make it doubtful."""
 
 from __future__ import annotations
 
+import json
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
-from satcheck.cli.formats.numbers import number
-from satcheck.cli.formats.words import counted, is_hit
+from satcheck.audit.acceptance import words_to_accept
+from satcheck.audit.messages import failing
+from satcheck.audit.words import counted, is_hit, is_unusable, number
 from satcheck.report.report import (
     CROSS_CHECK,
-    NOTHING_TO_CHECK,
     OVERLAPS,
     RELATIONS,
     SIZES_DIFFER,
@@ -25,6 +26,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.settings import OptionValue, StatedConfig
     from satcheck.report.sweep import Sweep
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
@@ -49,12 +51,6 @@ def counts_line(report: Report) -> str:
         line += f": {', '.join(counts)}{_exempt(report)}"
     more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
     return " ".join([f"{line}.", *more, *doubts(report.issues)])
-
-
-def nothing_checked(issues: Iterable[Issue]) -> list[str]:
-    """`No pair was checked: 1 within one link.`, where that is so."""
-    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
-    return [f"{text[0].upper()}{text[1:]}." for text in said]
 
 
 def _exempt(report: Report) -> str:
@@ -175,3 +171,74 @@ def beside_baseline(report: Report) -> list[str]:
     beside = BesideBaseline()
     beside.note(report)
     return beside.lines()
+
+
+# More overlaps than this are rarely mended one by one.
+MANY = 10
+
+
+def summary_line(report: Report) -> str:
+    """`FAIL: box and lid overlap (depth 1 mm). 2 bodies, 1 pair: 1 penetrating.`"""
+    return f"{report.message} {counts_line(report)}"
+
+
+def next_step(report: Report, *, written: bool = False) -> list[str]:
+    """`Next: -o report.html shows the overlaps.`; nothing after a pass. written: the report goes
+    to a file."""
+    step = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
+    return [f"Next: {step}."] if step else []
+
+
+def _after_failure(report: Report, written: bool) -> str:
+    worst = failing(report)
+    overlaps = [f for f in worst if f.at_rest in OVERLAPS]
+    if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in worst):
+        return "--accuracy exact decides what is only possible"
+    if any(f.depth is None and f.thickness is None for f in overlaps):
+        return "--depth measures the overlaps"
+    if len(overlaps) > MANY and report.baseline is None:
+        return "satcheck suggest proposes rules for overlaps that are intended"
+    return "" if written else f"-o report.html shows {'it' if len(worst) == 1 else 'them'} in 3-D"
+
+
+def _open(report: Report) -> str:
+    """What may decide the questions that are open, but for those of bodies that cannot be used."""
+    blocking = dict.fromkeys(words_to_accept(i) for i in report.issues if i.state == "blocking")
+    if blocking:
+        return f"{' '.join(blocking)}, if that is as meant"
+    unusable = {body.id for body in report.bodies if is_unusable(body)}
+    asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
+    if not asked:
+        return ""
+    if any(issue.code == UNITS_UNKNOWN for issue in report.issues):
+        return "--units states the unit of files that have none"
+    if report.settings.accuracy != "exact":
+        return "--accuracy exact decides it"
+    if _depends_on_holes(report, asked):
+        return "close the holes, or give --allow-open if they are meant to be open"
+    if any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
+        return "a larger --depth-budget may decide it"
+    return "--explain shows the steps"
+
+
+def _depends_on_holes(report: Report, asked: Sequence[Finding]) -> bool:
+    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
+    undecided = [f for f in asked if f.undecided in ("relation", "inside")]
+    return not report.settings.allow_open and any(holed & {f.a, f.b} for f in undecided)
+
+
+def config_lines(reports: Iterable[Report]) -> list[str]:
+    """A line for each config file that took effect."""
+    stated = (report.config for report in reports)
+    return list(dict.fromkeys(config_line(config) for config in stated if config is not None))
+
+
+def config_line(config: StatedConfig) -> str:
+    """`Options of satcheck.toml: tolerance = 0.1, fail-on = "warning"`."""
+    options = (f"{name} = {toml(value)}" for name, value in config.options.items())
+    return f"Options of {config.file}: {', '.join(options)}"
+
+
+def toml(value: OptionValue) -> str:
+    """The value as TOML writes it; JSON writes texts, numbers and lists of texts alike."""
+    return json.dumps(value, ensure_ascii=False)

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
-from satcheck.audit.request.settings import LISTED_PAIRS
-from satcheck.cli.formats.messages import next_step, verdict_line
-from satcheck.cli.formats.numbers import after_rounding, bounds, duration, number, vector
-from satcheck.cli.formats.order import groups_of, severity, worst_first
+from satcheck.audit.settings import LISTED_PAIRS
+from satcheck.audit.words import (
+    after_rounding,
+    bounds,
+    counted,
+    duration,
+    in_motion,
+    interval,
+    is_hit,
+    is_unusable,
+    number,
+    past_holes,
+    severity,
+    vector,
+    worst_first,
+)
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import counts_line
+from satcheck.cli.formats.summary import config_line, counts_line, next_step
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -24,16 +36,6 @@ from satcheck.cli.formats.tables import (
     fitted,
     joined,
     stacked,
-)
-from satcheck.cli.formats.words import (
-    config_line,
-    contacts,
-    counted,
-    in_motion,
-    interval,
-    is_hit,
-    is_unusable,
-    past_holes,
 )
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
@@ -95,7 +97,7 @@ def render(
     if report.config is not None:
         lines += fitted(config_line(report.config), page)
     lines += fitted(counts_line(report), page)
-    lines += fitted(" ".join([verdict_line(report), *next_step(report)]), page)
+    lines += fitted(" ".join([report.message, *next_step(report)]), page)
     return joined(lines, page)
 
 
@@ -223,3 +225,41 @@ def _mtv(finding: Finding) -> str:
 
 def _time(finding: Finding) -> str:
     return duration(sum(stage.microseconds for stage in finding.plan)) if finding.plan else ""
+
+
+def groups_of(
+    findings: Iterable[Finding], alone: Collection[str] = frozenset()
+) -> list[list[Finding]]:
+    """Findings that are the worst first: of one severity, all pairs between two parts in a group,
+    which stands where its worst finding stands. alone: ids of bodies that are parts of their
+    own."""
+    groups: dict[tuple[str, frozenset[str]], list[Finding]] = {}
+    for finding in findings:
+        ids = finding.a, finding.b
+        parts = frozenset(id_ if id_ in alone else _part(id_) for id_ in ids)
+        groups.setdefault((severity(finding), parts), []).append(finding)
+    return list(groups.values())
+
+
+def _part(id_: str) -> str:
+    """`gripper` of `gripper/left`: the node or the link that the body belongs to."""
+    return id_.rpartition("/")[0] or id_
+
+
+def contacts(finding: Finding) -> str:
+    """`1 loop of length 4.25`, `2 patches of area 3, 1 point`; empty when not computed."""
+    if finding.contacts is None:
+        return ""
+    curves, totals = finding.contacts.curves, finding.contacts.totals
+    loops = len(curves) == totals.curves and all(curve.closed for curve in curves)
+    counts = []
+    if totals.patches:
+        counts.append(
+            f"{counted(totals.patches, 'patch', 'patches')} of area {number(totals.area)}"
+        )
+    if totals.curves:
+        name = counted(totals.curves, "loop" if loops else "curve")
+        counts.append(f"{name} of length {number(totals.length)}")
+    if totals.points:
+        counts.append(counted(totals.points, "point"))
+    return ", ".join(counts) or "none"

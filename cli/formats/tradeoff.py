@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.numbers import DIGITS, duration, number
+from satcheck.audit.words import DIGITS, counted, duration, interval, number
 from satcheck.cli.formats.tables import BOLD_RED, GREEN, Column, fitted, fitted_each, joined, table
-from satcheck.cli.formats.words import counted, interval
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

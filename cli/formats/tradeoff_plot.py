@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from satcheck.cli.formats.numbers import duration, number
+from satcheck.audit.words import duration, number
 from satcheck.cli.formats.plot_style import LETTERS, POINTS_PER_INCH, Palette, fitted, style
 from satcheck.cli.formats.tradeoff import silent, title
 from satcheck.cli.output import harmless

@@ -8,11 +8,9 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
+from satcheck.audit.words import counted, severity
 from satcheck.cli.formats.assets import cells_of, summary_line
-from satcheck.cli.formats.messages import finding_message
-from satcheck.cli.formats.order import severity
-from satcheck.cli.formats.words import counted, issue_line
-from satcheck.cli.output import harmless
+from satcheck.cli.output import harmless, issue_line
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.assets import Overview
@@ -73,7 +71,7 @@ def render(seen: Overview, worst: Iterable[tuple[Asset, Finding, bytes | str]]) 
 
 
 def _item(number: int, asset: Asset, finding: Finding, picture: bytes | str) -> str:
-    told = _text(finding_message(finding, asset.report))
+    told = _text(finding.message)
     return (
         f'<li class="{severity(finding)}">{_picture(picture)}'
         f"<p>{number}. <b>{_text(asset.file)}</b></p><p>{told}</p></li>\n"

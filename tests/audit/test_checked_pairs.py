@@ -9,10 +9,10 @@ from tests.audit.shapes import scene_of, unit_box
 def test_a_failing_pair_does_not_take_the_others_with_it(tmp_path, monkeypatch, caplog):
     original = checked_pairs.examine
 
-    def failing(pair, trace, climb):
-        if pair.a.id == "b":
+    def failing(draft, climb):
+        if draft.pair.a.id == "b":
             raise ZeroDivisionError("made up")
-        return original(pair, trace, climb)
+        return original(draft, climb)
 
     monkeypatch.setattr(checked_pairs, "examine", failing)
     caplog.set_level("DEBUG", logger="satcheck")

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
-from satcheck.cli.formats.messages import summary_line
+from satcheck.cli.formats.summary import summary_line
 from satcheck.scene import Rule, Selector, load_scene
 from tests.audit.shapes import box, write
 

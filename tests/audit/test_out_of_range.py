@@ -12,7 +12,7 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.axes import axes_of
 from satcheck.audit.studied_pair import two_of
 from satcheck.audit.tradeoff import tradeoff
-from satcheck.cli.formats.words import issue_line
+from satcheck.cli.output import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from tests.audit.shapes import Mesh, box, unit_box, write

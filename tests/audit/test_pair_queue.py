@@ -9,8 +9,13 @@ from time import sleep
 
 import pytest
 
-from satcheck.audit import pair_queue
-from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue
+from satcheck.audit import checked_pairs
+from satcheck.audit.checked_pairs import (
+    BATCH_PAIRS,
+    BATCH_TRIANGLES,
+    PARALLEL_PAIRS,
+    examine_pairs,
+)
 
 
 @dataclass(eq=False)
@@ -39,27 +44,36 @@ def chain(count):
 @pytest.fixture(autouse=True)
 def climbs(monkeypatch):
     """The climb of a pair is the pair itself, and no pair takes long."""
-    monkeypatch.setattr(pair_queue, "start_climbs", lambda pairs, _: lambda: list(pairs))
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: False)
+    monkeypatch.setattr(checked_pairs, "start_climbs", lambda pairs, _: lambda: list(pairs))
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: False)
 
 
-def by(examine):
-    return lambda pair, climb: examine(pair) if climb is pair else None
+@pytest.fixture
+def found(monkeypatch):
+    """What an examination makes of each of these pairs."""
+
+    def by(pairs, examine, jobs=1, **options):
+        def examined(pair, climb):
+            return examine(pair) if climb is pair else None
+
+        monkeypatch.setattr(checked_pairs, "_examine", examined)
+        return examine_pairs(pairs, jobs, **options)
+
+    return by
 
 
 @pytest.mark.parametrize("every", [None, 1, 3])
 @pytest.mark.parametrize("jobs", [1, 3])
 @pytest.mark.parametrize("count", [1, PARALLEL_PAIRS + 1, BATCH_PAIRS + 100])
-def test_every_pair_has_its_result(jobs, count, every, monkeypatch):
+def test_every_pair_has_its_result(jobs, count, every, monkeypatch, found):
     _, pairs = chain(count)
     heavy = {id(pair) for pair in pairs[::every]} if every else set()
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda pair, _: id(pair) in heavy)
-    found = dict(PairQueue(jobs).each(pairs, by(id)))
-    assert found == {k: id(pair) for k, pair in enumerate(pairs)}
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda pair, _: id(pair) in heavy)
+    assert found(pairs, id, jobs) == list(map(id, pairs))
 
 
 @pytest.mark.parametrize("granted", [0, 1])
-def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, monkeypatch):
+def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, monkeypatch, found):
     start, started = Thread.start, []
 
     def refuse(thread):
@@ -70,13 +84,12 @@ def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, mo
 
     monkeypatch.setattr(Thread, "start", refuse)
     _, pairs = chain(2 * BATCH_PAIRS)
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
-    found = dict(PairQueue(3).each(pairs, by(lambda pair: sleep(1e-4) or id(pair))))
-    assert found == {k: id(pair) for k, pair in enumerate(pairs)}
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: True)
+    assert found(pairs, lambda pair: sleep(1e-4) or id(pair), 3) == list(map(id, pairs))
 
 
 @pytest.mark.parametrize("jobs", [1, 3])
-def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch):
+def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch, found):
     _, pairs = chain(BATCH_PAIRS + 100)
     for pair in pairs[:40]:
         pair.triangles = BATCH_TRIANGLES
@@ -87,8 +100,8 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch):
         batches.append(list(batch))
         return lambda: batch
 
-    monkeypatch.setattr(pair_queue, "start_climbs", start_climbs)
-    assert len(list(PairQueue(jobs).each(pairs, by(id)))) == len(pairs)
+    monkeypatch.setattr(checked_pairs, "start_climbs", start_climbs)
+    assert len(found(pairs, id, jobs)) == len(pairs)
     assert sum(map(len, batches)) == len(pairs)
     assert max(map(len, batches)) <= BATCH_PAIRS
     assert len(batches) > 40 // (jobs + 1)
@@ -96,7 +109,7 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs, monkeypatch):
         assert sum(pair.triangles for pair in batch[:-1]) < jobs * BATCH_TRIANGLES
 
 
-def test_a_body_is_let_go_after_its_last_pair():
+def test_a_body_is_let_go_after_its_last_pair(found):
     bodies, pairs = chain(200)
     met = {id(body): 0 for body in bodies}
 
@@ -105,27 +118,30 @@ def test_a_body_is_let_go_after_its_last_pair():
             assert not body.gone
             met[id(body)] += 1
 
-    most = 0
-    for _ in PairQueue(1).each(pairs, by(meet)):
-        most = max(most, sum(met[id(body)] > 0 and not body.gone for body in bodies))
+    held = []
+    found(
+        pairs,
+        meet,
+        progress=lambda *_: held.append(sum(met[id(b)] > 0 and not b.gone for b in bodies)),
+    )
     assert all(body.gone == [True] for body in bodies)
-    assert most <= 4
+    assert max(held) <= 4
 
 
-def test_what_another_check_needs_is_kept():
+def test_what_another_check_needs_is_kept(found):
     bodies, pairs = chain(20)
-    assert len(list(PairQueue(1, keep=True).each(pairs, by(id)))) == 20
+    assert len(found(pairs, id, keep=True)) == 20
     assert not any(body.gone for body in bodies)
 
 
 def test_no_pairs_at_all():
-    assert list(PairQueue(0).each([], by(id))) == []
+    assert examine_pairs([], 0) == []
 
 
-def test_after_an_error_nobody_waits_for_the_others(monkeypatch):
+def test_after_an_error_nobody_waits_for_the_others(monkeypatch, found):
     _, pairs = chain(PARALLEL_PAIRS + 2)
     in_order = []
-    list(PairQueue(jobs=1).each(pairs, by(in_order.append)))
+    found(pairs, in_order.append)
     started, answered, heard = Event(), Event(), SimpleQueue()
 
     def examine(pair):
@@ -135,8 +151,8 @@ def test_after_an_error_nobody_waits_for_the_others(monkeypatch):
         started.set()
         heard.put(answered.wait(timeout=20))
 
-    monkeypatch.setattr(pair_queue, "leaves_work", lambda *_: True)
+    monkeypatch.setattr(checked_pairs, "leaves_work", lambda *_: True)
     with pytest.raises(KeyboardInterrupt):
-        list(PairQueue(jobs=2).each(pairs, by(examine)))
+        found(pairs, examine, 2)
     answered.set()
     assert heard.get(timeout=20)

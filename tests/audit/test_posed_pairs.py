@@ -13,9 +13,9 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.bodies.placed_bodies import place
+from satcheck.audit.bodies import place
+from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
-from satcheck.audit.request.planner import Planner
 from satcheck.audit.samples import check_poses
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.scene import Scene, load_scene

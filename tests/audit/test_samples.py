@@ -187,7 +187,7 @@ def test_no_work_is_done_when_a_later_pose_is_wrong() -> None:
 
 
 def test_what_a_mesh_has_is_made_once_for_all_poses(monkeypatch: pytest.MonkeyPatch) -> None:
-    from satcheck.audit.bodies.placed_body import SharedMesh
+    from satcheck.audit.body import SharedMesh
 
     made: list[str] = []
     make = SharedMesh.__init__

@@ -124,10 +124,10 @@ def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
 
 
 def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
-    def fails(pair, trace, climb=None):
-        if not pair.request.wants("depth"):
+    def fails(draft, climb=None):
+        if not draft.pair.request.wants("depth"):
             raise RuntimeError("boom")
-        return examine(pair, trace, climb)
+        return examine(draft, climb)
 
     monkeypatch.setattr(sys.modules["satcheck.audit.checked_pairs"], "examine", fails)
     found = suggest(ARM, poses=POSES[:2], seed=0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
+from satcheck.audit.messages import with_messages
 from satcheck.core.mesh_health import MeshHealth
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (
@@ -207,19 +208,21 @@ def report(
     undecided = sum(finding.relation == "indeterminate" for finding in findings)
     warned = any(finding.severity == "warning" for finding in findings)
     found = any(finding.severity == "error" for finding in findings)
-    return Report(
-        tool=Tool("satcheck", "0.1.0"),
-        units=units,
-        settings=Settings().stated(depth=True, thickness=True),
-        summary=Summary(
-            verdict="fail" if found else "incomplete" if warned else "pass",
-            pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),
-            by_relation={
-                relation: sum(finding.relation == relation for finding in findings)
-                for relation in {finding.relation for finding in findings}
-            },
-        ),
-        bodies=bodies,
-        findings=findings,
-        issues=issues,
+    return with_messages(
+        Report(
+            tool=Tool("satcheck", "0.1.0"),
+            units=units,
+            settings=Settings().stated(depth=True, thickness=True),
+            summary=Summary(
+                verdict="fail" if found else "incomplete" if warned else "pass",
+                pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),
+                by_relation={
+                    relation: sum(finding.relation == relation for finding in findings)
+                    for relation in {finding.relation for finding in findings}
+                },
+            ),
+            bodies=bodies,
+            findings=findings,
+            issues=issues,
+        )
     )

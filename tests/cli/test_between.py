@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from tests.cli.process import SAMPLES, satcheck

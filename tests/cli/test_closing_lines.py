@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
+from satcheck.audit.messages import with_messages
 from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.report.report import (
@@ -151,7 +152,7 @@ def test_many_overlaps_ask_for_rules() -> None:
 
 def test_what_hulls_cannot_prove_asks_for_accuracy() -> None:
     made = report(ESTIMATE)
-    made = replace(made, settings=replace(made.settings, accuracy="hull"))
+    made = with_messages(replace(made, settings=replace(made.settings, accuracy="hull")))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "FAIL: block and perhaps possibly overlap (depth at most 2). Next: --accuracy" in text
 
@@ -161,7 +162,7 @@ def test_an_internal_error_is_no_unusable_input() -> None:
     made = report(UNDECIDED, issues=(fault,))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "1 pair is indeterminate; 1 pair failed by an internal error. Next" in text
-    made = replace(made, issues=(fault, reports.MISSING))
+    made = with_messages(replace(made, issues=(fault, reports.MISSING)))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "; 1 input could not be used; 1 pair failed by an internal error. Next" in text
 
@@ -179,7 +180,7 @@ def test_no_pair_checked_is_no_verdict() -> None:
     pairs = replace(made.summary.pairs, total=3, allowed=3)
     why = Issue(NOTHING_TO_CHECK, "warning", None, None, "no pair was checked: 3 allowed by rules")
     summary = replace(made.summary, verdict="incomplete", pairs=pairs)
-    made = replace(made, summary=summary, issues=(why,))
+    made = with_messages(replace(made, summary=summary, issues=(why,)))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     last = "INCOMPLETE: No pair was checked: 3 allowed by rules.\n"
     assert text.endswith(f"\n2 bodies, 3 pairs.\n{last}")

@@ -11,8 +11,10 @@ from pathlib import Path
 import click
 import pytest
 
+from satcheck.audit.settings import Settings, documentation
 from satcheck.cli.click_classes import MANY, OTHER, SECTIONS, sections
 from satcheck.cli.commands import COMMANDS
+from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.commands.schema import text
 from satcheck.scene.files.readers import readers, robots
 from tests.cli.process import (
@@ -118,3 +120,11 @@ def test_the_help_names_the_formats_of_the_registry() -> None:
     known |= {robot.title for robot in robots().values()}
     words = " ".join(satcheck("--help").out.split())
     assert {title for title in known if title not in words} == set()
+
+
+def test_options_of_settings_say_what_the_settings_are() -> None:
+    options = {p.name: p for p in check_command.params if isinstance(p, click.Option)}
+    own = {"cache", "timings", "seconds_per_file", "megabytes_per_file"}  # in words of their own
+    for name in (options.keys() & set(Settings.__struct_fields__)) - own:
+        assert documentation(name)
+        assert (options[name].help or "").startswith(documentation(name))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 import pytest
 
-from satcheck.cli.lengths import in_units_of, length
+from satcheck.cli.option import in_units_of, length
 
 
 def test_a_length_with_a_unit() -> None:

@@ -6,14 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.cli.formats.numbers import (
-    ROUNDOFF,
-    after_rounding,
-    bounds,
-    duration,
-    number,
-    vector,
-)
+from satcheck.audit.words import ROUNDOFF, after_rounding, bounds, duration, number, vector
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 

@@ -13,7 +13,7 @@ from jsonschema import Draft202012Validator
 
 from satcheck._version import __version__
 from satcheck.audit import Settings, check
-from satcheck.audit.request.settings import Accuracy
+from satcheck.audit.settings import Accuracy
 from satcheck.cli.commands.schema import DOCUMENTS, text
 from satcheck.report.json import render
 from satcheck.scene import load_scene

@@ -8,9 +8,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Component, Components, Contacts
-from satcheck.audit.request.settings import LISTED_PAIRS
-from satcheck.cli.formats.order import groups_of
-from satcheck.cli.formats.table import render
+from satcheck.audit.settings import LISTED_PAIRS
+from satcheck.cli.formats.table import groups_of, render
 from satcheck.cli.formats.tables import broken
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.report.report import (

@@ -14,7 +14,7 @@ from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satchec
 NOT_COVERED = (
     "Taken as stated: settings, the list of bodies.\n"
     "Not covered: the version of satcheck, which flags and rules required an effect, "
-    "on how many pairs an effect ran, times, plans.\n"
+    "on how many pairs an effect ran, times, messages, plans.\n"
 )
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
-from satcheck.cli.formats.messages import verdict_line
 from satcheck.cli.formats.picture.data import listed
 from satcheck.cli.formats.registry import pieces
 from satcheck.cli.formats.table import render as render_table
@@ -54,7 +53,7 @@ def test_formats_of_ci(form: str) -> None:
 def test_table_and_verdict() -> None:
     table = render_table(REPORT, PLAIN_PAGE, explain=False, timings=False)
     assert order(table, "{} │ {}") == ["deep", "thin", "known"]
-    assert order(verdict_line(of(THIN, DEEP)), "{} and {}") == ["deep", "thin"]
+    assert order(of(THIN, DEEP).message, "{} and {}") == ["deep", "thin"]
 
 
 def order(text: str, pair: str) -> list[str]:

@@ -11,8 +11,8 @@ from typing import Any
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from tests.audit.figures.test_thickness import wedge
 from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
+from tests.audit.stages.test_thickness import wedge
 from tests.cli.process import SAMPLES
 from tests.verify.reports import Json, pieces, sheet
 

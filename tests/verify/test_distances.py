@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from satcheck.verify import distances
-from tests.audit.figures.test_exact_gap import needles
 from tests.audit.shapes import Mesh, bracket, unit_box
+from tests.audit.stages.test_exact_gap import needles
 from tests.verify.honest import document, honest, write
 from tests.verify.reports import Json, pieces, verified, wall
 

@@ -12,9 +12,9 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from tests.audit.figures.test_explained import BLOCK, FINNED, PLATE, SPIKE, joined, moved
-from tests.audit.figures.test_thickness import WEDGE_THICKNESS, wedge
 from tests.audit.shapes import Mesh, box, bracket, unit_box, write
+from tests.audit.stages.test_explained import BLOCK, FINNED, PLATE, SPIKE, joined, moved
+from tests.audit.stages.test_thickness import WEDGE_THICKNESS, wedge
 from tests.verify.honest import document
 from tests.verify.reports import Json, verified
 
@@ -138,7 +138,7 @@ def forged_excuse(made: Json, certified: bool, off: float, paths: list[Path]) ->
     from msgspec import to_builtins
 
     from satcheck import core
-    from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
+    from satcheck.audit.body import PlacedBody, SharedMesh
     from satcheck.audit.certify.thickness import cells
 
     assert certified

@@ -13,9 +13,9 @@ from satcheck.verify.excuse import neither_passes
 from satcheck.verify.pairs import Pair
 from satcheck.verify.surfaces import meeting
 from tests.audit.certify.test_thickness import prism
-from tests.audit.figures.test_explained import PLATE, SPIKE
-from tests.audit.figures.test_thickness import wedge
 from tests.audit.shapes import Mesh, box, bracket, moved, unit_box
+from tests.audit.stages.test_explained import PLATE, SPIKE
+from tests.audit.stages.test_thickness import wedge
 from tests.verify.reports import pieces, turned
 from tests.verify.test_cover import pair_of
 

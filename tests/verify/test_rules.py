@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.bodies.placed_bodies import book_of
+from satcheck.audit.bodies import book_of
 from satcheck.core.shapes import Box
 from satcheck.report.report import Exempt
 from satcheck.scene import Body, Rule, Scene, Selector

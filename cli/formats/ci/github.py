@@ -6,8 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.ci.problems import near, problems
-from satcheck.cli.formats.messages import summary_line
-from satcheck.cli.formats.words import config_lines
+from satcheck.cli.formats.summary import config_lines, summary_line
 from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:

@@ -11,9 +11,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from satcheck.cli.formats.messages import answer_message, finding_message, kind_of, summary_line
-from satcheck.cli.formats.words import config_line, counted, issue_line
-from satcheck.cli.output import harmless
+from satcheck.audit.messages import answer_message, kind_of
+from satcheck.audit.words import counted
+from satcheck.cli.formats.summary import config_line, summary_line
+from satcheck.cli.output import harmless, issue_line
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
 from satcheck.report.verdict import fails, is_unmet
@@ -71,7 +72,7 @@ def _case(suite: ElementTree.Element, file: str, name: str) -> ElementTree.Eleme
 
 
 def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
-    text = finding_message(finding, report)
+    text = finding.message
     if finding.undecided is not None:
         _say(case, "error", "undecided", text)
     elif finding.baseline_state == "unchanged":

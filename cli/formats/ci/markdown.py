@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from satcheck.audit.words import counted
 from satcheck.cli.formats.ci.problems import worst_problems
-from satcheck.cli.formats.messages import summary_line
-from satcheck.cli.formats.words import config_lines, counted
+from satcheck.cli.formats.summary import config_lines, summary_line
 from satcheck.cli.output import harmless
 from satcheck.report.assets import asset
 

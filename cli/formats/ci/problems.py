@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
-from satcheck.cli.formats.messages import finding_message, kind_of
-from satcheck.cli.formats.order import rank, severity
+from satcheck.audit.messages import kind_of
+from satcheck.audit.words import rank, severity
 from satcheck.report.bodies import Place
 from satcheck.report.report import OF_ANSWERS
 
@@ -85,7 +85,7 @@ def _naming(asset: str, problem: Problem) -> Problem:
 def _of_report(report: Report) -> list[Problem]:
     places = {body.id: body.stated_at or Place(body.file, 1) for body in report.bodies}
     findings = [
-        _of_finding(finding, level, places, report)
+        _of_finding(finding, level, places)
         for finding in report.findings
         if (level := _level(finding)) is not None
     ]
@@ -113,14 +113,12 @@ def _level(finding: Finding) -> Level | None:
     return level if level in ("error", "warning", "note") else None
 
 
-def _of_finding(
-    finding: Finding, level: Level, places: dict[str, Place], report: Report
-) -> Problem:
+def _of_finding(finding: Finding, level: Level, places: dict[str, Place]) -> Problem:
     bodies = (finding.a, finding.b)
     return Problem(
         level,
         kind_of(finding),
-        finding_message(finding, report),
+        finding.message,
         tuple(places[body] for body in bodies),
         bodies,
         finding.id,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.summary import tool
 from satcheck.cli.formats.ci.problems import KINDS, Problem, uri, worst_problems
-from satcheck.cli.formats.words import config_lines
+from satcheck.cli.formats.summary import config_lines
 from satcheck.report.json import document
 
 if TYPE_CHECKING:

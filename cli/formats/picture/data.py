@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from msgspec import to_builtins
 
+from satcheck.audit.messages import measured
+from satcheck.audit.words import counted, interval, is_listed, severity, with_unit, worst_first
 from satcheck.cli.formats.details import facts
-from satcheck.cli.formats.messages import finding_message, measured, summary_line
-from satcheck.cli.formats.order import is_listed, severity, worst_first
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.geometry import geometry
 from satcheck.cli.formats.picture.packing import packed_points
-from satcheck.cli.formats.words import counted, interval, issue_line, with_unit
+from satcheck.cli.formats.summary import summary_line
+from satcheck.cli.output import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.report.verdict import is_failure
 from satcheck.scene.statics import up_axes
@@ -148,7 +149,7 @@ def _shown(
         "relation": finding.relation,
         "measured": measured(finding, unit),
         "severity": severity(finding),
-        "text": finding_message(finding, report),
+        "text": finding.message,
         "mtv": finding.mtv,
         "ends": bool(finding.mtv_verified),
         "axis": finding.normal,

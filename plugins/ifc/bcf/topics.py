@@ -16,9 +16,8 @@ from uuid import NAMESPACE_URL, uuid5
 
 from msgspec import Struct
 
-from satcheck.cli.formats.messages import kind_of, measured
-from satcheck.cli.formats.order import is_listed, worst_first
-from satcheck.cli.formats.words import counted
+from satcheck.audit.messages import kind_of, measured
+from satcheck.audit.words import counted, is_listed, worst_first
 from satcheck.plugins.ifc.model import unpacked
 from satcheck.scene.errors import Refused
 from satcheck.scene.units import unit_of

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.body import PlacedBody, SharedMesh
 from satcheck.audit.motion.moving_pair import MovingPair
 from satcheck.audit.motion.track import STANDS, track_of
-from satcheck.audit.request.planner import request_for
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import request_for
+from satcheck.audit.settings import Settings
 from satcheck.core import Mesh
 from satcheck.scene.motion import Path as MotionPath
 from tests.audit.shapes import Mesh as Lists

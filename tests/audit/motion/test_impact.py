@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
+from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import overlaps
-from satcheck.audit.request.trace import Trace
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import hull_of, moving
 from tests.audit.shapes import box, bracket, moved, unit_box
@@ -253,9 +253,7 @@ def random_path(rng, kind):
 
 def deepest_at(pair, t):
     placed = pair.placed(t)
-    finding = examine(
-        replace(placed, settings=replace(placed.settings, depth=True)), Trace()
-    ).finding
+    finding = examine(Draft(replace(placed, settings=replace(placed.settings, depth=True))))
     return finding.depth_bounds[0]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings
-from satcheck.audit.bodies.placed_bodies import place
+from satcheck.audit.bodies import place
 from satcheck.audit.resolve.free_place import AXES, extents, free_place
 from tests.audit.resolve.boxes import boxes_scene, unit_at
 

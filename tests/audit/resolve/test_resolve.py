@@ -293,10 +293,10 @@ def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatc
 
     examine = layout.examine
 
-    def broken(pair, trace):
-        if "c" in (pair.a.id, pair.b.id):
+    def broken(draft):
+        if "c" in (draft.pair.a.id, draft.pair.b.id):
             raise RuntimeError("a fault")
-        return examine(pair, trace)
+        return examine(draft)
 
     monkeypatch.setattr(layout, "examine", broken)
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(-0.5)})

@@ -56,7 +56,7 @@ def test_the_severity_of_a_rule_is_that_of_its_failures(tmp_path):
 
 @pytest.mark.parametrize("severity", ["warning", "none"])
 def test_the_last_line_counts_what_falls(tmp_path, severity):
-    from satcheck.cli.formats.messages import held
+    from satcheck.audit.messages import held
 
     rules = [{"bodies": "*", "supported": True, "severity": severity}]
     statics = support(tmp_path, [floor(), box("cube", [1, 1, 1], [0, 0, 2])], rules)

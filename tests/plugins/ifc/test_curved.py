@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from satcheck.plugins.ifc.readers import CHORD
 from satcheck.scene import Scene, load_scene
 from tests.plugins.ifc.models import Model

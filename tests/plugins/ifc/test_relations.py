@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.settings import Settings
 from tests.plugins.ifc.models import Model
 from tests.plugins.ifc.test_reading import scene_of
 

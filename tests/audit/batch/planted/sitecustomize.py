@@ -77,7 +77,7 @@ _PLANTS: dict[str, tuple[str, Callable[[Any], str]]] = {
         lambda file: Path(file.directory).name,
     ),
     "satcheck.decompose.coacd_server": ("serve", _split),
-    "satcheck.audit.checked_pairs": ("examine", lambda pair: pair.a.id),
+    "satcheck.audit.checked_pairs": ("examine", lambda draft: draft.pair.a.id),
 }
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.body import PlacedBody, SharedMesh
+from satcheck.audit.settings import Settings
 from satcheck.core.curved.exact.pair import proven
 from satcheck.core.curved.signed import convex_pair
 from satcheck.scene import Body

@@ -1,1 +1,0 @@
-"""Bodies in the world, the data derived from each, and pairs of bodies."""

@@ -1,0 +1,306 @@
+"""A body in the world, its box, and the data derived from it, each made once and on demand."""
+
+from __future__ import annotations
+
+import math
+from _thread import RLock, allocate_lock  # threading takes longer to import
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from msgspec import Struct
+
+from satcheck import core
+from satcheck.audit.settings import Settings
+from satcheck.core.conventions import Vector
+from satcheck.core.curved.placed import CurvedShape, curved_shape
+from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+from satcheck.core.shapes import is_curved
+from satcheck.core.steps import step
+from satcheck.scene.bodies import is_half_space, resolution_in_world
+
+if TYPE_CHECKING:
+    from satcheck.decompose import Decomposition, DecompositionError
+    from satcheck.scene import Body, MeshFile
+    from satcheck.verify.bodies import Placed, Shape
+
+
+Box = tuple[Vector, Vector]
+
+
+def largest_coordinate(*boxes: Box) -> float:
+    """The largest |coordinate|."""
+    return max(max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes)
+
+
+def corners(box: Box) -> list[Vector]:
+    (x, y, z), (u, v, w) = box
+    return [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
+
+
+def around_both(a: Box, b: Box) -> Box:
+    (x, y, z), (u, v, w) = a
+    (p, q, r), (f, g, h) = b
+    return (min(x, p), min(y, q), min(z, r)), (max(u, f), max(v, g), max(w, h))
+
+
+def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
+    return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
+
+
+def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
+    """The shortest translation of A after which the boxes have no common interior.
+
+    Returns its length and the unit normal from A to B; the translation is -length * normal. The
+    length is rounded outward, and 0.0 if the boxes do not overlap. Ties go to the first axis,
+    negative side first.
+    """
+    best, normal = math.inf, (1.0, 0.0, 0.0)
+    for axis in range(3):
+        for sign, reach in (
+            (1.0, a[1][axis] - b[0][axis]),
+            (-1.0, b[1][axis] - a[0][axis]),
+        ):
+            if reach < best:
+                best = reach
+                normal = tuple(sign if k == axis else 0.0 for k in range(3))  # type: ignore[assignment]
+    return max(best, 0.0) * (1 + 2 * UNIT_ROUNDOFF), normal
+
+
+T = TypeVar("T")
+MeshKey = tuple[str, str | int, str | None]
+
+# Held while a body gets its (still empty) geometry.
+_MAKING = allocate_lock()
+
+
+class Once(Generic[T]):
+    """A value made by the first thread that needs it; `known` is None until then."""
+
+    __slots__ = ("_lock", "_make", "known")
+
+    def __init__(self, make: Callable[[], T]) -> None:
+        self._make = make
+        self._lock = RLock()
+        self.known: T | None = None
+
+    def __call__(self) -> T:
+        with self._lock:
+            if self.known is None:
+                self.known = self._make()
+            return self.known
+
+
+def mesh_key(file: MeshFile) -> MeshKey:
+    """The same key for the same mesh, while the mesh exists. The SHA-256 is not enough, because
+    equal files may refer to different neighbour files."""
+    return file.path, file.sha256 or id(file.mesh), file.part
+
+
+class Work(Struct, frozen=True):
+    """Counts of the work done for the bodies of one file.
+
+    hierarchies: trees built. refits: trees fitted to placed vertices. decompositions: requested.
+    """
+
+    hierarchies: int
+    refits: int
+    decompositions: int
+
+
+class SharedMesh:
+    """The data that all bodies with one mesh share, in file coordinates.
+
+    geometry: tree, hull and convexity. largest: the largest absolute coordinate. covers_once(): the
+    solid covers no point twice, so its volume is that of its mesh. has_sheets(): parts of the
+    surface of the solid have no inside on either side.
+    """
+
+    __slots__ = (
+        "_decompositions",
+        "covers_once",
+        "decomposition",
+        "file",
+        "geometry",
+        "has_sheets",
+        "largest",
+        "shape",
+        "surface_tolerance",
+        "triangles",
+    )
+
+    def __init__(self, file: MeshFile, settings: Settings, bounds: Box | None = None) -> None:
+        """bounds: of the mesh, where known."""
+        self.file = file
+        self.triangles = file.mesh.triangle_count
+        self.surface_tolerance = settings.surface_tolerance
+        self.largest = largest_coordinate(bounds or file.mesh.bounds)
+        self.geometry = core.Geometry(
+            file.mesh, file.health.solid, file.topology.plain_solid, settings.allow_open
+        )
+        self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
+        self.has_sheets = Once(lambda: core.has_sheets(self.geometry.surface()))
+        self.decomposition = Once(lambda: self._decomposition(settings))
+        self.shape = Once(lambda: self._shape(settings.allow_open))
+        self._decompositions = 0
+
+    @property
+    def work(self) -> Work:
+        geometry = self.geometry
+        return Work(geometry.hierarchies, geometry.refits, self._decompositions)
+
+    def _shape(self, allow_open: bool) -> Shape:
+        """As the checker of certificates sees it."""
+        from satcheck.verify.bodies import shape_of
+
+        return shape_of(self.file, allow_open=allow_open)
+
+    def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
+        """A failure is kept, too, and not tried again for the next pair."""
+        from satcheck.decompose import Cache, DecompositionError, decompose
+
+        self._decompositions += 1
+        directory = settings.cache_directory
+        cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
+        try:
+            with step(f"splitting {self.file.path}"):
+                return decompose(
+                    self.file.mesh,
+                    threshold=settings.part_threshold,
+                    seed=settings.part_seed,
+                    seconds=settings.part_seconds,
+                    megabytes=settings.part_megabytes,
+                    cache=cache,
+                )
+        except DecompositionError as error:
+            return error
+
+
+def _surface_tolerance(body: Body, setting: float | None) -> float:
+    """Return the surface tolerance of the scene, or else of the check, or else of the facets that a
+    reader made."""
+    if body.surface_tolerance is not None:
+        return body.surface_tolerance
+    return body.facet_tolerance if setting is None else setting
+
+
+def _curved(body: Body) -> CurvedShape | None:
+    """ValueError if the transform does not give a shape of this kind."""
+    if not is_curved(body.shape):
+        return None
+    return curved_shape(body.shape, body.transform)
+
+
+def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed:
+    from dataclasses import replace
+
+    from satcheck.verify.bodies import curved_of, place_shape
+
+    shape = curved_of(body.file, body.shape) if is_curved(body.shape) else shared.shape()
+    placed = place_shape(body.id, body.groups, shape, body.transform)
+    return replace(placed, surface_tolerance=surface_tolerance)
+
+
+class PlacedBody:
+    """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
+    precision, world units; surface_tolerance: how far its surface may be off; endless: it is a
+    half space.
+
+    curved: the shape of a curved body; its mesh is then only inscribed, and its bounds enclose the
+    shape. Most bodies of a large scene are far from all others, so all other data are made on
+    demand and can be released.
+    """
+
+    __slots__ = (
+        "_checked",
+        "_geometry",
+        "body",
+        "bounds",
+        "curved",
+        "diagonal",
+        "endless",
+        "id",
+        "resolution",
+        "shared",
+        "solid",
+        "surface_tolerance",
+    )
+
+    def __init__(self, body: Body, shared: SharedMesh, bounds: Box | None = None) -> None:
+        """bounds: of the mesh, where known. ValueError, OverflowError when it cannot be placed."""
+        self.body = body
+        self.shared = shared
+        self.id = body.id
+        self.bounds: Box = body.world_mesh().bounds if bounds is None else bounds
+        self.curved = _curved(body)
+        if self.curved is not None:
+            self.bounds = self.curved.bounds()
+        self.diagonal = diagonal(self.bounds)
+        self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
+        self.solid = body.file.health.solid
+        self.endless = is_half_space(body)
+        self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
+        self._geometry: core.PlacedGeometry | None = None
+        self._checked: Placed | None = None
+
+    @property
+    def geometry(self) -> core.PlacedGeometry:
+        """The geometry of the body in the world, made on demand."""
+        geometry = self._geometry
+        if geometry is None:
+            around = None if self.curved is None else self.bounds
+            with _MAKING:
+                geometry = self._geometry = self._geometry or core.PlacedGeometry(
+                    self.shared.geometry, self.body.transform, around, self.resolution
+                )
+        return geometry
+
+    def release(self) -> None:
+        """Releases the data; they are made again on demand."""
+        self._geometry = self._checked = None
+
+    @property
+    def mesh(self) -> core.Mesh:
+        return self.geometry.mesh
+
+    def surface(self) -> core.Surface:
+        return self.geometry.surface()
+
+    def hull(self) -> core.Polytope:
+        return self.geometry.hull()
+
+    def hull_shape(self) -> core.Shape:
+        return self.geometry.hull_shape()
+
+    def checked(self) -> Placed:
+        """The body as the checker of certificates sees it."""
+        checked = self._checked
+        if checked is None:
+            checked = self._checked = _checked(self.body, self.shared, self.surface_tolerance)
+        return checked
+
+    @property
+    def convex(self) -> bool:
+        return self.shared.geometry.convex
+
+    @property
+    def largest_stretch(self) -> float:
+        """An upper bound of how much the transform stretches a length, tight for rigid transforms:
+        the square of the largest singular value of M is at most the largest row sum of |M^T M|."""
+        transform = self.body.transform
+        if transform is None:
+            return 1.0
+        columns = [[transform[4 * row + axis] for row in range(3)] for axis in range(3)]
+        rows = [
+            math.fsum(abs(math.fsum(p * q for p, q in zip(u, v, strict=True))) for v in columns)
+            for u in columns
+        ]
+        return math.sqrt(max(rows)) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)
+
+
+def world_bounds(bodies: Sequence[Body], threads: int) -> list[Box | None]:
+    """The bounds of all bodies at once, without placing a mesh; None: the body cannot be placed."""
+    moved = [(body.file.mesh, body.transform) for body in bodies if body.transform is not None]
+    meshes, matrices = [mesh for mesh, _ in moved], [matrix for _, matrix in moved]
+    placed = iter(core.placed_bounds(meshes, matrices, threads))
+    return [body.file.mesh.bounds if body.transform is None else next(placed) for body in bodies]

@@ -1,0 +1,312 @@
+"""The message of a finding, and that of a report: PASS, FAIL, INCOMPLETE or ERROR, and why. Every
+format prints these, and none composes its own.
+
+The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from satcheck.audit.words import (
+    after_rounding,
+    bounds,
+    counted,
+    in_motion,
+    interval,
+    is_hit,
+    joint_values,
+    limits,
+    number,
+    past_holes,
+    severity,
+    vector,
+    with_titles,
+    with_unit,
+    worst_first,
+)
+from satcheck.report.report import INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
+from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.report.report import BodyAnswer, Finding, Issue, Report
+    from satcheck.report.statics import Statics
+
+# Failing pairs that are named, the worst first.
+NAMED = 3
+_OVERLAP = {
+    "penetrating": "{} and {} overlap",
+    "contains": "{} contains {}",
+    "inside": "{} is inside {}",
+    "coincident": "{} and {} coincide",
+}
+
+
+def with_messages(report: Report) -> Report:
+    """Return the report with its message and those of its findings. They name bodies as a person
+    knows them."""
+    shown = with_titles(report)
+    findings = tuple(
+        replace(finding, message=finding_message(titled, shown))
+        for finding, titled in zip(report.findings, shown.findings, strict=True)
+    )
+    return replace(report, message=verdict_line(shown), findings=findings)
+
+
+def nothing_checked(issues: Iterable[Issue]) -> list[str]:
+    """`No pair was checked: 1 within one link.`, where that is so."""
+    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
+    return [f"{text[0].upper()}{text[1:]}." for text in said]
+
+
+def verdict_line(report: Report) -> str:
+    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, depth 1 mm).`"""
+    errors, left_open = _errors(report), _left_open(report)
+    unchecked = nothing_checked(report.issues)
+    if report.summary.verdict == "fail":
+        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
+    if report.summary.verdict == "pass" and not errors:
+        return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
+    word = "ERROR" if errors else "INCOMPLETE"
+    if unchecked:
+        return " ".join([f"{word}:", *unchecked, *map(_sentence, errors)])
+    if left_open:
+        left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
+    return f"{word}: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+
+
+def _passed(report: Report) -> str:
+    if not report.summary.pairs.asked and not report.regions:
+        return "no pair to check"
+    warnings = sum(severity(finding) == "warning" for finding in report.findings)
+    said = _no_collision(report)
+    if report.support is not None:
+        said += f", {held(report.support)}"
+        warnings += sum(
+            f.answer == "yes" and f.severity == "warning" for f in report.support.findings
+        )
+    if report.regions:
+        lying = sum(answer.answer == "yes" for answer in report.regions.findings)
+        said += f", {counted(lying, 'body', 'bodies')} inside the region"
+    if accepted := sum(issue.state == "accepted" for issue in report.issues):
+        said += f", {counted(accepted, 'issue')} accepted"
+    return said + (f", {counted(warnings, 'warning')}" if warnings else "")
+
+
+def _no_collision(report: Report) -> str:
+    if report.summary.accepted:
+        return "no new or worse finding"
+    ruled = any(map(_is_ruled, report.findings))
+    none = "no collision beyond what rules allow" if ruled else "no collision"
+    return none if report.summary.verdict == "pass" else f"{none} was found"
+
+
+def _is_ruled(finding: Finding) -> bool:
+    """Of a check that does not fail: whether a rule allows the pair what it has, or may."""
+    if finding.relation in OVERLAPS:
+        return finding.undecided != "relation"
+    return finding.rule is not None and finding.undecided != "limit"
+
+
+def failing(report: Report) -> list[Finding]:
+    fail_on = report.settings.fail_on
+    return worst_first(f for f in report.findings if is_failure(f, fail_on))
+
+
+def _failed(report: Report) -> str:
+    worst = failing(report)
+    said = [_clause(finding, report) for finding in worst[:NAMED]]
+    if more := len(worst) - len(said):
+        said.append(f"and {counted(more, 'more pair')}")
+    if report.answers:
+        said += _unmet(report)
+    if worst and all(finding.severity != "error" for finding in worst):
+        said.append(f"failed by --fail-on {report.settings.fail_on}")
+    return "; ".join(said)
+
+
+def _unmet(report: Report) -> list[str]:
+    """Return a message about each of the first failing bodies."""
+    said: dict[str, str] = {}
+    for answer in report.answers:
+        if is_unmet(answer, report.settings.fail_on):
+            said.setdefault(answer.body, answer_message(answer))
+    failed, more = list(said.values()), len(said) - NAMED
+    rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
+    return failed[:NAMED] + rest
+
+
+def answer_message(answer: BodyAnswer) -> str:
+    """Return `top is not stable: no contact forces hold it`."""
+    if answer.answer == "open":
+        return f"whether {answer.body} is {answer.question} is open: {answer.reason}"
+    is_not = "is not" if answer.answer == "no" else "is"
+    return f"{answer.body} {is_not} {answer.question}: {answer.reason}"
+
+
+def finding_message(finding: Finding, report: Report) -> str:
+    """Return `box and lid overlap (thickness 0.5 mm, depth 1 mm); moving box by (-1, 0, 0) ends the
+    overlap.`"""
+    text, swept = _clause(finding, report), finding.motion
+    if swept and not _hits_only(finding) and swept.relation not in ("separated", finding.at_rest):
+        text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
+    if finding.mtv is not None and finding.mtv_verified:
+        way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
+        text += f"; moving {finding.a} by {way} ends the overlap"
+    if finding.baseline_state is not None:
+        text += f" [baseline: {finding.baseline_state}]"
+    if finding.reason is not None:
+        text += f" ({finding.reason})"
+    return f"{text}."
+
+
+def measured(finding: Finding, unit: str | None) -> str:
+    """Return `penetrating, thickness 0.5 mm, depth 1 mm`, for what names the bodies itself."""
+    parts = [finding.relation, *_figures(finding, unit)]
+    if finding.distance is not None:
+        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
+    if moving := in_motion(finding, unit):
+        parts.append(f"while moving: {moving}")
+    return ", ".join(parts)
+
+
+def kind_of(finding: Finding) -> str:
+    if finding.undecided is not None:
+        return "undecided"
+    if _hits_only(finding):
+        return "motion"
+    if finding.relation in OVERLAPS:
+        return "overlap"
+    return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
+
+
+def _clause(finding: Finding, report: Report) -> str:
+    """Return `fence and palm are 40 mm apart (clearance 45 mm)`."""
+    unit, pair = unit_of(report.units), f"{finding.a} and {finding.b}"
+    if _hits_only(finding):
+        joints = finding.motion and finding.motion.joints
+        where = f" ({joint_values(joints)})" if joints else ""
+        return f"{pair}, while they move: {in_motion(finding, unit)}{where}"
+    figures = limits(finding, report)
+    if finding.at_rest in OVERLAPS:
+        figures = [*_figures(finding, unit), *figures]
+        said = _overlap(finding, report)
+    else:
+        said = f"{pair} {_apart(finding, unit)}"
+    return f"{said} ({', '.join(figures)})" if figures else said
+
+
+def _hits_only(finding: Finding) -> bool:
+    """Return whether the bodies hit on their way, and do not overlap as they are placed."""
+    return is_hit(finding) and finding.at_rest not in OVERLAPS
+
+
+def _overlap(finding: Finding, report: Report) -> str:
+    if finding.quality != "estimate":
+        return _OVERLAP[finding.at_rest].format(finding.a, finding.b)
+    settings = report.settings
+    is_sure = settings.accuracy == "exact" and not settings.allow_open
+    return f"{finding.a} and {finding.b} {'' if is_sure else 'possibly '}overlap"
+
+
+def _figures(finding: Finding, unit: str | None) -> list[str]:
+    known = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    said = [
+        f"{name} {with_unit(interval(proven, bounded='at most '), unit)}"
+        for name, proven in known.items()
+        if proven is not None
+    ]
+    if finding.volume is not None:
+        said.append(f"volume {with_unit(number(finding.volume), unit and f'{unit}^3')}")
+    return said
+
+
+def _apart(finding: Finding, unit: str | None) -> str:
+    """The gap, at the worst of the way."""
+    if finding.relation == "indeterminate":
+        return "are undecided"
+    if finding.relation == "touching":
+        return "touch"
+    worst = None if finding.motion is None else finding.motion.worst
+    if worst is not None and worst.distance is not None:
+        return f"come as close as {with_unit(bounds(*worst.distance), unit)}"
+    if finding.distance is None:
+        return "are apart" if finding.relation == "separated" else "are too close"
+    between = finding.distance_bounds
+    gap = number(finding.distance) if between is None else bounds(*between)
+    return f"are {with_unit(gap, unit)} apart"
+
+
+def _left_open(report: Report) -> list[str]:
+    """`1 pair is indeterminate`: what was asked and could not be decided."""
+    summary, said = report.summary, []
+    undecided = sum(f.undecided == "relation" for f in report.findings)
+    undecided += unlisted_indeterminate(summary.pairs, report.findings)
+    if undecided:
+        said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))
+    if swept := sum(past_holes(finding) for finding in report.findings):
+        holes = "past holes that may be filled"
+        said.append(_of_pairs(swept, f"moves {holes}", f"move {holes}"))
+    unsure = Counter(f.relation in OVERLAPS for f in report.findings if f.undecided == "limit")
+    for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
+        if count := unsure[overlap]:
+            may = f"may {what.format('its' if count == 1 else 'their')}"
+            said.append(_of_pairs(count, may, may))
+    if moving := summary.sweeps_undecided:
+        said.append(_of_pairs(moving, "may hit while moving", "may hit while moving"))
+    if blocking := [issue for issue in report.issues if issue.state == "blocking"]:
+        blocks = "blocks" if len(blocking) == 1 else "block"
+        said.append(f"{counted(len(blocking), 'issue')} {blocks} a pass")
+    if disputed := summary.disputed:
+        said.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
+    if report.answers:
+        said += _undecided_bodies(report)
+    return said
+
+
+def _undecided_bodies(report: Report) -> list[str]:
+    """`the support of 2 bodies is open`."""
+    held = report.support.findings if report.support else ()
+    lying = report.regions.findings if report.regions else ()
+    counts = {
+        "the support of {} is open": len({f.body for f in held if f.answer == "open"}),
+        "the region of {} is open": len({f.body for f in lying if f.answer == "open"}),
+    }
+    return [said.format(counted(n, "body", "bodies")) for said, n in counts.items() if n]
+
+
+def held(statics: Statics) -> str:
+    """`contact forces exist that hold 3 bodies`: of those that are asked about, and free; and how
+    many have none, which a severity makes no failure."""
+    free = {body.id for body in statics.bodies if body.fixed is None}
+    yes = {f.body for f in statics.findings if f.answer == "yes"} & free
+    no = {f.body for f in statics.findings if f.answer == "no"}
+    said = f"contact forces exist that hold {counted(len(yes - no), 'body', 'bodies')}"
+    if not no:
+        return said
+    missing = f"not supported: {counted(len(no), 'body', 'bodies')}"
+    return f"{said}, {missing}" if yes - no else missing
+
+
+def _of_pairs(count: int, singular: str, plural: str) -> str:
+    return f"{counted(count, 'pair')} {singular if count == 1 else plural}"
+
+
+def _errors(report: Report) -> list[str]:
+    errors = [issue.code for issue in report.issues if issue.severity == "error"]
+    faults = errors.count(INTERNAL_ERROR)
+    said = []
+    if inputs := len(errors) - faults:
+        said.append(f"{counted(inputs, 'input')} could not be used")
+    if faults:
+        said.append(f"{counted(faults, 'pair')} failed by an internal error")
+    return said
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."

@@ -1,0 +1,140 @@
+"""A pair of bodies and its request: what to compute, how far to climb the ladder, which tools."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+
+from satcheck.audit.body import PlacedBody, diagonal, largest_coordinate
+from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
+from satcheck.core.conventions import axes_of
+from satcheck.core.steps import step_in_words
+from satcheck.report.request import Request
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import Peers
+    from satcheck.report.sweep import Sweep
+    from satcheck.scene.motion import Path
+
+
+# The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
+# of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
+TOUCH_FRACTION = 1e-3
+
+_RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
+
+
+class Paths(Struct, frozen=True):
+    """The motions of the two bodies; None: at rest. At least one moves. clear: they may not touch
+    on the way, unless they touch as placed. known: the result, where joints move the bodies."""
+
+    a: Path | None = None
+    b: Path | None = None
+    clear: bool = False
+    known: Sweep | None = None
+
+
+class Pair(Struct, eq=False):
+    """tolerance: half width of the touch band, world units. gap_limit: a larger gap needs no
+    figure, because it is neither near nor in the touch band.
+
+    By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
+    that coarse coordinates far from the origin do not hide a whole body. It is at least the
+    deviation of polygons from the curves that they replace. off: how far the surfaces of A and B
+    may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
+    with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
+    within them; else 0.0. paths: the relative motion of the bodies; None: they do not move.
+    alone: no other pair needs these bodies.
+    """
+
+    a: PlacedBody
+    b: PlacedBody
+    settings: Settings
+    request: Request
+    meter: VolumeMeter | None = None
+    peers: Peers | None = None
+    paths: Paths | None = None
+    alone: bool = False
+    tolerance: float = 0.0  # __post_init__ sets these four
+    gap_limit: float = 0.0
+    off: tuple[float, float] = (0.0, 0.0)
+    closer: float = 0.0
+
+    def __post_init__(self) -> None:
+        asked = self.request.tolerance
+        self.tolerance = tolerance = self._resolution() if asked is None else asked
+        own_a, own_b = self.a.surface_tolerance, self.b.surface_tolerance
+        self.off = max(0.5 * tolerance, own_a), max(0.5 * tolerance, own_b)
+        if self.settings.planar:
+            self.closer = self.a.body.file.deviation + self.b.body.file.deviation
+        self.gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
+
+    def _resolution(self) -> float:
+        plane = self.settings.planar
+        if plane is None:
+            size = min(self.a.diagonal, self.b.diagonal)
+        else:
+            axes = axes_of(plane)
+            size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
+        written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+        return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    @property
+    def excuses(self) -> bool:
+        """Return whether surfaces may be off by more than the touch band."""
+        return max(self.off) > 0.5 * self.tolerance
+
+    @property
+    def wants_distance(self) -> bool:
+        """The size of the gap is needed, not only whether it is within the touch band."""
+        return self.request.wants("distance") or self.closer > self.tolerance
+
+    def may(self, rung: Accuracy) -> bool:
+        """Return whether --accuracy lets this pair climb to the rung."""
+        return _RANK[rung] <= _RANK[self.settings.accuracy]
+
+    @property
+    def largest_coordinate(self) -> float:
+        return largest_coordinate(self.a.bounds, self.b.bounds)
+
+    @property
+    def curved(self) -> bool:
+        """At least one body is a curved shape. Its mesh is only inscribed."""
+        return self.a.curved is not None or self.b.curved is not None
+
+    @property
+    def on_half_space(self) -> bool:
+        """A body is a half space. In a check in a plane it is the prism over its outline."""
+        return self.a.endless or self.b.endless
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles of both bodies, in their files."""
+        return self.a.shared.triangles + self.b.shared.triangles
+
+    @property
+    def both_solid(self) -> bool:
+        return self.a.solid and self.b.solid
+
+    @property
+    def both_convex(self) -> bool:
+        """The convex answer is the whole answer."""
+        return self.a.convex and self.b.convex
+
+    @contextmanager
+    def searching(self, figure: str) -> Iterator[Callable[[float, float, float], None]]:
+        """Show `depth of kettle and snowflake: 0.488 to 0.51, 12 % of the budget`, while it lasts,
+        for whoever waits for a pair that takes long. Gives what a search of the core calls with its
+        interval and the share of its budget that is spent."""
+        with step_in_words() as say:
+
+            def progress(lower: float, upper: float, share: float) -> None:
+                interval = f"{max(lower, 0.0):.3g} to {max(upper, 0.0):.3g}"
+                spent = f"{100 * share:.0f} % of the budget"
+                say(f"{figure} of {self.a.id} and {self.b.id}: {interval}, {spent}")
+
+            yield progress

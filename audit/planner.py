@@ -1,0 +1,190 @@
+"""The planner makes the `Request` of each pair from the flags of a check and the rules of its
+scene, and keeps the pairs that are close enough to matter.
+
+It alone decides which stages run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from msgspec.structs import replace
+
+from satcheck import core
+from satcheck.audit.bodies import PlacedBodies
+from satcheck.audit.settings import Settings
+from satcheck.core.conventions import Bounds
+from satcheck.report.judge import EXACT_WIDTH
+from satcheck.report.report import Effect, RuleReport
+from satcheck.report.request import Request, request_of
+from satcheck.report.rule_book import RuleBook, Terms
+from satcheck.report.settings import StatedSettings
+
+# The key of a rule that requests an effect.
+KEY_OF_EFFECT: dict[Effect, str] = {
+    "depth": "max_depth",
+    "thickness": "max_thickness",
+    "distance": "clearance",
+    "volume": "max_volume",
+}
+ALWAYS = "always"
+MOTIONS = "the motions of the scene"
+FOR_MESHES = "by default, for mesh files alone"
+
+
+class Planner:
+    """Makes the requests for all pairs of a scene.
+
+    composed: a scene file places the bodies. Depth is then not computed by default: a scene has
+    many pairs, and its rules can request the depth of some. moving: some bodies move.
+    """
+
+    def __init__(
+        self, settings: Settings, book: RuleBook, composed: bool = False, moving: bool = False
+    ) -> None:
+        self.settings = settings
+        self.moving = moving
+        self._book = book
+        self._composed = composed
+        self._by_flags = request_for(settings, composed=composed)
+        self._requests: dict[tuple[int, ...], Request] = {}
+
+    def request(self, i: int, j: int) -> Request:
+        key = self._book.key(i, j)
+        if key not in self._requests:
+            terms = self._book.terms(i, j)
+            self._requests[key] = request_for(self.settings, terms, composed=self._composed)
+        return self._requests[key]
+
+    def requested_by(self, effect: Effect) -> tuple[str, ...]:
+        """The flag and the rules that request the effect; empty: none does."""
+        if effect == "sweep":
+            return (MOTIONS,) if self.moving else ()
+        flag = self._by_flags.by.get(effect)
+        key = KEY_OF_EFFECT.get(effect)
+        rules = (rule.name for rule in self._book.rules if key and _requests_effect(rule, key))
+        return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
+
+    def stated(self) -> StatedSettings:
+        """The settings, and whether the depth and the thickness of every overlap are computed."""
+        request = self._by_flags
+        return self.settings.stated(
+            depth=request.wants("depth"), thickness=request.wants("thickness")
+        )
+
+    @property
+    def lengths_differ(self) -> bool:
+        """Whether rules give some pairs a clearance or a tolerance of their own."""
+        return self._book.sets("clearance") or self._book.sets("tolerance")
+
+    def gap_limit(self, i: int, j: int, resolution: float) -> float:
+        """A larger gap of this pair needs no figure. resolution: the sum of both bodies."""
+        request = self.request(i, j)
+        band = resolution if request.tolerance is None else request.tolerance
+        of_curves = 0.0 if self.settings.planar is None else resolution
+        return max(band, (request.clearance or 0.0) + of_curves)
+
+    def reach(self, resolutions: Mapping[int, float]) -> list[float]:
+        """A length for each of these bodies. The sum of two lengths is at least the gap limit of
+        the pair."""
+        settings = self.settings
+        # In a plane, curves may be closer than their polygons by the resolution.
+        flat = settings.planar is not None
+        own = [self._book.longest(key) for key in ("clearance", "tolerance")]
+        clearance = settings.clearance or 0.0
+        return [
+            max(
+                resolution if settings.tolerance is None else 0.5 * settings.tolerance,
+                0.5 * max(clearance, *(lengths[body] for lengths in own))
+                + (resolution * (1 + EXACT_WIDTH) if flat else 0.0),
+            )
+            for body, resolution in resolutions.items()
+        ]
+
+
+def request_for(
+    settings: Settings, terms: Terms | None = None, *, composed: bool = False
+) -> Request:
+    """Return the request that follows from flags and rules, with who requests each effect."""
+    across = None if settings.planar is None else settings.across
+    request = request_of(terms or {}, settings.clearance, settings.tolerance, across)
+
+    def figure(setting: bool | None, limit: str) -> str | None:
+        """Return who requests the depth or the thickness. limit: the key of rules for it."""
+        by_default = None if composed or setting is False else FOR_MESHES
+        return "--depth" if setting else request.rule(limit) or by_default
+
+    thick = figure(
+        settings.depth if settings.thickness is None else settings.thickness, "max_thickness"
+    )
+    if thick is None and settings.surface_tolerance is not None and settings.thickness is not False:
+        thick = "--surface-tolerance"
+    by: dict[Effect, str | None] = {
+        "overlap": ALWAYS,
+        "depth": figure(settings.depth, "max_depth"),
+        "thickness": thick,
+        "distance": None
+        if request.clearance is None
+        else request.rule("clearance") or "--clearance",
+        "volume": "--volume" if settings.volume else request.rule("max_volume"),
+        "contacts": "--contacts" if settings.contacts else None,
+        "components": "--components" if settings.components else None,
+        "cross-check": "--cross-check" if settings.cross_check else None,
+        "certificate": "--certificate" if settings.certificate else None,
+    }
+    return replace(request, by={effect: who for effect, who in by.items() if who})
+
+
+def _requests_effect(rule: RuleReport, key: str) -> bool:
+    """Whether the rule requests the effect of the key. A clearance of 0 requests nothing; a limit
+    of 0 does."""
+    value = getattr(rule, key)
+    return bool(value) if key == "clearance" else value is not None
+
+
+IndexPair = tuple[int, int]
+
+
+def close_pairs(
+    bodies: PlacedBodies, planner: Planner, swept: Callable[[str, Bounds], Bounds] | None = None
+) -> list[IndexPair]:
+    """Pairs of placed bodies to check, sorted, whose boxes are close enough to matter.
+
+    swept: the world box of a body over its whole motion, from its id and its box as placed.
+    """
+    index, book = tuple(bodies.placed), bodies.book
+    place = {body: k for k, body in enumerate(index)}
+    boxes = {k: body.bounds for k, body in bodies.placed.items()}
+    if swept is not None:
+        boxes = {k: swept(bodies.ids[k], box) for k, box in boxes.items()}
+    close = core.close_pairs(
+        list(boxes.values()),
+        planner.reach({k: body.resolution for k, body in bodies.placed.items()}),
+        [book.kind_of[i] for i in index],
+        book.exempt_kinds(),
+        [(place[i], place[j]) for i, j in book.exempt_named() if i in place and j in place],
+    )
+    pairs = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
+    if len(set(bodies.units.values())) > 1:
+        pairs = [pair for pair in pairs if bodies.is_comparable(*pair)]
+    if endless := {(i, j) for i, j, _ in bodies.endless_pairs()}:
+        pairs = [pair for pair in pairs if pair not in endless]
+    if not book.rules:
+        return pairs
+    requested = [pair for pair in pairs if book.is_checked(*pair)]
+    return (
+        _within_own_gaps(bodies, boxes, planner, requested) if planner.lengths_differ else requested
+    )
+
+
+def _within_own_gaps(
+    bodies: PlacedBodies, boxes: Mapping[int, Bounds], planner: Planner, pairs: list[IndexPair]
+) -> list[IndexPair]:
+    """Drops pairs beyond their own gap. The broad phase used the largest gap of each body."""
+    placed = bodies.placed
+    return [
+        (i, j)
+        for i, j in pairs
+        if core.box_gap(boxes[i], boxes[j])
+        <= planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
+    ]

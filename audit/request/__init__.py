@@ -1,1 +1,0 @@
-"""The request of each pair, from flags and rules, and the trace of its steps."""

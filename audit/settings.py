@@ -1,0 +1,157 @@
+"""The settings of a check. Most can change an answer; a few cannot."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from functools import cache, lru_cache
+from typing import Any, get_args, get_type_hints
+
+from msgspec import ValidationError, convert
+
+from satcheck.core.conventions import LARGEST_LENGTH, axis_across
+from satcheck.core.errors import SatcheckError
+from satcheck.report.settings import MOST_BUDGET as MOST_BUDGET
+from satcheck.report.settings import Accuracy as Accuracy
+from satcheck.report.settings import FailOn as FailOn
+from satcheck.report.settings import Method as Method
+from satcheck.report.settings import StatedSettings
+from satcheck.report.values import Count, Length, Size
+from satcheck.scene import Scene
+from satcheck.scene.units import Length as GivenLength
+from satcheck.scene.units import unit_of
+
+ACCURACIES: tuple[Accuracy, ...] = get_args(Accuracy)
+METHODS: tuple[Method, ...] = get_args(Method)
+FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
+
+# Steps of a search in such a second. A slow machine of today reaches this number. Steps are counted
+# instead of time, so that the same input gives the same answer.
+WORK_PER_SECOND = 400_000_000
+# The share of the depth budget that a search of the thickness may use.
+THICKNESS_SHARE = 0.5
+# Up to this many pairs, a report lists all pairs, including those that the broad phase settled, and
+# a table has a row for each.
+LISTED_PAIRS = 60
+# The most findings about pairs whose bodies cannot be used or compared: a mesh that cannot be read
+# may have a thousand bodies, and each of them a pair with every other body of the scene.
+LISTED_UNDECIDABLE = 10_000
+
+
+class Settings(StatedSettings, frozen=True, kw_only=True):
+    """What is asked. `StatedSettings` has what can change an answer; the rest changes none.
+
+    certificate: Add evidence to a JSON report, for satcheck verify.
+    jobs: Threads; 0 is one per core. Changes no answer.
+
+    cross_check_*: limits for one question to another library. jobs: over pairs, or within the only
+    pair.
+    """
+
+    tolerance: Length | None = None
+    cross_check_seconds: Size = 30.0
+    cross_check_megabytes: Count = 4096
+    certificate: bool = False
+    jobs: Count = 0
+    cache: bool = True
+    cache_directory: str | None = None
+    timings: bool = True
+
+    def __post_init__(self) -> None:
+        for name, kind in _kinds().items():
+            value = getattr(self, name)
+            plain = value.item() if hasattr(value, "item") else value  # a numpy scalar
+            try:
+                convert(plain, kind)
+            except ValidationError as error:
+                raise _refused(f"{name}: {str(error).removesuffix('.')}, not {value!r}") from None
+        for name in ("contacts", "components", "volume", "cross_check"):
+            if not getattr(self, name):
+                continue
+            if self.accuracy != "exact" and name != "cross_check":
+                raise _refused(f"{name} needs triangles: not at accuracy {self.accuracy}")
+            if self.planar is not None:
+                raise _refused(f"{name} needs bodies in space: not with planar")
+        for name in ("clearance", "tolerance", "surface_tolerance"):
+            value = getattr(self, name)
+            if value is not None and not math.isfinite(value):
+                raise _refused(f"{name} must be a finite length, not {value!r}")
+            if value is not None and value > LARGEST_LENGTH:
+                message = f"{name} must be at most {LARGEST_LENGTH:g}, not {value!r}"
+                raise SatcheckError("out-of-range", message)
+
+    @property
+    def work(self) -> int:
+        """The most steps of one search of a depth."""
+        return math.ceil(self.depth_budget * WORK_PER_SECOND)
+
+    @property
+    def thickness_work(self) -> int:
+        """The most steps of one search of a thickness."""
+        return math.ceil(THICKNESS_SHARE * self.work)
+
+    @property
+    def across(self) -> int:
+        """The axis perpendicular to the plane of the check; -1: the check is in space."""
+        return -1 if self.planar is None else axis_across(self.planar)
+
+    def stated(self, *, depth: bool, thickness: bool) -> StatedSettings:
+        """Return the settings that can change an answer. depth, thickness: whether they are
+        computed for every overlap."""
+        values = {name: getattr(self, name) for name in StatedSettings.__struct_fields__}
+        if self.tolerance is None:
+            values["tolerance"] = "input-precision"
+        return StatedSettings(**values | {"depth": depth, "thickness": thickness})
+
+
+def require_settings(value: object) -> None:
+    """Raises SatcheckError if the value is not a Settings, for example a dict."""
+    if not isinstance(value, Settings):
+        raise _refused(f"settings should be a satcheck.Settings, not {value!r}")
+
+
+def documentation(name: str) -> str:
+    """Return what the documentation of the settings says of a field, as the help of its option."""
+    text = f"{StatedSettings.__doc__}\n{Settings.__doc__}"
+    found = re.search(rf"^    {name}: (.*?\.)\n(?=    \w+: |\n)", text, re.MULTILINE | re.DOTALL)
+    return " ".join(found[1].split()) if found else ""
+
+
+@cache
+def _kinds() -> dict[str, Any]:
+    """The type of each setting, with its limits."""
+    return get_type_hints(Settings, include_extras=True)
+
+
+def _refused(message: str) -> SatcheckError:
+    return SatcheckError("bad-setting", message)
+
+
+# The scenes of a batch have the same settings.
+_settings = lru_cache(maxsize=8, typed=True)(Settings)
+
+
+def settings_in_units(
+    values: Mapping[str, Any], scene: Scene, names: Mapping[str, str]
+) -> Settings:
+    """values: of the fields of Settings by name; a Length is converted to the units of the scene.
+    A body alone has no pair that a length could be about: its units do not matter. names: what a
+    message calls these values.
+
+    Raises ValueError if the units of the scene are unknown, and what Settings raises.
+    """
+    lengths = {name: value for name, value in values.items() if isinstance(value, GivenLength)}
+    plain = {name: value for name, value in values.items() if name not in lengths}
+    if len(scene.bodies) + len(scene.unreadable) > 1 or unit_of(scene.units):
+        for name, value in lengths.items():
+            plain[name] = length_in_units(value, scene.units, names[name])
+    return _settings(**plain)
+
+
+def length_in_units(value: GivenLength, declared: str | None, name: str) -> float:
+    """The length in the declared units of a scene; ValueError if they are unknown."""
+    try:
+        return value.in_units_of(declared)
+    except ValueError as error:
+        raise ValueError(f"{name} {error}, or state the unit with --units") from None

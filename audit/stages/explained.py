@@ -1,0 +1,199 @@
+"""Whether surfaces that may be off by a little explain an overlap of closed bodies.
+
+The surface of each body X may be off by e_X: by half of the touch band, or by its surface tolerance
+where that is more. An overlap is real where a point lies deeper than e_A in A and deeper than e_B
+in B. The core looks for such a point, or proves that there is none: at once if the bodies are free
+of each other when each is made smaller by what it may be off, or by the planes of their faces, else
+by a search. Nothing is explained where one body passes through the other: enters it in one place
+and leaves it in another. Where no vertex has to move farther than e_X until the bodies are free,
+neither does; nor where their faces fit and both bodies are thicker than the band there. Slivers
+between such faces may look like it.
+
+A surface tolerance also explains nothing where all of a body is as thin as that, and where a thin
+part of a body, as a fin or a wire, reaches deep into the other one: no point of it is deep in its
+own body. The touch band has no such exceptions: nothing thicker than the tolerance lies in both.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from satcheck import core
+from satcheck.audit.draft import Draft
+from satcheck.audit.stages.thickness import across, why_not_thick
+from satcheck.report.judge import EXACT_WIDTH
+
+if TYPE_CHECKING:
+    from satcheck.audit.body import PlacedBody
+    from satcheck.audit.pair import Pair
+
+STAGE = "touch-band"
+# Pairs of triangles that meet, at most, where it is asked whether a body passes through another.
+MOST_CROSSINGS = 100_000
+# A thin part of a body reaches deeper into the other one than this, times e_A + e_B. The edge of a
+# wedge of angle w that is nowhere deeper than e reaches e (1 + 1 / sin(w / 2)) deep: no more than
+# that, with e_A = e_B = e, if w is 17 degrees or more.
+MOST_REACH = 4.0
+THROUGH = "one body passes through the other"
+# Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
+FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
+
+
+Explained = Literal["within", "deeper", "not excused", "undecided"]
+
+
+def may_be_explained(pair: Pair) -> bool:
+    return max(pair.off) > 0 and why_not_thick(pair) is None
+
+
+def explain(draft: Draft, nanoseconds: int = 0) -> tuple[Explained, str]:
+    """Of an overlap of closed bodies, with the open question if it is undecided, and why it is not
+    excused. nanoseconds: what was spent before."""
+    pair = draft.pair
+    result, detail = _decided(pair)
+    off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
+    told = f"{detail} is open" if result == "undecided" else detail
+    joint = " " if result in ("within", "deeper") else "; the surfaces are off by "
+    draft.record(STAGE, result, f"{told}{joint}{off}", nanoseconds)
+    return result, detail
+
+
+def _decided(pair: Pair) -> tuple[Explained, str]:
+    """The result, and what is said of it: "within" and "deeper" are followed by the lengths."""
+    if not pair.excuses:
+        return _decided_by_band(pair)
+    result, detail = _decided_by_surfaces(pair)
+    if result in ("not excused", "undecided") and pair.tolerance > 0:
+        by_band = _decided_by_band(pair)
+        if by_band[0] == "within":
+            return by_band
+    return result, detail
+
+
+def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
+    """Decide whether a ball thicker than the tolerance lies in both."""
+    half = 0.5 * pair.tolerance
+    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
+        return "within", "no point lies deeper than"
+    fit = _fit_of_convex(pair) or _fit(pair)
+    if fit == "deeper":
+        return "deeper", "a point lies deeper than"
+    if fit == "fit":
+        return "within", "no point lies deeper than"
+    through = passes(pair)
+    if through:
+        return "not excused", THROUGH
+    if fit is None:
+        interval = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False)
+        if interval.lower > pair.tolerance:
+            return "deeper", "a point lies deeper than"
+        if interval.upper > pair.tolerance:
+            return "undecided", "whether a point lies deeper in both than the surfaces may be off"
+    if through is None:
+        return "undecided", "whether one body passes through the other"
+    return "within", "no point lies deeper than"
+
+
+def _fit_of_convex(pair: Pair) -> Literal["deeper", "thin"] | None:
+    """Return how two convex bodies fit at the tolerance; None: not decided."""
+    if not pair.both_convex or pair.on_half_space or pair.settings.across >= 0:
+        return None
+    from satcheck.audit.stages.convex_ball import holds_thicker_ball
+
+    thicker = holds_thicker_ball(pair.a.hull(), pair.b.hull(), pair.tolerance)
+    return None if thicker is None else "deeper" if thicker else "thin"
+
+
+def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
+    """Return how the faces of the bodies fit at the tolerance; None: they do not decide it."""
+    if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
+        return None
+    work = min(pair.settings.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+    return core.fit_by_faces(pair.a.surface(), pair.b.surface(), pair.tolerance, work)
+
+
+def passes(pair: Pair) -> bool | None:
+    """Return whether one body passes through the other; None: not decided."""
+    return core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
+
+
+def _decided_by_surfaces(pair: Pair) -> tuple[Explained, str]:
+    for length, body in surfaces(pair):
+        if not ball_in(pair, body, length).lower > 0:
+            return "not excused", f"{body.id} is not known to be thicker than its tolerance"
+    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), *pair.off):
+        return "within", "no point lies deeper than"
+    through = passes(pair)
+    if through:
+        return "not excused", THROUGH
+    limit = limit_of(pair)
+    interval = deeper(pair, prove=False)
+    if interval.lower > limit:
+        return "deeper", "a point lies deeper than"
+    if interval.upper > limit:
+        return "undecided", "whether a point lies deeper in both than the surfaces may be off"
+    reach = reaching(pair)
+    if through is None and (reach is None or reach[0] == "undecided"):
+        return "undecided", "whether one body passes through the other"
+    return reach or ("within", "no point lies deeper than")
+
+
+def reaching(pair: Pair) -> tuple[Explained, str] | None:
+    """Whether a thin part of one body lies deeper in the other than what is off explains; None: no
+    part does."""
+    most, limit = MOST_REACH * sum(pair.off), limit_of(pair)
+    for off, body, other in (((0.0, most), pair.a, pair.b), ((most, 0.0), pair.b, pair.a)):
+        interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
+        reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit
+        if reaches is None and pair.settings.across < 0:
+            work = pair.settings.thickness_work
+            reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
+        if reaches:
+            return "not excused", f"a thin part of {body.id} reaches more than {most:.3g} deep"
+        if reaches is None:
+            return "undecided", f"whether a thin part of {body.id} reaches {most:.3g} deep"
+    return None
+
+
+def surfaces(pair: Pair) -> list[tuple[float, PlacedBody]]:
+    return list(zip(pair.off, (pair.a, pair.b), strict=True))
+
+
+def ball_in(pair: Pair, body: PlacedBody, off: float) -> core.ThicknessInterval:
+    """Over 0: of a body that is thicker than its surface may be off."""
+    return _search(pair, body, body, (off, off), 0.0, prove=False)
+
+
+def limit_of(pair: Pair) -> float:
+    """The band ends exactly, a surface tolerance to rounding."""
+    return EXACT_WIDTH * max(pair.off) if pair.excuses else 0.0
+
+
+def deeper(pair: Pair, *, prove: bool) -> core.ThicknessInterval:
+    """By how much a point lies deeper in both than their surfaces may be off, twice. prove: with
+    what shows the upper end."""
+    return _search(pair, pair.a, pair.b, pair.off, limit_of(pair), prove=prove)
+
+
+def _search(
+    pair: Pair,
+    a: PlacedBody,
+    b: PlacedBody,
+    off: tuple[float, float],
+    limit: float,
+    *,
+    prove: bool,
+) -> core.ThicknessInterval:
+    with pair.searching("thickness beyond the surface tolerances") as progress:
+        return core.search_thickness(
+            a.surface(),
+            b.surface(),
+            width=0.0,
+            work=pair.settings.thickness_work,
+            less_a=off[0],
+            less_b=off[1],
+            limit=limit,
+            across=across(pair, prove=prove),
+            prove=prove,
+            progress=progress,
+        )

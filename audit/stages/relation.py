@@ -1,0 +1,185 @@
+"""The stage `relation`: the ladder. Each rung settles the pairs that it can decide and leaves the
+others to the next rung.
+
+aabb -> obb -> hull -> triangles, or hull -> parts at --accuracy parts. The climb ends at a rung
+that proves a gap beyond `gap_limit`. The highest allowed rung always answers. An answer that it
+cannot prove is an estimate, and can only err towards "penetrating".
+
+The core climbs and derives the verdict (`core/native/ladder/verdict.hpp`). This module asks it, for
+one pair or for many, and calls the rungs that it does not have: half spaces, curved shapes, convex
+parts and outlines in a plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Literal
+
+from satcheck import core
+from satcheck.report.report import OVERLAPS, Stage
+from satcheck.scene.inspect import MOST_AROUND
+
+if TYPE_CHECKING:
+    from satcheck.audit.body import PlacedBody
+    from satcheck.audit.draft import Draft
+    from satcheck.audit.pair import Pair
+    from satcheck.audit.settings import Accuracy
+    from satcheck.core.conventions import Vector
+    from satcheck.report.report import Effect
+
+    Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, float, float, bool]
+    Rung = Literal["aabb", "obb", "hull", "triangles"]
+
+# The last rung that the core climbs for each --accuracy. The core has no parts.
+LAST: dict[Accuracy, Rung] = {
+    "aabb": "aabb",
+    "obb": "obb",
+    "hull": "hull",
+    "parts": "hull",
+    "exact": "triangles",
+}
+# Effects that are computed after the ladder for every verdict.
+_EXTRAS: frozenset[Effect] = frozenset(
+    ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
+)
+
+
+def settle(draft: Draft, climb: core.Climb | None = None) -> None:
+    """Find how the bodies relate, by the lowest rung that settles it. climb: of the pair, if the
+    core has made it already."""
+    pair = draft.pair
+    climb = _climb(pair) if climb is None else climb
+    beyond = climb.settled and climb.relation == "separated" and climb.gap_lower > pair.gap_limit
+    if pair.on_half_space and pair.may("hull") and not beyond:
+        from satcheck.audit.stages.half_space import settle_half_space
+
+        settle_half_space(draft, lambda: _by_rungs(draft, climb))
+    else:
+        _by_rungs(draft, climb)
+    if pair.settings.planar is not None:
+        from satcheck.audit.stages.in_plane import refine_nesting
+
+        refine_nesting(draft, pair.settings.planar)
+
+
+def apart_by_boxes(draft: Draft) -> bool:
+    """Return whether the world boxes alone show a gap beyond `gap_limit`."""
+    climb = _climb(draft.pair, "aabb")
+    draft.stages += climb.stages(Stage)
+    _take(draft, climb)
+    return climb.settled
+
+
+def _by_rungs(draft: Draft, climb: core.Climb) -> None:
+    pair = draft.pair
+    draft.stages += climb.stages(Stage)
+    if climb.settled or not pair.may("hull"):
+        _take(draft, climb)
+    elif pair.curved:
+        from satcheck.audit.stages.curved import settle_curved
+
+        settle_curved(draft)
+    elif pair.may("parts"):
+        from satcheck.audit.stages.parts import settle_by_parts
+
+        settle_by_parts(draft)
+    else:
+        _take(draft, climb)
+
+
+def _take(draft: Draft, climb: core.Climb) -> None:
+    """Take the answer of the core."""
+    weak = None if climb.hole is None else _open(draft.pair, climb.hole)
+    draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
+    draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
+
+
+def _open(pair: Pair, hole: core.OpenHole) -> str:
+    body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
+    at = ", ".join(f"{c:.4g}" for c in hole.centre)
+    which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
+    where = f"in a box {hole.diameter:.3g} from corner to corner at ({at})"
+    return f"{which} of {body.id}, {where}, meets {other.id}: its fill decides the relation"
+
+
+def _climb(pair: Pair, last: Rung | None = None) -> core.Climb:
+    """Climb with one pair as far as the settings allow. Raises what making its bodies raises."""
+    last = "aabb" if pair.curved else last or LAST[pair.settings.accuracy]
+    return core.climb(_question(pair), "aabb", last, pair.settings.method)
+
+
+def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
+    """Start the climbs of pairs with the same settings on `threads` threads; 0: one a core. The
+    returned function waits for the results.
+
+    A result is None if the climb failed, or if the pair has other steps; settle() then climbs
+    again.
+    """
+    plain = [k for k, pair in enumerate(pairs) if not pair.curved]
+    last = LAST[pairs[0].settings.accuracy]
+    alone = len(pairs) == 1 and pairs[0].alone
+    climbing = core.Climbing(
+        [_question(pairs[k]) for k in plain], last, threads, alone, pairs[0].settings.method
+    )
+    if len(plain) == len(pairs):
+        return climbing.results
+
+    def results() -> list[core.Climb | None]:
+        climbs = dict(zip(plain, climbing.results(), strict=True))
+        return [climbs.get(k) for k in range(len(pairs))]
+
+    return results
+
+
+def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
+    """Return whether the pair needs computation after the climb."""
+    if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
+        return True
+    if climb.band in ("open", "hidden") or climb.thick is False:
+        return True
+    if not _EXTRAS.isdisjoint(pair.request.by):
+        return True
+    return "depth" in pair.request.by and climb.relation in OVERLAPS
+
+
+def _question(pair: Pair) -> Question:
+    a, b = pair.a.geometry, pair.b.geometry
+    return a, b, pair.gap_limit, pair.tolerance, *pair.off, pair.wants_distance
+
+
+def why_open(draft: Draft) -> str | None:
+    """Return why the relation is undecided; None: it is decided."""
+    if draft.exact == "indeterminate":
+        return draft.weak or "undecided"
+    return _open_pieces_around(draft.pair) if draft.exact in ("separated", "touching") else None
+
+
+def _open_pieces_around(pair: Pair) -> str | None:
+    """Return why one of two bodies that do not meet may still lie in the other; None: neither does.
+
+    Each of the open pieces of a body is a sheet, but together they may be the wall of a solid: a
+    box whose faces miss each other by more than the precision of the file has six open parts. They
+    count as six sheets, but the box may be meant as a solid.
+    """
+    if pair.settings.allow_open:
+        return None
+    for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
+        health = outer.body.file.health
+        in_pieces = not (outer.solid or health.closed or health.flat or outer.curved)
+        if in_pieces and _is_around(outer, _point_of(inner)):
+            return (
+                f"open pieces of {outer.id} surround {inner.id}: close them, or say with "
+                "--allow-open that they are meant to be open"
+            )
+    return None
+
+
+def _point_of(body: PlacedBody) -> Vector:
+    return body.mesh.vertex(0) if body.curved is None else body.curved.centre
+
+
+def _is_around(body: PlacedBody, point: Vector) -> bool:
+    low, high = body.bounds
+    if not all(a <= c <= b for a, c, b in zip(low, point, high, strict=True)):
+        return False
+    return abs(body.surface().sheets_around(point)) > MOST_AROUND

@@ -1,0 +1,266 @@
+"""Words about one thing in a report: a number, a count, a figure, a motion, a limit; and the order
+of findings, the worst first. Numbers have six significant digits; the JSON report has all of
+them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from math import inf
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from satcheck.report.judge import EXACT_WIDTH
+from satcheck.report.report import OVERLAPS, SEVERITIES
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.report.report import BodyReport, Finding, Relation, Report, RuleReport, Severity
+    from satcheck.report.sweep import Joints, Place
+    from satcheck.report.values import Interval
+
+DIGITS = 6
+# Relative. A bound this close to its six digits is shown as these: the last place of a float64
+# computation is not worth a whole unit in the sixth digit.
+ROUNDOFF = 1e-12
+# A lower bound below this share of the upper one is left out: it tells a person nothing.
+NEGLIGIBLE = 1e-3
+# A line names at most so many joints.
+MOST_JOINTS = 8
+_MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
+
+
+def number(value: float) -> str:
+    """Rounded to nearest."""
+    return f"{value + 0.0:.{DIGITS}g}"
+
+
+def bounds(low: float, high: float) -> str:
+    """A proven interval, rounded outward, so that what is shown is still true (to ROUNDOFF)."""
+    shown = (_rounded(low, down=True), _rounded(high, down=False))
+    return shown[0] if shown[0] == shown[1] else " .. ".join(shown)
+
+
+def at_least(value: float) -> str:
+    """A proven lower bound, rounded down (to ROUNDOFF)."""
+    return _rounded(value, down=True)
+
+
+def at_most(value: float) -> str:
+    """A proven upper bound, rounded up (to ROUNDOFF)."""
+    return _rounded(value, down=False)
+
+
+def vector(values: tuple[float, float, float]) -> str:
+    """Rounded relative to the longest component: no 1e-17 beside a 1."""
+    return f"({', '.join(_components(values))})"
+
+
+def after_rounding(values: tuple[float, float, float] | None) -> str:
+    """` after rounding` where `vector` does not show the numbers themselves, else nothing."""
+    if values is None or tuple(map(float, _components(values))) == values:
+        return ""
+    return " after rounding"
+
+
+def _components(values: tuple[float, float, float]) -> list[str]:
+    longest = max(abs(value) for value in values)
+    if longest == 0:
+        return ["0", "0", "0"]
+    places = DIGITS - 1 - math.floor(math.log10(longest))
+    return [number(round(value, places)) for value in values]
+
+
+def duration(microseconds: float) -> str:
+    """Three significant digits, in the unit that suits."""
+    for limit, unit, factor in ((1e3, "us", 1.0), (1e6, "ms", 1e-3)):
+        if microseconds < limit:
+            return f"{microseconds * factor:.3g} {unit}"
+    return f"{microseconds * 1e-6:.3g} s"
+
+
+def _rounded(value: float, *, down: bool) -> str:
+    text = number(value)
+    outward = value - float(text) if down else float(text) - value
+    if outward >= -ROUNDOFF * abs(value):
+        return text
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
+    return number(value - step if down else value + step)
+
+
+def counted(count: int, singular: str, plural: str | None = None) -> str:
+    """`1 pair`, `2 pairs`."""
+    return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
+
+
+def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
+    """A figure with its proven bounds, as one number where they are the same but for rounding;
+    empty when there is none.
+
+    bounded: what goes before a figure that has no lower bound worth showing.
+    """
+    if proven is None:
+        return ""
+    low, high = proven
+    if high - low <= EXACT_WIDTH * high:
+        return number(high)
+    return bounded + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)
+
+
+def is_unusable(body: BodyReport) -> bool:
+    """Whether the body could not be read or placed. An error issue says why."""
+    return body.triangles is None
+
+
+def past_holes(finding: Finding) -> bool:
+    """Whether one body may come to lie in the other on the way, by what fills a hole."""
+    swept = finding.motion
+    return swept is not None and swept.relation != "indeterminate" and swept.reason is not None
+
+
+def is_hit(finding: Finding) -> bool:
+    """On their way."""
+    return finding.motion is not None and finding.motion.relation == "penetrating"
+
+
+def in_motion(finding: Finding, unit: str | None) -> str:
+    """`hits at 60 deg, near (1.5, 2, 0)`, `0.25 mm apart`, `apart`, `touches`,
+    `undecided from t = 0.4`; empty where neither body moves."""
+    swept = finding.motion
+    if swept is None:
+        return ""
+    if swept.relation == "penetrating":
+        verb = "hits" if swept.proven else "possibly hits"
+        on_path = "" if swept.poses is None else between_poses(*swept.poses)
+        near = "" if swept.point is None else f", near {vector(swept.point)}"
+        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}{on_path}{near}"
+    if swept.relation == "indeterminate":
+        return f"undecided from t = {number(swept.reached)}"
+    if swept.relation == "touching":
+        return "touches"
+    distance = swept.worst and swept.worst.distance
+    if distance:
+        return f"{with_unit(bounds(*distance), unit)} apart"
+    least = swept.distance_at_least
+    if least is None or least <= swept.tolerance:
+        return "apart"
+    return f"at least {with_unit(at_least(least), unit)} apart"
+
+
+def between_poses(before: int, after: int) -> str:
+    return f", between poses {before} and {after}"
+
+
+def joint_values(joints: Joints) -> str:
+    """`shoulder = 0.72, elbow = 0`, of the first joints where they are many."""
+    said = [
+        f"{name} = {', '.join(map(number, value)) if isinstance(value, list) else number(value)}"
+        for name, value in joints.items()
+    ]
+    return ", ".join([*said[:MOST_JOINTS], *(["..."] if len(said) > MOST_JOINTS else [])])
+
+
+def place(at: Place, unit: str | None) -> str:
+    """`60 deg`, `2.5 mm of travel`, `t = 0.3`."""
+    value = number(at.value)
+    travelled = f"{with_unit(value, unit)} of travel"
+    return {"degrees": f"{value} deg", "length": travelled, "t": f"t = {value}"}[at.term]
+
+
+def with_unit(figure: str, unit: str | None) -> str:
+    """`2.5 mm`; the figure alone where its unit is unknown."""
+    return f"{figure} {unit}" if unit else figure
+
+
+def rule_of(finding: Finding, report: Report) -> RuleReport | None:
+    """The rule of the scene that decided the severity; None, too, where several have its name, as
+    those of one line do."""
+    named = [rule for rule in report.rules if rule.name == finding.rule]
+    return named[0] if len(named) == 1 else None
+
+
+def limits(finding: Finding, report: Report) -> list[str]:
+    """What the pair is held against: `clearance 5 mm`; of an overlap `max_depth 1 mm`."""
+    unit, rule = unit_of(report.units), rule_of(finding, report)
+    if finding.relation not in OVERLAPS:
+        own = None if rule is None else rule.clearance
+        asked = {"clearance": (report.settings.clearance if own is None else own, "")}
+    elif rule is None:
+        return []
+    else:
+        asked = {
+            "max_depth": (rule.max_depth, ""),
+            "max_thickness": (rule.max_thickness, ""),
+            "max_volume": (rule.max_volume, "^3"),
+        }
+    return [
+        f"{name} {with_unit(number(limit), unit and unit + power)}"
+        for name, (limit, power) in asked.items()
+        if limit is not None
+    ]
+
+
+def with_titles(report: Report) -> Report:
+    """The report with `name (id)` for the id of each node of a file whose name is not its id, for
+    reading only."""
+    shown = {
+        body.id: f"{body.name} ({body.id})"
+        for body in report.bodies
+        if body.path is not None and body.name != body.id
+    }
+    if not shown:
+        return report
+    return replace(
+        report,
+        bodies=tuple(replace(body, id=shown.get(body.id, body.id)) for body in report.bodies),
+        findings=tuple(
+            replace(f, a=shown.get(f.a, f.a), b=shown.get(f.b, f.b)) for f in report.findings
+        ),
+        issues=tuple(replace(i, body=_of(shown, i.body)) for i in report.issues),
+        motions=tuple(
+            replace(motion, bodies=tuple(shown.get(body, body) for body in motion.bodies))
+            for motion in report.motions
+        ),
+    )
+
+
+def _of(shown: Mapping[str, str], body: str | None) -> str | None:
+    return None if body is None else shown.get(body, body)
+
+
+def severity(finding: Finding) -> Severity:
+    """A finding that a baseline holds, unchanged, is a note."""
+    return "note" if finding.baseline_state == "unchanged" else finding.severity
+
+
+def is_listed(finding: Finding) -> bool:
+    """Whether there is something to see."""
+    return finding.severity != "none" or finding.undecided is not None
+
+
+def worst_first(findings: Iterable[Finding]) -> list[Finding]:
+    """By severity, then the thicker overlap, then the deeper one, then the earlier hit."""
+    return sorted(findings, key=rank)
+
+
+def rank(finding: Finding) -> tuple[float, ...]:
+    """The lower the worse."""
+    return (SEVERITIES.index(severity(finding)), *_size(finding))
+
+
+def _size(finding: Finding) -> tuple[int, float, float]:
+    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown."""
+    if finding.at_rest in OVERLAPS:
+        deep = inf if finding.depth is None else finding.depth
+        thick = deep if finding.thickness is None else finding.thickness
+        return (0, -thick, -deep)
+    if is_hit(finding):
+        return (1, _first_time(finding), 0.0)
+    gap = inf if finding.distance is None else finding.distance
+    return (2 + _MILDER.index(finding.at_rest), gap, 0.0)
+
+
+def _first_time(hit: Finding) -> float:
+    impact = hit.motion and hit.motion.time_of_impact
+    return impact[1] if impact else 0.0
