@@ -71,8 +71,8 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     depth = _check_depth(finding, certificate, pair, closer)
     both_ends = depth or (_check_cover(finding, certificate, pair) and mtv)
     rounding = rounding_of(a, b)
-    spans = pair.convex and spanned(finding, rounding, pair)
-    directed = spans or mtv or (not pair.convex and shows_direction(finding, a, b))
+    spans = spanned(finding, rounding, pair)
+    directed = spans or mtv or (shows_direction(finding, a, b) and not pair.convex)
     block = (a.endless or b.endless) and finding.exact_relation != "touching"
     error = None
     if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
