@@ -197,7 +197,7 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: AnyPair) -> b
         return False
     if finding.depth_bounds is None or not isinstance(pair, Pair):
         raise Rejected("a cover, and no depth of meshes")
-    depth_is_at_least(certificate.cover, pair.a, pair.b, Fraction(finding.depth_bounds[0]))
+    depth_is_at_least(certificate.cover, pair.a, pair.b, finding.depth_bounds[0])
     return True
 
 

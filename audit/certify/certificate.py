@@ -31,6 +31,7 @@ from satcheck.report.certificate import (
     Band,
     Cells,
     Certificate,
+    Cover,
     DepthProof,
     Ends,
     OnBody,
@@ -100,7 +101,7 @@ class _MeshMaker(Maker):
             depth = self._depth(Fraction(bounds[0]), Fraction(bounds[1]) - self.closer)
             made = replace(made, depth=or_unset(depth))
         elif bounds is not None:
-            made = replace(made, cover=or_unset(cover(self.placed, Fraction(bounds[0]))))
+            made = replace(made, cover=or_unset(self._cover(bounds[0])))
         if finding.distance and not self.closer:
             made = replace(made, distance=or_unset(self.gap()))
         return replace(made, thickness=or_unset(self._cells()))
@@ -181,6 +182,12 @@ class _MeshMaker(Maker):
             return DepthProof(_polytope(inner), normal)
         complete = expanded(self.placed, limit * 2) or inner
         return DepthProof(_polytope(inner), axis_of(shortened(complete.axis)))
+
+    def _cover(self, lower: float) -> Cover | None:
+        if not (self.placed.a.world.solid and self.placed.b.world.solid):
+            return None
+        surfaces = self.pair.a.surface(), self.pair.b.surface()
+        return cover(*surfaces, lower, self.pair.settings.work)
 
     def _cells(self) -> Cells | None:
         """Certify the thickness of an overlap that is thinner than it is deep."""
