@@ -26,17 +26,19 @@ from satcheck.verify.exact import (
     Point,
     Rejected,
     dot,
+    height,
     homogeneous,
     integers,
     nearest_to_origin,
     normal_of,
+    opposite,
     planar_hull,
     root,
     sub,
     turn,
 )
 from satcheck.verify.pairs import index
-from satcheck.verify.partition import Cell, Frame, height, is_outside, reverse
+from satcheck.verify.partition import Cell, Frame, is_outside
 from satcheck.verify.surfaces import up
 from satcheck.verify.world import Corners, Exact, rounded
 
@@ -112,10 +114,10 @@ class Side:
         low, high = np.nextafter(low - reach, -np.inf), np.nextafter(high + reach, np.inf)
         lattice = [[Fraction(c) * self.frame.scale for c in end.tolist()] for end in (low, high)]
         x, y, z = (lattice[c > 0][k] for k, c in enumerate(self.normal))
-        if height(self.space, (x, y, z)) <= 0:
+        if height(self.space, homogeneous((x, y, z))) <= 0:
             return True
         world = Frame((0.0, 0.0, 0.0), self.body.k)
-        spaces = [reverse(self.space), *world.box(low.tolist(), high.tolist())]
+        spaces = [opposite(self.space), *world.box(low.tolist(), high.tolist())]
         everything = np.arange(len(self.body.world.triangles))
         return is_outside(self.body, everything, (low, high), spaces, (x, y, z))
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
+    Homogeneous,
     IntVector,
     Point,
     Rejected,
@@ -334,7 +335,6 @@ class Exact:
 
 
 Corners = tuple[IntVector, IntVector, IntVector]
-Homogeneous = tuple[int, int, int, int]
 
 
 def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
