@@ -20,10 +20,10 @@ import numpy as np
 
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
 from satcheck.report.certificate import Indices as Numbers
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, cross, dot, point, sub
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.pairs import index
 from satcheck.verify.surfaces import Mask
-from satcheck.verify.world import Exact, Indices, is_flat
+from satcheck.verify.world import Exact, Indices, is_flat, normals_of
 
 MOST_FACES = 100_000
 ROUNDOFF = 2.0**-53
@@ -43,9 +43,9 @@ def inner_radius_exceeds(
     check_closed(polytope)
     least = radius * (1 << a.k)
     for face in polytope.faces:
-        p, q, r = (points[v] for v in face)
-        normal = cross(sub(q, p), sub(r, p))
-        height = dot(normal, p)
+        corners = [points[v] for v in face]
+        normal = normal_of(corners)
+        height = dot(normal, corners[0])
         if height <= 0:
             raise Rejected("the origin is not strictly inside the polytope")
         if height * height < least * least * dot(normal, normal):
@@ -171,43 +171,44 @@ def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> Non
         if dot(normal, point(facets.middle.tolist())) >= height:
             raise Rejected("the facets of a set of a cover are not seen from within")
     near = facets.nearer(depth)
+    off = Fraction(facets.off)
     step = AT_ONCE // (1 + len(near))
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         for row, column in np.argwhere(~facets.hold(near, some)).tolist():
             normal, height = facets.exact(int(near[row]))
-            if height > 0 and height**2 >= Fraction(depth) ** 2 * dot(normal, normal):
+            across = [abs(c) for c in normal]
+            left = height - off * sum(across)
+            if left > 0 and left**2 >= Fraction(depth) ** 2 * dot(normal, normal):
                 continue
             middle, halves = point(some[column, :3].tolist()), point(some[column, 3:].tolist())
-            if dot(normal, middle) + dot([abs(c) for c in normal], halves) >= height:
+            if dot(normal, middle) + dot(across, halves) >= left:
                 raise Rejected("a part of a cover is not shown to overlap")
 
 
 class _Facets:
     """The planes of the facets of a set, normal . t = height, about. middle: a translation about in
-    their middle. error: how far heights, and their differences from sums with normals, are off.
+    their middle. error: how far rounding takes heights, and their differences from sums with
+    normals.
 
-    Corners are off by a roundoff of themselves, so edges by 5 of the largest, normals by 32 times
-    that times the longest edge, and heights and sums with normals by less than 1024.
+    Their corners are rounded, by `off` along each axis at most. What is that far behind the facets
+    lies in the set itself: where X + C is part of Y + C, of convex sets, X is part of Y.
     """
 
     def __init__(self, overlap: OverlapSet, half: float) -> None:
-        self.overlap, self.faces = overlap, overlap.difference.faces
         check_closed(overlap.difference)
         of_a, of_b = (np.array(region.vertices) for region in (overlap.a, overlap.b))
         i, j = np.array(overlap.difference.vertices).T
         index(int(i.max()), len(of_a))
         index(int(j.max()), len(of_b))
         corners = of_b[j] - of_a[i]
-        p, q, r = (corners[np.array(self.faces)[:, k]] for k in range(3))
-        e, f = q - p, r - p
-        self.normals = np.cross(e, f)
-        self.heights = np.einsum("nk,nk->n", self.normals, p)
-        self.middle = corners.mean(axis=0)
         largest = float(np.abs(corners).max())
-        edge = np.maximum(np.abs(e), np.abs(f)).max(axis=1)
+        self.triangles: Floats = corners[np.array(overlap.difference.faces)]
+        self.middle, self.off = corners.mean(axis=0), 2 * ROUNDOFF * largest
+        self.normals, products = normals_of(self.triangles)
+        self.heights = np.einsum("nk,nk->n", self.normals, self.triangles[:, 0])
         reach = largest + half
-        self.error = 1024 * ROUNDOFF * largest * edge * reach + (1 + reach) * TINY
+        self.error = 64 * ROUNDOFF * reach * products + (1 + reach) * TINY
 
     def not_seen(self) -> list[int]:
         """The facets of which the middle may be in front."""
@@ -217,20 +218,19 @@ class _Facets:
     def nearer(self, depth: float) -> Indices:
         """The facets that may be nearer to the origin than the depth."""
         lengths = np.sqrt(np.einsum("nk,nk->n", self.normals, self.normals))
-        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) >= self.error
+        margins = self.off * np.abs(self.normals).sum(axis=1) + self.error
+        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) >= margins
         return np.flatnonzero(~is_far)
 
     def hold(self, near: Indices, parts: Floats) -> Mask:
         """Whether each part lies behind each of these facets, as far as float64 tells."""
         normals = self.normals[near]
-        highest = normals @ parts[:, :3].T + np.abs(normals) @ parts[:, 3:].T
+        highest = normals @ parts[:, :3].T + np.abs(normals) @ (parts[:, 3:] + self.off).T
         held: Mask = self.heights[near, None] - highest > self.error[near, None]
         return held
 
     def exact(self, number: int) -> tuple[Point, Fraction]:
         """The normal and the height of a facet."""
-        a, b = self.overlap.a.vertices, self.overlap.b.vertices
-        pairs = (self.overlap.difference.vertices[v] for v in self.faces[number])
-        p, q, r = (sub(point(b[j]), point(a[i])) for i, j in pairs)
-        normal = cross(sub(q, p), sub(r, p))
+        p, q, r = map(point, self.triangles[number].tolist())
+        normal = normal_of((p, q, r))
         return normal, dot(normal, p)

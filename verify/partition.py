@@ -55,9 +55,9 @@ class Frame:
         self.origin = point(Fraction(c) * self.scale for c in origin)
         self.is_plain = not any(origin)
 
-    def point(self, p: Sequence[Any]) -> Point:
-        ends = zip(self.origin, p, strict=True)
-        return point(o + Fraction(c) * self.scale for o, c in ends)
+    def along(self, axis: int, place: float) -> Fraction:
+        """A coordinate on the lattice."""
+        return self.origin[axis] + Fraction(place) * self.scale
 
     def behind(self, normal: Sequence[float], height: float) -> Homogeneous:
         """The points with normal . p <= height."""
@@ -67,7 +67,7 @@ class Frame:
 
     def below(self, axis: int, end: float) -> Homogeneous:
         """The points with p[axis] <= end."""
-        limit = self.origin[axis] + Fraction(end) * self.scale
+        limit = self.along(axis, end)
         x, y, z = (limit.denominator if k == axis else 0 for k in range(3))
         return x, y, z, limit.numerator
 
@@ -94,8 +94,9 @@ class Cell:
 
     def corners(self, frame: Frame) -> Polygon:
         if self.faces is None:
-            ends = product(*zip(self.low, self.high, strict=True))
-            return [homogeneous(frame.point(p)) for p in ends]
+            both = enumerate(zip(self.low, self.high, strict=True))
+            ends = ((frame.along(k, low), frame.along(k, high)) for k, (low, high) in both)
+            return [homogeneous(p) for p in product(*ends)]
         return list(dict.fromkeys(p for face in self.faces for p in face))
 
     def rounded(self, frame: Frame) -> Floats:
@@ -223,7 +224,8 @@ def clip(faces: list[Polygon], space: Homogeneous) -> list[Polygon] | None:
         return None
     if max(heights.values()) <= 0:
         return faces
-    kept = [part for face in faces if len(part := clipped(face, space)) > 2]
+    parts = (clipped(face, space) if max(heights[p] for p in face) > 0 else face for face in faces)
+    kept = [part for part in parts if len(part) > 2]
     # The new face runs along the others, in the other direction.
     after = {
         p: q

@@ -66,12 +66,10 @@ class Piece:
 
     def above(self, points: Floats) -> Floats:
         """At least the distances of points (n, 3) of the world, (n,)."""
-        bend = up(self.bend / (1 << self.k))
-        nearest = np.full(len(points), np.inf)
-        for triangle in self.floats:
-            spokes = triangle - points[:, None]
-            nearest = np.fmin(nearest, lengths(next_points(spokes)) + slack(spokes))
-        return nearest + bend
+        spokes = (self.floats - points[:, None, None]).reshape(-1, 3, 3)
+        most = lengths(next_points(spokes)) + slack(spokes)
+        nearest: Floats = np.fmin.reduce(most.reshape(len(points), -1), axis=1)
+        return nearest + up(self.bend / (1 << self.k))
 
 
 class Side:

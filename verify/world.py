@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -71,6 +72,20 @@ class World:
     def moved(self, offset: Sequence[float]) -> World:
         """Each coordinate rounded once."""
         return World(self.vertices + np.array(offset), self.triangles, self.solid)
+
+
+def stick_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+    """Return whether each body sticks out of the box of the other by more than a length. across: an
+    axis along which that does not count."""
+    return _sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)
+
+
+def _sticks_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+    (low, high), (least, most) = a.bounds, b.bounds
+    steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
+    return any(
+        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer for p, q, r, s in steps
+    )
 
 
 def placed(
@@ -173,24 +188,30 @@ def is_convex(vertices: Floats, triangles: Indices) -> bool:
 SIDES_AT_ONCE = 1 << 16
 
 
+def normals_of(triangles: Floats) -> tuple[Floats, Floats]:
+    """The normals of triangles (n, 3, 3), and the sums of the products, without their signs, that
+    they are the differences of: a normal is off by 5 roundoffs of that at most."""
+    e, f = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    normals = np.cross(e, f)
+    e, f = np.abs(e), np.abs(f)
+    products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
+    return normals, products.sum(axis=1)
+
+
 class _Planes:
     """The planes of triangles, n . x = level, about: for points less a centre. error: how far
     rounding takes n . x - level, of any of these points.
 
-    Of a normal 5 roundoffs of the products that it is the difference of, for lines that are up to
-    twice as long as `size`; 12 for the points, the sums of products, and the difference.
+    By 5 roundoffs of a normal, for lines that are up to twice as long as `size`, and by 12 of the
+    points, the sums of products, and the difference.
     """
 
     def __init__(self, points: Floats, corners: Indices) -> None:
         self.points = points - (0.5 * points.min(axis=0) + 0.5 * points.max(axis=0))
-        p, q, r = (points[corners[:, k]] for k in range(3))
-        e, f = q - p, r - p
-        self.normals = np.cross(e, f)
+        self.normals, products = normals_of(points[corners])
         self.levels = np.einsum("nk,nk->n", self.normals, self.points[corners[:, 0]])
-        e, f = np.abs(e), np.abs(f)
-        products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
         size = float(np.abs(self.points).max())
-        self.error = 32 * 2.0**-53 * size * products.sum(axis=1) + (1 + size) * 2.0**-1000
+        self.error = 32 * 2.0**-53 * size * products + (1 + size) * 2.0**-1000
 
 
 def _are_on_one_side(points: Floats, corners: Indices) -> bool:
