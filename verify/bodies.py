@@ -30,7 +30,8 @@ from satcheck.scene.read_options import ReadOptions
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Point, Rejected, point, sub
 from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
-from satcheck.verify.world import Indices, World, is_convex, placed
+from satcheck.verify.planes import is_convex
+from satcheck.verify.world import Indices, World, placed
 
 # What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")

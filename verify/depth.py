@@ -22,12 +22,11 @@ from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopePro
 from satcheck.report.certificate import Indices as Numbers
 from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.pairs import index
+from satcheck.verify.planes import AT_ONCE, ROUNDOFF, TINY, Planes
 from satcheck.verify.surfaces import Mask
-from satcheck.verify.world import Exact, Indices, is_flat, normals_of
+from satcheck.verify.world import Exact, Indices, is_flat
 
 MOST_FACES = 100_000
-ROUNDOFF = 2.0**-53
-TINY = 2.0**-1000  # more than what underflow takes
 
 
 def inner_radius_exceeds(
@@ -74,8 +73,6 @@ MOST_SETS = 5_000
 HALVED, FAR = -1, -2
 # The root has so few digits, and is halved so rarely along each axis, that all middles are exact.
 ROOT_DIGITS, MOST_HALVINGS = 20, 30
-# Sides of facets are found for so many facets and parts at once.
-AT_ONCE = 1 << 18
 Box = tuple[float, float, float, float, float, float]  # its middle, and half its edges
 
 
@@ -172,7 +169,7 @@ def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> Non
             raise Rejected("the facets of a set of a cover are not seen from within")
     near = facets.nearer(depth)
     off = Fraction(facets.off)
-    step = AT_ONCE // (1 + len(near))
+    step = 1 + AT_ONCE // (1 + len(near))
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         for row, column in np.argwhere(~facets.hold(near, some)).tolist():
@@ -186,10 +183,8 @@ def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> Non
                 raise Rejected("a part of a cover is not shown to overlap")
 
 
-class _Facets:
-    """The planes of the facets of a set, normal . t = height, about. middle: a translation about in
-    their middle. error: how far rounding takes heights, and their differences from sums with
-    normals.
+class _Facets(Planes):
+    """The planes of the facets of a set. middle: a translation about in their middle.
 
     Their corners are rounded, by `off` along each axis at most. What is that far behind the facets
     lies in the set itself: where X + C is part of Y + C, of convex sets, X is part of Y.
@@ -205,10 +200,7 @@ class _Facets:
         largest = float(np.abs(corners).max())
         self.triangles: Floats = corners[np.array(overlap.difference.faces)]
         self.middle, self.off = corners.mean(axis=0), 2 * ROUNDOFF * largest
-        self.normals, products = normals_of(self.triangles)
-        self.heights = np.einsum("nk,nk->n", self.normals, self.triangles[:, 0])
-        reach = largest + half
-        self.error = 64 * ROUNDOFF * reach * products + (1 + reach) * TINY
+        super().__init__(self.triangles, self.triangles[:, 0], largest + half)
 
     def not_seen(self) -> list[int]:
         """The facets of which the middle may be in front."""

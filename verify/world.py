@@ -173,92 +173,6 @@ def welded(vertices: Floats, triangles: Indices) -> tuple[Floats, Indices]:
     return in_order[is_first], number.reshape(-1, 3)
 
 
-def is_convex(vertices: Floats, triangles: Indices) -> bool:
-    """Whether a balanced surface winds around its hull and nothing else, outward.
-
-    All vertices lie on one side of the plane of each face; for a sheet flush with the hull they lie
-    in front. Such a surface wraps the hull a whole number of times. A volume above 0 proves that
-    this number is not 0.
-    """
-    points, corners = welded(vertices, triangles)
-    return _are_on_one_side(points, corners) and _has_volume(points, corners)
-
-
-# Sides of planes are found for so many faces and points at once.
-SIDES_AT_ONCE = 1 << 16
-
-
-def normals_of(triangles: Floats) -> tuple[Floats, Floats]:
-    """The normals of triangles (n, 3, 3), and the sums of the products, without their signs, that
-    they are the differences of: a normal is off by 5 roundoffs of that at most."""
-    e, f = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    normals = np.cross(e, f)
-    e, f = np.abs(e), np.abs(f)
-    products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
-    return normals, products.sum(axis=1)
-
-
-class _Planes:
-    """The planes of triangles, n . x = level, about: for points less a centre. error: how far
-    rounding takes n . x - level, of any of these points.
-
-    By 5 roundoffs of a normal, for lines that are up to twice as long as `size`, and by 12 of the
-    points, the sums of products, and the difference.
-    """
-
-    def __init__(self, points: Floats, corners: Indices) -> None:
-        self.points = points - (0.5 * points.min(axis=0) + 0.5 * points.max(axis=0))
-        self.normals, products = normals_of(points[corners])
-        self.levels = np.einsum("nk,nk->n", self.normals, self.points[corners[:, 0]])
-        size = float(np.abs(self.points).max())
-        self.error = 32 * 2.0**-53 * size * products + (1 + size) * 2.0**-1000
-
-
-def _are_on_one_side(points: Floats, corners: Indices) -> bool:
-    """Whether no face has points in front of its plane and behind it, exactly."""
-    planes, k = _Planes(points, corners), lattice(points)
-    exact: list[IntVector] = []
-    decided = np.zeros(len(corners), dtype=bool)
-    step = max(1, SIDES_AT_ONCE // len(points))
-    for start in range(0, len(corners), step):
-        end = start + step
-        heights = planes.normals[start:end] @ planes.points.T - planes.levels[start:end, None]
-        error = planes.error[start:end, None]
-        behind, front = heights < -error, heights > error
-        below, above = behind.any(axis=1), front.any(axis=1)
-        if (below & above).any():
-            return False
-        left = len(points) - behind.sum(axis=1) - front.sum(axis=1)
-        for row in np.flatnonzero(left > 3).tolist():  # more than its own corners
-            face = start + row
-            if decided[face]:
-                continue
-            exact = exact or integers(points, k)
-            of_face = [exact[v] for v in corners[face].tolist()]
-            normal = normal_of(of_face)
-            if not any(normal):
-                continue
-            level = dot(normal, of_face[0])
-            close = np.flatnonzero(~(behind[row] | front[row])).tolist()
-            sides = [sign(dot(normal, exact[v]) - level) for v in close]
-            if (below[row] or -1 in sides) and (above[row] or 1 in sides):
-                return False
-            in_plane = [v for v, side in zip(close, sides, strict=True) if side == 0]
-            decided |= np.isin(corners, in_plane).all(axis=1)
-    return True
-
-
-def _has_volume(points: Floats, corners: Indices) -> bool:
-    """Whether the volume of a balanced surface is above 0, exactly."""
-    planes = _Planes(points, corners)
-    parts = np.abs(planes.levels).sum()
-    if planes.levels.sum() > planes.error.sum() + len(corners) * 2.0**-52 * parts:
-        return True
-    exact = integers(points, lattice(points))
-    triangles = ([exact[v] for v in face] for face in corners.tolist())
-    return bool(sum(dot(a, cross(b, c)) for a, b, c in triangles) > 0)
-
-
 def rounded(vector: Sequence[Any]) -> Floats:
     """About this direction, its largest component about 1."""
     largest = max(map(abs, vector))
@@ -297,7 +211,13 @@ class Exact:
     def farthest(self, normal: Sequence[Any]) -> tuple[int, Any]:
         """A vertex that lies farthest along the normal, and normal . vertex, exactly."""
         used = self.world.used
-        near = used[possibly_highest(normal, self.world.vertices[used])]
+        points = self.world.vertices[used]
+        along = [k for k, c in enumerate(normal) if c]
+        if len(along) == 1:  # no sum, so no rounding
+            heights_there = points[:, along[0]] * sign(normal[along[0]])
+            near = used[[int(heights_there.argmax())]]
+        else:
+            near = used[possibly_highest(normal, points)]
         heights = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
         best = max(range(len(heights)), key=heights.__getitem__)
         return int(near[best]), heights[best]

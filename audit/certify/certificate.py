@@ -150,11 +150,14 @@ class _MeshMaker(Maker):
     def _touching(self) -> AxisProof | None:
         if not self.placed.convex:
             return None
-        outside = expanded(self.placed, Fraction(0))
         nearest = nearest_point(self.placed)
-        if outside is None or outside.overlaps or any(nearest.point):
-            return None
-        return AxisProof(axis_of(shortened(outside.axis)), _on_hulls(nearest.weights))
+        axis = next((n for n in self._axes() if at_least(self.placed, n, Fraction(0))), None)
+        if axis is None:
+            outside = expanded(self.placed, Fraction(0))
+            if outside is None or outside.overlaps:
+                return None
+            axis = axis_of(shortened(outside.axis))
+        return None if any(nearest.point) else AxisProof(axis, _on_hulls(nearest.weights))
 
     def _hulls_overlap(self) -> PolytopeProof | None:
         """For convex bodies that stick out of each other."""

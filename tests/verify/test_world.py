@@ -11,7 +11,8 @@ import pytest
 from satcheck import core
 from satcheck.verify.exact import Rejected, dot, normal_of, sign, sub
 from satcheck.verify.open_parts import is_balanced
-from satcheck.verify.world import SIDES_AT_ONCE, Exact, World, is_convex, placed
+from satcheck.verify.planes import AT_ONCE, is_convex
+from satcheck.verify.world import Exact, World, placed
 from tests.audit.shapes import Mesh, bracket, open_box, unit_box
 
 
@@ -118,7 +119,7 @@ def test_convexity_is_exact() -> None:
 def test_of_a_large_body_every_point_counts() -> None:
     """More sides of points than are found at once: one point of thousands is in front."""
     points, triangles = bricks(30)
-    assert len(points) * len(triangles) > 2 * SIDES_AT_ONCE
+    assert len(points) * len(triangles) > 2 * AT_ONCE
     points = np.round(points * 2**20)
     assert is_convex(points, triangles)
     row = int(np.flatnonzero(points[:, 0] == points[:, 0].max())[450])
