@@ -22,7 +22,7 @@ from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopePro
 from satcheck.report.certificate import Indices as Numbers
 from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.pairs import index
-from satcheck.verify.planes import AT_ONCE, ROUNDOFF, TINY, Planes
+from satcheck.verify.planes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices, is_flat
 
@@ -73,6 +73,7 @@ MOST_SETS = 5_000
 HALVED, FAR = -1, -2
 # The root has so few digits, and is halved so rarely along each axis, that all middles are exact.
 ROOT_DIGITS, MOST_HALVINGS = 20, 30
+MOST_BITS = 400  # of lengths, whose squares are floats then
 Box = tuple[float, float, float, float, float, float]  # its middle, and half its edges
 
 
@@ -89,18 +90,19 @@ def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: float) -> None:
     for leaf, part in _leaves(cover):
         held.setdefault(leaf, []).append(part)
     _are_far(np.array(held.pop(FAR, [])).reshape(-1, 6), depth)
-    for number, parts in held.items():
-        overlap = cover.sets[index(number, len(cover.sets))]
-        _is_in_solid(overlap.a, a, cover.origin)
-        _is_in_solid(overlap.b, b, cover.origin)
-        _holds(overlap, np.array(parts), cover.half, depth)
+    with np.errstate(all="ignore"):  # what overflows is rejected
+        for number, parts in held.items():
+            overlap = cover.sets[index(number, len(cover.sets))]
+            _is_in_solid(overlap.a, a, cover.origin)
+            _is_in_solid(overlap.b, b, cover.origin)
+            _holds(overlap, np.array(parts), cover.half, depth)
 
 
 def _leaves(cover: Cover) -> Iterator[tuple[int, Box]]:
     """The parts that are not halved, in preorder."""
     half = cover.half
     mantissa, exponent = math.frexp(half)
-    if not (mantissa * 2**ROOT_DIGITS).is_integer() or abs(exponent) > 900:
+    if not (mantissa * 2**ROOT_DIGITS).is_integer() or abs(exponent) > MOST_BITS:
         raise Rejected("half the edge of a cover has too many digits")
     pending: list[Box] = [(0.0, 0.0, 0.0, half, half, half)]
     for kind in cover.parts:
@@ -149,7 +151,10 @@ def _is_in_solid(region: Region, body: Exact, origin: Sequence[float]) -> None:
         raise Rejected("a region of a cover has no inside")
     points = body.world.vertices - np.array(origin)
     size = max(float(np.abs(points).max()), float(np.abs(corners).max()))
-    error = 16 * ROUNDOFF * size * np.abs(normals).sum(axis=1) + TINY
+    scale = size * np.abs(normals).sum(axis=1)
+    if not (scale < HUGE).all():
+        raise Rejected("a normal of a region of a cover is too long")
+    error = 16 * ROUNDOFF * scale + TINY
     is_beyond = points @ normals.T >= (corners @ normals.T).max(axis=0) + error
     if not is_beyond[body.world.triangles].all(axis=1).any(axis=1).all():
         raise Rejected("the surface of a body enters a region of a cover")
@@ -211,7 +216,7 @@ class _Facets(Planes):
         """The facets that may be nearer to the origin than the depth."""
         lengths = np.sqrt(np.einsum("nk,nk->n", self.normals, self.normals))
         margins = self.off * np.abs(self.normals).sum(axis=1) + self.error
-        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) >= margins
+        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) > margins
         return np.flatnonzero(~is_far)
 
     def hold(self, near: Indices, parts: Floats) -> Mask:

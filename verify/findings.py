@@ -158,21 +158,22 @@ def _prove_relation(
         ends = replace(pair_of(*bodies, *worlds), across=request.across)
         if relation != "separated":
             check_overlap_of_curves(relation, closer, ends, request.across)
-    by_surfaces = isinstance(certificate.relation, SurfacesProof) and isinstance(pair, Pair)
-    if by_surfaces and relation == "penetrating" and _share_ball(finding, pair, request.across):
+    by_surfaces = relation == "penetrating" and isinstance(certificate.relation, SurfacesProof)
+    if by_surfaces and _share_ball(finding, pair, request.across):
         return False
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
     least = least_gap(finding, request) + closer
     return prove(relation, certificate.relation, ends, max(beyond, closer), least)
 
 
-def _share_ball(finding: Finding, pair: Pair, across: int | None) -> bool:
+def _share_ball(finding: Finding, pair: AnyPair, across: int | None) -> bool:
     """Whether the ball of the thickness shows that two solids overlap, and their boxes that neither
     holds the other. Rejects a ball that is not in both."""
-    worlds, ball = (pair.a.world, pair.b.world), finding.ball
-    if ball is None or ball.radius <= 0 or not all(world.solid for world in worlds):
+    ball = finding.ball
+    if ball is None or ball.radius <= 0 or not isinstance(pair, Pair):
         return False
-    if not stick_out(*worlds, Fraction(0), across):
+    a, b = pair.a.world, pair.b.world
+    if not (a.solid and b.solid and stick_out(a, b, Fraction(0), across)):
         return False
     for body in (pair.a, pair.b):
         holds_ball(body, ball.centre, Fraction(ball.radius))

@@ -96,7 +96,7 @@ class Cell:
         if self.faces is None:
             both = enumerate(zip(self.low, self.high, strict=True))
             ends = ((frame.along(k, low), frame.along(k, high)) for k, (low, high) in both)
-            return [homogeneous(p) for p in product(*ends)]
+            return [homogeneous((x, y, z)) for x, y, z in product(*ends)]
         return list(dict.fromkeys(p for face in self.faces for p in face))
 
     def rounded(self, frame: Frame) -> Floats:

@@ -19,6 +19,7 @@ from satcheck.verify.world import Indices, welded
 
 ROUNDOFF = 2.0**-53
 TINY = 2.0**-1000  # more than what underflow takes
+HUGE = 1e300  # sums of smaller terms do not overflow
 # Sides of planes are found for so many planes and points at once.
 AT_ONCE = 1 << 16
 
@@ -34,11 +35,14 @@ class Planes:
     def __init__(self, triangles: Floats, anchors: Floats, size: float) -> None:
         """anchors: a point of each plane, less the origin."""
         e, f = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-        self.normals = np.cross(e, f)
-        self.heights = np.einsum("nk,nk->n", self.normals, anchors)
-        e, f = np.abs(e), np.abs(f)
-        products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
-        self.error = 64 * ROUNDOFF * size * products.sum(axis=1) + (1 + size) * TINY
+        with np.errstate(over="ignore", invalid="ignore"):
+            self.normals = np.cross(e, f)
+            self.heights = np.einsum("nk,nk->n", self.normals, anchors)
+            e, f = np.abs(e), np.abs(f)
+            products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
+            scale = size * products.sum(axis=1)
+            error = 64 * ROUNDOFF * scale + (1 + size) * TINY
+        self.error: Floats = np.where(scale < HUGE, error, np.inf)
 
 
 def is_convex(vertices: Floats, triangles: Indices) -> bool:

@@ -204,6 +204,20 @@ def test_the_outside_of_a_body_is_no_region() -> None:
         _is_in_solid(replace(region, vertices=tuple(notch[:4])), pair_of(a, b).a, (0.0, 0.0, 0.0))
 
 
+def test_what_overflows_shows_nothing() -> None:
+    a, b, depth = DEEP["a box in an arm"]
+    pair, made = pair_of(a, b), cover_of(a, b, depth / 2)
+    assert made is not None
+    one = made.sets[0]
+    for length in (1e308, 1e305):
+        long = replace(one.a, normals=((length, length, length), (-length, 0.0, 0.0)))
+        with pytest.raises(Rejected, match="too long"):
+            depth_is_at_least(replace(made, sets=(replace(one, a=long),)), pair.a, pair.b, 0.25)
+    large = replace(made, half=2.0**900, parts=(FAR,))
+    with pytest.raises(Rejected, match="digits"):
+        depth_is_at_least(large, pair.a, pair.b, 2.0**800)
+
+
 def test_a_pinched_body_is_free_where_its_surfaces_only_cross() -> None:
     """Two boxes that share an edge, put into the two corners that two others leave free."""
     a = pieces(unit_box(0.0, 0.0, 0.0, edge=2.0), unit_box(-2.0, -2.0, 0.0, edge=2.0))
