@@ -177,15 +177,16 @@ def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> Non
     step = 1 + AT_ONCE // (1 + len(near))
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
-        for row, column in np.argwhere(~facets.hold(near, some)).tolist():
+        is_open = ~facets.hold(near, some)
+        for row in np.flatnonzero(is_open.any(axis=1)).tolist():
             normal, height = facets.exact(int(near[row]))
             across = [abs(c) for c in normal]
             left = height - off * sum(across)
             if left > 0 and left**2 >= Fraction(depth) ** 2 * dot(normal, normal):
                 continue
-            middle, halves = point(some[column, :3].tolist()), point(some[column, 3:].tolist())
-            if dot(normal, middle) + dot(across, halves) >= left:
-                raise Rejected("a part of a cover is not shown to overlap")
+            for part in some[is_open[row]].tolist():
+                if dot(normal, point(part[:3])) + dot(across, point(part[3:])) >= left:
+                    raise Rejected("a part of a cover is not shown to overlap")
 
 
 class _Facets(Planes):
