@@ -91,17 +91,36 @@ class DepthProof(Value, frozen=True):
     upper: ExactVector
 
 
-class Cover(Value, frozen=True):
-    """For solids of which one is not convex: an octree of cubes, from its root on. The cubes cover
-    all translations of A that are shorter than the lower bound of the depth. Cubes outside of this
-    ball are left out.
+class Region(Value, frozen=True):
+    """The hull of points inside a solid, in world coordinates minus an origin. Each triangle of the
+    surface is at least as far along one of the normals as all of them."""
 
-    cubes: -1: eight children, x changing first; else the number of a pair of triangles, one of A
-    and one of B, that cross for every translation in the cube.
+    vertices: tuple[Vector, ...]
+    normals: tuple[Vector, ...]
+
+
+class OverlapSet(Value, frozen=True):
+    """Translations of A after which regions of both bodies overlap. difference: its vertices are
+    pairs of a vertex of the region of A and one of B, for the second minus the first."""
+
+    a: Region
+    b: Region
+    difference: Polytope
+
+
+class Cover(Value, frozen=True):
+    """For solids of which one is not convex: a cube around all translations of A that are shorter
+    than the lower bound of the depth, in parts. half: of its edge.
+
+    parts: as a tree from the cube on. -1: two halves, across the longest edge (x before y before
+    z), the lower one first. -2: no translation in it is shorter. Else: the number of a set that
+    holds all shorter ones.
     """
 
-    pairs: tuple[Indices, ...]
-    cubes: tuple[Annotated[int, Meta(ge=-1)], ...]
+    origin: Vector
+    half: Length
+    sets: tuple[OverlapSet, ...]
+    parts: tuple[Annotated[int, Meta(ge=-2)], ...]
 
 
 class Face(Value, frozen=True, tag_field="kind", tag="face"):

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -29,28 +29,35 @@ from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Point, Rejected, point, sub
 from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
-from satcheck.verify.world import Indices, World, is_convex, placed
+from satcheck.verify.planes import is_convex
+from satcheck.verify.world import Indices, World, placed
 
 # What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
 SAME = 1e-12  # relative, of a length that was computed twice
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Shape:
     """A mesh file, or a primitive. triangles: of the file, then the reverse of those of the sheets
-    of a solid. solid: balanced, with an inside. convex: exactly, in its own coordinates. holed: it
-    has holes. pieces: the sheets of an open mesh, unless it is meant to be open. curved: the shape
-    in which the mesh is inscribed."""
+    of a solid. solid: balanced, with an inside. holed: it has holes with unknown fills. pieces: the
+    sheets of an open mesh, unless it is meant to be open. curved: the shape in which the mesh is
+    inscribed."""
 
     file: MeshFile
     vertices: Floats
     triangles: Indices
     solid: bool
-    convex: bool
     holed: bool = False
     pieces: Indices | None = None
     curved: Primitive | None = None
+
+    @cached_property
+    def convex(self) -> bool:
+        """Whether it is, exactly, in its own coordinates."""
+        if self.curved is not None:
+            return True
+        return self.file.health.solid and is_convex(self.vertices, self.triangles)
 
 
 class Missing(Rejected):
@@ -65,28 +72,37 @@ class Unread(Rejected):
 class Placed:
     """A body of the report, a mesh in the world or a curved shape, or why it cannot be read.
 
-    resolution: world units, recomputed. convex: also of every curved shape. holed: the mesh has
-    holes with unknown fills. pieces: as in `Shape`. missing: the file that does not exist, as the
-    report names it. deviation: with --planar, the largest distance of the boundary from its
-    polygon, which lies within it. surface_tolerance: how far its surface may be off, world units,
-    as the report says. endless: it is a half space.
+    resolution: world units, recomputed. missing: the file that does not exist, as the report names
+    it. surface_tolerance: how far its surface may be off, world units, as the report says. endless:
+    it is a half space.
     """
 
     id: str
     groups: frozenset[str]
     world: World | None
-    convex: bool = False
-    holed: bool = False
-    pieces: Indices | None = None
+    shape: Shape | None = None
     resolution: float = 0.0
     static: bool = False
     reason: str | None = None
     claims: bool = True  # False: the report states that it is unreadable
     curved: Curved | None = None
     missing: str | None = None
-    deviation: float = 0.0
     surface_tolerance: float = 0.0
     endless: bool = False
+
+    @property
+    def convex(self) -> bool:
+        return self.shape is not None and self.shape.convex
+
+    @property
+    def holed(self) -> bool:
+        return self.shape is not None and self.shape.holed
+
+    @property
+    def deviation(self) -> float:
+        """With --planar, the largest distance of the boundary from its polygon, which lies within
+        it."""
+        return 0.0 if self.shape is None else self.shape.file.deviation
 
     @property
     def mesh(self) -> World:
@@ -275,7 +291,7 @@ def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:
     stated = entry.resolution
     if stated is None or not math.isclose(stated, resolution, rel_tol=SAME):
         raise Rejected(f"its resolution is {resolution!r}")
-    if entry.convex not in (None, shape.convex):
+    if entry.convex is not None and entry.convex != shape.convex:
         raise Rejected(f"convex is {shape.convex}")
 
 
@@ -286,18 +302,18 @@ def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:
     if file.health.solid:
         if not is_balanced(vertices, triangles):
             raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
-        return Shape(file, vertices, triangles, True, is_convex(vertices, triangles))
+        return Shape(file, vertices, triangles, True)
     both = with_backs(vertices, triangles, allow_open=allow_open)
     pieces = None if both is None or allow_open else both[len(triangles) :]
     if both is None or bounds_nothing(vertices, both):
-        return Shape(file, vertices, triangles, False, False, both is None, pieces)
-    return Shape(file, vertices, both, True, False, pieces=pieces)
+        return Shape(file, vertices, triangles, False, both is None, pieces)
+    return Shape(file, vertices, both, True, pieces=pieces)
 
 
 def curved_of(file: MeshFile, primitive: Primitive) -> Shape:
     """file: of the inscribed mesh, which needs no check."""
     vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
-    return Shape(file, vertices, triangles, True, True, curved=primitive)
+    return Shape(file, vertices, triangles, True, curved=primitive)
 
 
 def place_shape(
@@ -316,14 +332,4 @@ def place_shape(
         resolution = np.inf
     if not np.isfinite(resolution):
         raise Rejected("its placement is out of range")
-    return Placed(
-        name,
-        frozenset(groups),
-        world,
-        shape.convex,
-        shape.holed,
-        shape.pieces,
-        resolution,
-        curved=curved,
-        deviation=shape.file.deviation,
-    )
+    return Placed(name, frozenset(groups), world, shape, resolution, curved=curved)

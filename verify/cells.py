@@ -22,13 +22,18 @@ from satcheck.verify.exact import (
     Point,
     Rejected,
     Vector,
+    cartesian,
+    clipped,
     cross,
     dot,
+    half_space,
+    homogeneous,
     normal_of,
+    opposite,
     point,
     sub,
 )
-from satcheck.verify.surfaces import clipped, common, meeting
+from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Corners, Exact
 
 Cell = Sequence[Vector]  # a convex polygon, in the plane of its triangle
@@ -196,8 +201,9 @@ def _enters(cell: Cell, edge: Segment, normal: Vector) -> bool:
 def _split(cell: Cell, edge: Segment, normal: Vector) -> list[Cell]:
     """The cell on either side of the line of the segment."""
     across = cross(normal, sub(edge[1], edge[0]))
-    limit = dot(across, edge[0])
-    return [clipped(cell, across, limit), clipped(cell, sub((0, 0, 0), across), -limit)]
+    side = half_space(across, dot(across, edge[0]))
+    corners = [homogeneous(p) for p in cell]
+    return [list(map(cartesian, clipped(corners, one))) for one in (side, opposite(side))]
 
 
 def look(normal: Vector, cell: Cell, bodies: Sequence[Exact]) -> list[tuple[bool, bool]]:

@@ -2,25 +2,29 @@
 
 Of convex bodies: an inner polytope of the Minkowski difference, which also proves their overlap.
 
-Of other solids: a cover of all shorter translations, each proven to leave an overlap. A triangle
-S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex polytope. The
-solids then have a common interior if the planes of S and U are not parallel, and if every inner
-point of either triangle has its solid on exactly one side. Cubes inside such polytopes cover the
-ball of shorter translations: an octree around the origin with a pair of triangles for each leaf.
-Cubes outside the ball need no proof.
+Of other solids: a cube around all shorter translations, halved into parts. Each part lies in an
+overlap set, or no translation in it is shorter. P is a polytope inside A and Q one inside B: no
+triangle of the surface enters it, and the surface runs around a point of it. Moved by t, the inside
+of P meets that of Q for every t inside Q - P. The facets of a closed surface of differences q - p,
+seen from a point behind all of them, bound a part of Q - P: a ray from there leaves the part at a
+facet. Facets farther out than the bound do not matter.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from math import ceil
 
-from satcheck.report.certificate import Cover, Indices, Polytope, PolytopeProof
-from satcheck.verify.cells import look
-from satcheck.verify.exact import IntVector, Rejected, cross, dot, normal_of, point, sub
+import numpy as np
+
+from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
+from satcheck.report.certificate import Indices as Numbers
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.pairs import index
-from satcheck.verify.surfaces import common, perhaps_close
-from satcheck.verify.world import Corners, Exact
+from satcheck.verify.planes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
+from satcheck.verify.surfaces import Mask
+from satcheck.verify.world import Exact, Indices, is_flat
 
 MOST_FACES = 100_000
 
@@ -34,153 +38,197 @@ def inner_radius_exceeds(
     lies behind every face, the surface runs around the origin. So every ray from there meets it,
     nowhere nearer than the nearest face plane.
     """
-    vertices, faces = polytope.vertices, polytope.faces
-    if not 4 <= len(faces) <= MOST_FACES or len(vertices) > MOST_FACES:
-        raise Rejected("a polytope has at least 4 faces, and not too many")
-    points = [_difference(pair, a, b) for pair in vertices]
-    edges: set[tuple[int, int]] = set()
+    points = [_difference(pair, a, b) for pair in polytope.vertices]
+    check_closed(polytope)
     least = radius * (1 << a.k)
-    for face in faces:
-        corner = [index(v, len(points)) for v in face]
-        p, q, r = (points[v] for v in corner)
-        normal = cross(sub(q, p), sub(r, p))
-        height = dot(normal, p)
+    for face in polytope.faces:
+        corners = [points[v] for v in face]
+        normal = normal_of(corners)
+        height = dot(normal, corners[0])
         if height <= 0:
             raise Rejected("the origin is not strictly inside the polytope")
         if height * height < least * least * dot(normal, normal):
             raise Rejected("a face of the polytope is nearer than the lower bound of the depth")
-        for k in range(3):
-            edge = corner[k - 1], corner[k]
-            if edge in edges:
-                raise Rejected("the polytope runs an edge twice")
-            edges.add(edge)
+
+
+def check_closed(polytope: Polytope | PolytopeProof) -> None:
+    """Rejects a surface that does not run each edge once in either direction."""
+    faces = polytope.faces
+    if not 4 <= len(faces) <= MOST_FACES or len(polytope.vertices) > MOST_FACES:
+        raise Rejected("a polytope has at least 4 faces, and not too many")
+    edges = {(face[k - 1], face[k]) for face in faces for k in range(3)}
+    index(max(map(max, faces)), len(polytope.vertices))
+    if len(edges) < 3 * len(faces):
+        raise Rejected("the polytope runs an edge twice")
     if any((q, p) not in edges for p, q in edges):
         raise Rejected("the polytope is not closed")
 
 
-def _difference(pair: Indices, a: Exact, b: Exact) -> IntVector:
+def _difference(pair: Numbers, a: Exact, b: Exact) -> IntVector:
     return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])
 
 
-LEVELS = 12  # the most halvings of a cube
-MOST_CUBES = 50_000
-SPLIT = -1
-HalfSpace = tuple[IntVector, int]  # n . t < h, on the lattice
-Cube = tuple[IntVector, int]  # its middle and half its edge, in 2**-LEVELS of the lattice
+MOST_PARTS = 200_000
+MOST_SETS = 5_000
+HALVED, FAR = -1, -2
+# The root has so few digits, and is halved so rarely along each axis, that all middles are exact.
+ROOT_DIGITS, MOST_HALVINGS = 20, 30
+MOST_BITS = 400  # of lengths, whose squares are floats then
+Box = tuple[float, float, float, float, float, float]  # its middle, and half its edges
 
 
-def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: Fraction) -> None:
+def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: float) -> None:
     """Rejects a cover that does not prove that every translation of A shorter than this (world
-    units) leaves a common interior.
-    """
+    units) leaves a common interior."""
     if not (a.world.solid and b.world.solid):
         raise Rejected("a cover proves something about solids only")
-    if len(cover.cubes) > MOST_CUBES:
-        raise Rejected(f"a cover has at most {MOST_CUBES:,} cubes")
-    in_a, in_b = len(a.world.triangles), len(b.world.triangles)
-    named = [(index(s, in_a), index(t, in_b)) for s, t in cover.pairs]
-    for body, triangles in ((a, {s for s, _ in named}), (b, {t for _, t in named})):
-        if not_plain(body, sorted(triangles)):
-            raise Rejected("a triangle of the cover is no plain part of the boundary of its solid")
-    squared = (depth * (1 << a.k)) ** 2
-    regions = [
-        [
-            (n, h)
-            for n, h in half_spaces(a.corners(s), b.corners(t))
-            if not _holds_ball(n, h, squared)
-        ]
-        for s, t in named
-    ]
-    ball = ceil((depth * (1 << a.k + LEVELS)) ** 2)
-    pending = [root(depth, a.k)]
-    for leaf in cover.cubes:
-        while pending and is_outside(pending[-1], ball):
-            pending.pop()
+    if len(cover.parts) > MOST_PARTS or len(cover.sets) > MOST_SETS:
+        raise Rejected(f"a cover has at most {MOST_PARTS:,} parts and {MOST_SETS:,} sets")
+    if not cover.half >= depth > 0:
+        raise Rejected("the cover leaves out a part of the ball")
+    held: dict[int, list[Box]] = {}
+    for leaf, part in _leaves(cover):
+        held.setdefault(leaf, []).append(part)
+    _are_far(np.array(held.pop(FAR, [])).reshape(-1, 6), depth)
+    with np.errstate(all="ignore"):  # what overflows is rejected
+        for number, parts in held.items():
+            overlap = cover.sets[index(number, len(cover.sets))]
+            _is_in_solid(overlap.a, a, cover.origin)
+            _is_in_solid(overlap.b, b, cover.origin)
+            _holds(overlap, np.array(parts), cover.half, depth)
+
+
+def _leaves(cover: Cover) -> Iterator[tuple[int, Box]]:
+    """The parts that are not halved, in preorder."""
+    half = cover.half
+    mantissa, exponent = math.frexp(half)
+    if not (mantissa * 2**ROOT_DIGITS).is_integer() or abs(exponent) > MOST_BITS:
+        raise Rejected("half the edge of a cover has too many digits")
+    pending: list[Box] = [(0.0, 0.0, 0.0, half, half, half)]
+    for kind in cover.parts:
         if not pending:
-            raise Rejected("a cover has more cubes than the ball needs")
-        cube = pending.pop()
-        if leaf == SPLIT:
-            pending += reversed(children(cube))
-        elif not 0 <= leaf < len(regions) or not _holds(regions[leaf], cube):
-            raise Rejected("a cube of translations is not shown to overlap")
-    if not all(is_outside(cube, ball) for cube in pending):
+            raise Rejected("a cover has more parts than halving makes")
+        part = pending.pop()
+        if kind == HALVED:
+            lower, upper = _halves(part)
+            pending += [upper, lower]
+            if min(lower[3:]) * 2**MOST_HALVINGS < half:
+                raise Rejected("a part of a cover is halved too often")
+        else:
+            yield kind, part
+    if pending:
         raise Rejected("the cover leaves out a part of the ball")
 
 
-def root(depth: Fraction, k: int) -> Cube:
-    """A cube around the ball, with an edge that is a power of two."""
-    size = ceil(depth * (1 << k))
-    return (0, 0, 0), 1 << (size - 1).bit_length() + LEVELS
+def _halves(part: Box) -> tuple[Box, Box]:
+    """Across the longest edge, exactly."""
+    axis = max(range(3), key=lambda k: part[3 + k])
+    lower, upper = list(part), list(part)
+    lower[3 + axis] = upper[3 + axis] = half = part[3 + axis] / 2
+    lower[axis] -= half
+    upper[axis] += half
+    return tuple(lower), tuple(upper)  # type: ignore[return-value]
 
 
-def children(cube: Cube) -> list[Cube]:
-    (x, y, z), size = cube
-    if size & 1:
-        raise Rejected("a cube is halved too often")
-    h = size >> 1
-    return [((x + i, y + j, z + k), h) for k in (-h, h) for j in (-h, h) for i in (-h, h)]
+def _are_far(parts: Floats, depth: float) -> None:
+    """Rejects parts with a translation that is shorter than the depth."""
+    steps = np.maximum(np.abs(parts[:, :3]) - parts[:, 3:], 0.0)  # exact
+    squared = np.einsum("nk,nk->n", steps, steps)
+    close = squared < depth * depth * (1 + 8 * ROUNDOFF)
+    for step in steps[close].tolist():
+        if sum(Fraction(c) ** 2 for c in step) < Fraction(depth) ** 2:
+            raise Rejected("the cover leaves out a part of the ball")
 
 
-def is_outside(cube: Cube, squared: int) -> bool:
-    """Whether no point of the cube is closer to the origin than the root of `squared`."""
-    middle, size = cube
-    steps = [max(abs(c) - size, 0) for c in middle]
-    return dot(steps, steps) >= squared  # type: ignore[no-any-return]
+def _is_in_solid(region: Region, body: Exact, origin: Sequence[float]) -> None:
+    """Rejects a polytope whose inside is not part of the inside of the solid.
+
+    Each triangle is at least as far along some normal as all corners: along one of them heights are
+    off by 4 roundoffs of the sum of their terms, and by one of the points less the origin.
+    """
+    corners, normals = np.array(region.vertices), np.array(region.normals)
+    if len(corners) < 4 or not len(normals) or is_flat(corners):
+        raise Rejected("a region of a cover has no inside")
+    points = body.world.vertices - np.array(origin)
+    size = max(float(np.abs(points).max()), float(np.abs(corners).max()))
+    scale = size * np.abs(normals).sum(axis=1)
+    if not (scale < HUGE).all():
+        raise Rejected("a normal of a region of a cover is too long")
+    error = 16 * ROUNDOFF * scale + TINY
+    is_beyond = points @ normals.T >= (corners @ normals.T).max(axis=0) + error
+    if not is_beyond[body.world.triangles].all(axis=1).any(axis=1).all():
+        raise Rejected("the surface of a body enters a region of a cover")
+    middle = point(sum(map(Fraction, row)) / len(corners) for row in corners.T.tolist())
+    at = point((m + Fraction(o)) * (1 << body.k) for m, o in zip(middle, origin, strict=True))
+    if not body.winding(at):
+        raise Rejected("a region of a cover lies outside of its body")
 
 
-def _holds_ball(n: IntVector, h: int, squared: Fraction) -> bool:
-    """Whether the half-space n . t < h holds the open ball; squared: its radius."""
-    return h > 0 and h * h >= squared * dot(n, n)
+def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> None:
+    """Rejects a set that does not hold all translations in the parts that are shorter than the
+    depth. In float64; exactly where that leaves it open."""
+    facets = _Facets(overlap, half)
+    for number in facets.not_seen():
+        normal, height = facets.exact(number)
+        if dot(normal, point(facets.middle.tolist())) >= height:
+            raise Rejected("the facets of a set of a cover are not seen from within")
+    near = facets.nearer(depth)
+    off = Fraction(facets.off)
+    step = 1 + AT_ONCE // (1 + len(near))
+    for start in range(0, len(parts), step):
+        some = parts[start : start + step]
+        is_open = ~facets.hold(near, some)
+        for row in np.flatnonzero(is_open.any(axis=1)).tolist():
+            normal, height = facets.exact(int(near[row]))
+            across = [abs(c) for c in normal]
+            left = height - off * sum(across)
+            if left > 0 and left**2 >= Fraction(depth) ** 2 * dot(normal, normal):
+                continue
+            for part in some[is_open[row]].tolist():
+                if dot(normal, point(part[:3])) + dot(across, point(part[3:])) >= left:
+                    raise Rejected("a part of a cover is not shown to overlap")
 
 
-def _holds(region: list[HalfSpace], cube: Cube) -> bool:
-    middle, size = cube
-    return all(dot(n, middle) + size * sum(map(abs, n)) < h << LEVELS for n, h in region)
+class _Facets(Planes):
+    """The planes of the facets of a set. middle: a translation about in their middle.
 
+    Their corners are rounded, by `off` along each axis at most. What is that far behind the facets
+    lies in the set itself: where X + C is part of Y + C, of convex sets, X is part of Y.
+    """
 
-def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
-    """The inside of T - S. Its facets are parallel to one of them, or to an edge of each."""
-    edges = [[sub(c[(k + 1) % 3], c[k]) for k in range(3)] for c in (s, t)]
-    faces = [cross(e[0], e[1]) for e in edges]
-    if not any(cross(*faces)):
-        raise Rejected("two parallel triangles show no overlap")
-    bounds = []
-    for n in (*faces, *(cross(e, f) for e in edges[0] for f in edges[1])):
-        if not any(n):
-            continue
-        on_s, on_t = [dot(n, p) for p in s], [dot(n, p) for p in t]
-        bounds.append((n, max(on_t) - min(on_s)))
-        bounds.append(((-n[0], -n[1], -n[2]), max(on_s) - min(on_t)))
-    return bounds
+    def __init__(self, overlap: OverlapSet, half: float) -> None:
+        check_closed(overlap.difference)
+        of_a, of_b = (np.array(region.vertices) for region in (overlap.a, overlap.b))
+        i, j = np.array(overlap.difference.vertices).T
+        index(int(i.max()), len(of_a))
+        index(int(j.max()), len(of_b))
+        corners = of_b[j] - of_a[i]
+        largest = float(np.abs(corners).max())
+        self.triangles: Floats = corners[np.array(overlap.difference.faces)]
+        self.middle, self.off = corners.mean(axis=0), 2 * ROUNDOFF * largest
+        super().__init__(self.triangles, self.triangles[:, 0], largest + half)
 
+    def not_seen(self) -> list[int]:
+        """The facets of which the middle may be in front."""
+        above = self.heights - self.normals @ self.middle
+        return np.flatnonzero(~(above > self.error)).tolist()
 
-def not_plain(body: Exact, triangles: list[int]) -> list[int]:
-    """Triangles that a cover must not use: without area, crossed by another triangle of the
-    surface, or with the solid on both sides or on none."""
-    unfit = {t for t in triangles if not any(normal_of(body.corners(t)))}
-    for s, u in perhaps_close(body.part(triangles), body):
-        t = triangles[s]
-        if t not in unfit and t != u and _enters(body.corners(u), body.corners(t)):
-            unfit.add(t)
-    for t in set(triangles) - unfit:
-        [(front, back)] = look(normal_of(body.corners(t)), body.corners(t), [body])
-        if front == back:
-            unfit.add(t)
-    return sorted(unfit)
+    def nearer(self, depth: float) -> Indices:
+        """The facets that may be nearer to the origin than the depth."""
+        lengths = np.sqrt(np.einsum("nk,nk->n", self.normals, self.normals))
+        margins = self.off * np.abs(self.normals).sum(axis=1) + self.error
+        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) > margins
+        return np.flatnonzero(~is_far)
 
+    def hold(self, near: Indices, parts: Floats) -> Mask:
+        """Whether each part lies behind each of these facets, as far as float64 tells."""
+        normals = self.normals[near]
+        highest = normals @ parts[:, :3].T + np.abs(normals) @ (parts[:, 3:] + self.off).T
+        held: Mask = self.heights[near, None] - highest > self.error[near, None]
+        return held
 
-def _enters(other: Corners, corners: Corners) -> bool:
-    """Whether another triangle has a point of the inside of this one."""
-    normal = normal_of(corners)
-    heights = [dot(normal, sub(p, corners[0])) for p in other]
-    if min(heights) >= 0 or max(heights) <= 0:  # it touches the plane at most
-        touching = {p for p, height in zip(other, heights, strict=True) if height == 0}
-        if len(touching) < len(corners) and touching.issubset(corners):
-            return False
-    shared = common(corners, other)
-    if not shared:
-        return False
-    # Where a convex set enters the triangle, so does its middle.
-    middle = point(sum(p[k] for p in shared) / len(shared) for k in range(3))
-    edges = ((corners[k], sub(corners[(k + 1) % 3], corners[k])) for k in range(3))
-    return all(dot(cross(normal, edge), sub(middle, p)) > 0 for p, edge in edges)
+    def exact(self, number: int) -> tuple[Point, Fraction]:
+        """The normal and the height of a facet."""
+        p, q, r = map(point, self.triangles[number].tolist())
+        normal = normal_of((p, q, r))
+        return normal, dot(normal, p)

@@ -37,7 +37,7 @@ def spanned(finding: Finding, rounding: Rounding, pair: AnyPair) -> bool:
     """Return whether the gap or the overlap of a convex pair along the normal is what the finding
     states. Rejects a closer pair."""
     figure = finding.distance if finding.depth is None else -finding.depth
-    if finding.normal is None or figure is None:
+    if finding.normal is None or figure is None or not pair.convex:
         return False
     length = Fraction(figure)
     if pair.gap(vector(finding.normal), length - 2 * rounding.of(length)) < 0:
@@ -109,12 +109,13 @@ def prove_apart(
 def check_pieces(a: Placed, b: Placed) -> None:
     """Rejects bodies that do not meet if open pieces of one surround the other."""
     for outer, inner in ((a, b), (b, a)):
-        if outer.world is None or inner.world is None or outer.pieces is None:
+        pieces = None if outer.shape is None else outer.shape.pieces
+        if outer.world is None or inner.world is None or pieces is None:
             continue
         world, point = outer.world, inner.world.vertices[0]
         low, high = world.bounds
         is_within = (low <= point).all() and (point <= high).all()
-        if is_within and abs(turns_around(world.vertices[outer.pieces], point)) > MOST_AROUND:
+        if is_within and abs(turns_around(world.vertices[pieces], point)) > MOST_AROUND:
             raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
-from math import isqrt, lcm
+from math import gcd, isqrt, lcm
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ Point = tuple[Fraction, Fraction, Fraction]
 Vector = tuple[Any, Any, Any]  # of integers or rationals
 Pair = tuple[Any, Any]  # coordinates in a plane
 HalfSpace = tuple[Vector, Any]  # normal . x <= limit
+Homogeneous = tuple[int, int, int, int]
 
 SIGNIFICANT_BITS = 53
 ROOT_BITS = 128
@@ -94,10 +95,47 @@ def sign(number: int | Fraction) -> int:
     return int(number > 0) - int(number < 0)
 
 
-def homogeneous(p: Point) -> tuple[int, int, int, int]:
-    """(X, Y, Z, W) with p = (X, Y, Z) / W and W > 0."""
+def homogeneous(p: Vector) -> Homogeneous:
+    """(X, Y, Z, W) with p = (X, Y, Z) / W, W > 0, without a common divisor."""
     w = lcm(*(c.denominator for c in p))
     return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
+
+
+def cartesian(p: Homogeneous) -> Point:
+    x, y, z, w = p
+    return Fraction(x, w), Fraction(y, w), Fraction(z, w)
+
+
+def half_space(normal: Vector, limit: Any) -> Homogeneous:
+    """(n, d) of integers, for the points with n . x <= d."""
+    w = lcm(limit.denominator, *(c.denominator for c in normal))
+    return int(normal[0] * w), int(normal[1] * w), int(normal[2] * w), int(limit * w)
+
+
+def opposite(space: Homogeneous) -> Homogeneous:
+    x, y, z, limit = space
+    return -x, -y, -z, -limit
+
+
+def height(space: Homogeneous, p: Homogeneous) -> int:
+    """Over 0 beyond a half-space."""
+    return space[0] * p[0] + space[1] * p[1] + space[2] * p[2] - space[3] * p[3]
+
+
+def clipped(region: Sequence[Homogeneous], space: Homogeneous) -> list[Homogeneous]:
+    """The part of a convex polygon, segment or point in a half-space. I. E. Sutherland, G. W.
+    Hodgman, "Reentrant Polygon Clipping" (1974)."""
+    heights = [height(space, p) for p in region]
+    kept: list[Homogeneous] = []
+    for k, (p, h) in enumerate(zip(region, heights, strict=True)):
+        q, g = region[k - 1], heights[k - 1]
+        if (g < 0 < h) or (h < 0 < g):
+            x, y, z, w = (abs(h) * c + abs(g) * d for c, d in zip(q, p, strict=True))
+            divisor = gcd(x, y, z, w)
+            kept.append((x // divisor, y // divisor, z // divisor, w // divisor))
+        if h <= 0:
+            kept.append(p)
+    return [p for k, p in enumerate(kept) if p != kept[k - 1]] or kept[:1]
 
 
 def half_spaces(t: Sequence[Vector]) -> list[HalfSpace]:

@@ -42,6 +42,7 @@ from satcheck.verify.in_plane import (
 from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, pair_of, vector
 from satcheck.verify.relations import prove, prove_free
 from satcheck.verify.thickness import at_most, holds_ball
+from satcheck.verify.world import stick_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +72,8 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     depth = _check_depth(finding, certificate, pair, closer)
     both_ends = depth or (_check_cover(finding, certificate, pair) and mtv)
     rounding = rounding_of(a, b)
-    spans = pair.convex and spanned(finding, rounding, pair)
-    directed = spans or mtv or (not pair.convex and shows_direction(finding, a, b))
+    spans = spanned(finding, rounding, pair)
+    directed = spans or mtv or (shows_direction(finding, a, b) and not pair.convex)
     block = (a.endless or b.endless) and finding.exact_relation != "touching"
     error = None
     if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
@@ -157,9 +158,26 @@ def _prove_relation(
         ends = replace(pair_of(*bodies, *worlds), across=request.across)
         if relation != "separated":
             check_overlap_of_curves(relation, closer, ends, request.across)
+    by_surfaces = relation == "penetrating" and isinstance(certificate.relation, SurfacesProof)
+    if by_surfaces and _share_ball(finding, pair, request.across):
+        return False
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
     least = least_gap(finding, request) + closer
     return prove(relation, certificate.relation, ends, max(beyond, closer), least)
+
+
+def _share_ball(finding: Finding, pair: AnyPair, across: int | None) -> bool:
+    """Whether the ball of the thickness shows that two solids overlap, and their boxes that neither
+    holds the other. Rejects a ball that is not in both."""
+    ball = finding.ball
+    if ball is None or ball.radius <= 0 or not isinstance(pair, Pair):
+        return False
+    a, b = pair.a.world, pair.b.world
+    if not (a.solid and b.solid and stick_out(a, b, Fraction(0), across)):
+        return False
+    for body in (pair.a, pair.b):
+        holds_ball(body, ball.centre, Fraction(ball.radius))
+    return True
 
 
 def _check_distance(
@@ -197,7 +215,7 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: AnyPair) -> b
         return False
     if finding.depth_bounds is None or not isinstance(pair, Pair):
         raise Rejected("a cover, and no depth of meshes")
-    depth_is_at_least(certificate.cover, pair.a, pair.b, Fraction(finding.depth_bounds[0]))
+    depth_is_at_least(certificate.cover, pair.a, pair.b, finding.depth_bounds[0])
     return True
 
 

@@ -28,7 +28,7 @@ from satcheck.report.values import Relation
 from satcheck.verify.distances import nothing_nearer
 from satcheck.verify.exact import Rejected
 from satcheck.verify.pairs import AnyPair, Pair, axis, vector
-from satcheck.verify.world import World
+from satcheck.verify.world import World, stick_out
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 
@@ -50,18 +50,8 @@ def check_overlap_of_curves(
         return
     if relation != "penetrating":
         raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-    a, b = pair.a.world, pair.b.world
-    if not (_sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)):
+    if not stick_out(pair.a.world, pair.b.world, closer, across):
         raise Rejected("one body may hold the other, by what its curve is off its polygon")
-
-
-def _sticks_out(world: World, other: World, closer: Fraction, across: int) -> bool:
-    """Return whether A sticks out of B, by their boxes."""
-    (low, high), (least, most) = world.bounds, other.bounds
-    steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
-    return any(
-        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer for p, q, r, s in steps
-    )
 
 
 def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: AnyPair) -> bool:

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.verify.exact import Floats
-from satcheck.verify.world import Indices, connected, count_by_triangle, is_flat
+from satcheck.verify.world import Indices, connected, count_by_triangle, is_flat, welded
 
 Mask = NDArray[np.bool_]
 
 
 def with_backs(vertices: Floats, triangles: Indices, *, allow_open: bool) -> Indices | None:
     """The triangles, then the reverse of those of sheets. None: the surface has holes."""
-    corners = _by_place(vertices)[triangles]
+    _, corners = welded(vertices, triangles)
     sheets = _flat_parts(vertices, triangles, corners)
     if allow_open:
         sheets |= _flaps(corners)
@@ -28,9 +28,16 @@ def with_backs(vertices: Floats, triangles: Indices, *, allow_open: bool) -> Ind
 
 def is_balanced(vertices: Floats, triangles: Indices) -> bool:
     """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
-    corners = _by_place(vertices)[triangles]
-    one_set = np.zeros(len(corners), dtype=np.int64)
-    return len(corners) > 0 and not len(_open_sets(one_set, corners, _edges(corners)))
+    if not len(triangles):
+        return False
+    return _are_run_both_ways(triangles) or _are_run_both_ways(welded(vertices, triangles)[1])
+
+
+def _are_run_both_ways(corners: Indices) -> bool:
+    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    count = corners.max() + 1
+    forth, back = np.sort(start * count + end), np.sort(end * count + start)
+    return np.array_equal(forth, back)
 
 
 def turns_around(corners: Floats, point: Floats) -> float:
@@ -53,15 +60,9 @@ def bounds_nothing(vertices: Floats, triangles: Indices) -> bool:
     return next(ways) == next(ways)
 
 
-def _by_place(vertices: Floats) -> Indices:
-    """Numbers the vertices; equal points get one number."""
-    _, number = np.unique(vertices + 0.0, axis=0, return_inverse=True)
-    return number.reshape(-1)
-
-
 def _flat_parts(vertices: Floats, triangles: Indices, corners: Indices) -> Mask:
     """Open parts, connected through vertices, that lie in one plane."""
-    part = connected(corners, len(vertices))[corners[:, 0]]
+    part = connected(corners, corners.max(initial=-1) + 1)[corners[:, 0]]
     sheets = np.isin(part, _open_sets(part, corners, _edges(corners)))
     order = np.flatnonzero(sheets)[np.argsort(part[sheets], kind="stable")]
     for members in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
@@ -95,8 +96,9 @@ def _patches(edges: Indices) -> Indices:
 
 def _edges(corners: Indices) -> Indices:
     """The numbers of the three edges of each triangle, in whatever direction."""
-    ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1), axis=-1)
-    _, number = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
+    following = np.roll(corners, -1, axis=1)
+    first, second = np.minimum(corners, following), np.maximum(corners, following)
+    _, number = np.unique(first * (corners.max() + 1) + second, return_inverse=True)
     return number.reshape(-1, 3)
 
 
@@ -109,7 +111,8 @@ def _open_sets(set_of: Indices, corners: Indices, edges: Indices) -> Indices:
 def _balances(set_of: Indices, corners: Indices, edges: Indices) -> tuple[Indices, Indices, Floats]:
     """(set, edge, how much more often the set runs the edge in one direction), each once."""
     runs = np.sign(np.roll(corners, -1, axis=1) - corners)
-    at = np.column_stack([np.repeat(set_of, 3), edges.ravel()])
-    places, where = np.unique(at, axis=0, return_inverse=True)
+    count = edges.max(initial=0) + 1
+    at = np.repeat(set_of, 3) * count + edges.ravel()
+    places, where = np.unique(at, return_inverse=True)
     balance = np.bincount(where.reshape(-1), weights=runs.ravel(), minlength=len(places))
-    return places[:, 0], places[:, 1], balance.astype(np.float64)
+    return places // count, places % count, balance.astype(np.float64)

@@ -70,12 +70,17 @@ def on_body(end: OnBody, body: Exact, *, of_hull: bool) -> Point:
 
 @dataclass(frozen=True)
 class AnyPair:
-    """Two bodies. convex: both are exactly convex in their files. Then a mesh counts as the hull of
-    its world vertices. Lengths are in world units."""
+    """Two bodies. placed: of the report; none: of surfaces. Lengths are in world units."""
 
     a: Curved | Exact
     b: Curved | Exact
-    convex: bool
+    placed: tuple[Placed, ...] = ()
+
+    @property
+    def convex(self) -> bool:
+        """Whether both are exactly convex in their files. Then a mesh counts as the hull of its
+        world vertices."""
+        return bool(self.placed) and all(body.convex for body in self.placed)
 
     def gap(self, n: Point, length: Fraction = Fraction(0)) -> int:
         """The sign of the gap along n, from A to B, less a length: over 0 the axis separates."""
@@ -111,7 +116,7 @@ class Pair(AnyPair):
 
 def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
     k = max(world_a.lattice, world_b.lattice)
-    return Pair(Exact(world_a, k), Exact(world_b, k), a.convex and b.convex)
+    return Pair(Exact(world_a, k), Exact(world_b, k), (a, b))
 
 
 def any_pair_of(a: Placed, b: Placed) -> AnyPair:
@@ -122,7 +127,7 @@ def any_pair_of(a: Placed, b: Placed) -> AnyPair:
         if body.curved is None and (not body.convex or body.mesh.is_flat):
             raise Rejected("a curved shape is certified against convex bodies only")
         bodies.append(body.curved or Exact(body.mesh, body.mesh.lattice))
-    return AnyPair(bodies[0], bodies[1], True)
+    return AnyPair(bodies[0], bodies[1], (a, b))
 
 
 def reach(body: Curved | Exact, n: Point) -> Reach:

@@ -11,15 +11,27 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
-from math import lcm
 from typing import Any
 
 import numpy as np
 
 from satcheck.report import values
 from satcheck.report.certificate import Cells
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, Vector, dot, point
-from satcheck.verify.surfaces import clipped
+from satcheck.verify.exact import (
+    Floats,
+    Homogeneous,
+    IntVector,
+    Point,
+    Rejected,
+    cartesian,
+    clipped,
+    dot,
+    half_space,
+    height,
+    homogeneous,
+    opposite,
+    point,
+)
 from satcheck.verify.world import Exact, Indices
 
 MOST_CELLS = 100_000
@@ -30,9 +42,7 @@ FEW = 32
 # The corners of each face of a box, by their places in a product of its ends, each edge run once in
 # either direction.
 BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-# The half-space (n, d) holds the points p of the lattice with n . p <= d.
-HalfSpace = tuple[int, int, int, int]
-Polygon = list[Point]
+Polygon = list[Homogeneous]
 Ends = tuple[Floats, Floats]
 
 
@@ -45,41 +55,30 @@ class Frame:
         self.origin = point(Fraction(c) * self.scale for c in origin)
         self.is_plain = not any(origin)
 
-    def point(self, p: Sequence[Any]) -> Point:
-        ends = zip(self.origin, p, strict=True)
-        return point(o + Fraction(c) * self.scale for o, c in ends)
+    def along(self, axis: int, place: float) -> Fraction:
+        """A coordinate on the lattice."""
+        return self.origin[axis] + Fraction(place) * self.scale
 
-    def behind(self, normal: Sequence[float], height: float) -> HalfSpace:
+    def behind(self, normal: Sequence[float], height: float) -> Homogeneous:
         """The points with normal . p <= height."""
-        x, y, z = map(Fraction, normal)
-        limit = dot((x, y, z), self.origin) + Fraction(height) * self.scale
-        scale = lcm(*(c.denominator for c in (x, y, z, limit)))
-        return int(x * scale), int(y * scale), int(z * scale), int(limit * scale)
+        across = point(normal)
+        limit = dot(across, self.origin) + Fraction(height) * self.scale
+        return half_space(across, limit)
 
-    def below(self, axis: int, end: float) -> HalfSpace:
+    def below(self, axis: int, end: float) -> Homogeneous:
         """The points with p[axis] <= end."""
-        limit = self.origin[axis] + Fraction(end) * self.scale
+        limit = self.along(axis, end)
         x, y, z = (limit.denominator if k == axis else 0 for k in range(3))
         return x, y, z, limit.numerator
 
-    def box(self, low: Sequence[float], high: Sequence[float]) -> list[HalfSpace]:
+    def box(self, low: Sequence[float], high: Sequence[float]) -> list[Homogeneous]:
         ends = enumerate(zip(low, high, strict=True))
-        sides = [(self.below(k, y), reverse(self.below(k, x))) for k, (x, y) in ends]
+        sides = [(self.below(k, y), opposite(self.below(k, x))) for k, (x, y) in ends]
         return [side for both in sides for side in both]
 
     def world(self, points: Floats) -> Floats:
         """Each coordinate rounded once."""
         return points + self.floats
-
-
-def reverse(space: HalfSpace) -> HalfSpace:
-    x, y, z, limit = space
-    return -x, -y, -z, -limit
-
-
-def height(space: HalfSpace, p: Vector) -> Any:
-    """Over 0 beyond the half-space."""
-    return dot(space, p) - space[3]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,29 +89,33 @@ class Cell:
     low: values.Vector
     high: values.Vector
     near: tuple[Indices, Indices]
-    cuts: tuple[HalfSpace, ...] = ()
+    cuts: tuple[Homogeneous, ...] = ()
     faces: list[Polygon] | None = None
 
-    def corners(self, frame: Frame) -> list[Point]:
+    def corners(self, frame: Frame) -> Polygon:
         if self.faces is None:
-            return [frame.point(p) for p in product(*zip(self.low, self.high, strict=True))]
+            both = enumerate(zip(self.low, self.high, strict=True))
+            ends = ((frame.along(k, low), frame.along(k, high)) for k, (low, high) in both)
+            return [homogeneous((x, y, z)) for x, y, z in product(*ends)]
         return list(dict.fromkeys(p for face in self.faces for p in face))
 
     def rounded(self, frame: Frame) -> Floats:
         """Its corners in the world, (n, 3), each coordinate rounded once."""
         if self.faces is None:
             return frame.world(np.array([*product(*zip(self.low, self.high, strict=True))]))
-        return np.array([[float(c / frame.scale) for c in p] for p in self.corners(frame)])
+        corners = self.corners(frame)
+        return np.array([[c / (w * frame.scale) for c in p] for *p, w in corners])
 
-    def half_spaces(self, frame: Frame) -> list[HalfSpace]:
+    def half_spaces(self, frame: Frame) -> list[Homogeneous]:
         return [*frame.box(self.low, self.high), *self.cuts]
 
     def middle(self, frame: Frame) -> Point:
         """A point inside: about the middle, of few digits, or exactly."""
         near = point(Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
-        if all(height(space, near) < 0 for space in self.half_spaces(frame)):
+        at = homogeneous(near)
+        if all(height(space, at) < 0 for space in self.half_spaces(frame)):
             return near
-        corners = self.corners(frame)
+        corners = [cartesian(p) for p in self.corners(frame)]
         return point(sum(ends) / len(corners) for ends in zip(*corners, strict=True))
 
     def box(self, frame: Frame) -> tuple[Floats, Floats]:
@@ -171,7 +174,7 @@ class Partition:
         if cell.faces is None:
             return [self._narrowed(below), self._narrowed(above)]
         side = self.frame.below(axis, place)
-        return [self._clipped(below, side), self._clipped(above, reverse(side))]
+        return [self._clipped(below, side), self._clipped(above, opposite(side))]
 
     def _cut(self, cell: Cell | None, cut: tuple[values.Vector, float] | None) -> list[Cell | None]:
         """What is behind a plane, and what is in front of it."""
@@ -183,10 +186,10 @@ class Partition:
             corners = cell.corners(self.frame)
             cell = replace(cell, faces=[[corners[v] for v in face] for face in BOX])
         side = self.frame.behind(*cut)
-        halves = [(replace(cell, cuts=(*cell.cuts, s)), s) for s in (side, reverse(side))]
+        halves = [(replace(cell, cuts=(*cell.cuts, s)), s) for s in (side, opposite(side))]
         return [self._clipped(half, space) for half, space in halves]
 
-    def _clipped(self, cell: Cell, space: HalfSpace) -> Cell | None:
+    def _clipped(self, cell: Cell, space: Homogeneous) -> Cell | None:
         """A half, that the faces of the whole are clipped to."""
         assert cell.faces is not None
         faces = clip(cell.faces, space)
@@ -214,14 +217,15 @@ def within(body: Exact, triangles: Any, low: Floats, high: Floats) -> Indices:
     return near
 
 
-def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
+def clip(faces: list[Polygon], space: Homogeneous) -> list[Polygon] | None:
     """The faces of the part of a convex polyhedron in a half-space; None: it has no inside."""
     heights = {p: height(space, p) for face in faces for p in face}
     if min(heights.values()) >= 0:
         return None
     if max(heights.values()) <= 0:
         return faces
-    kept = [part for face in faces if len(part := clipped(face, space, space[3])) > 2]
+    parts = (clipped(face, space) if max(heights[p] for p in face) > 0 else face for face in faces)
+    kept = [part for part in parts if len(part) > 2]
     # The new face runs along the others, in the other direction.
     after = {
         p: q
@@ -235,21 +239,21 @@ def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
     return [*kept, cap]
 
 
-def enters(triangle: Sequence[IntVector], spaces: Sequence[HalfSpace]) -> bool:
+def enters(triangle: Sequence[IntVector], spaces: Sequence[Homogeneous]) -> bool:
     """Whether a triangle has a point in the open cell that these half-spaces bound."""
-    region: list[Any] = list(triangle)
+    region: Polygon = [(*p, 1) for p in triangle]
     for space in spaces:
         heights = [height(space, p) for p in region]
         if min(heights) >= 0:
             return False
         if max(heights) > 0:
-            region = clipped(region, space, space[3])
+            region = clipped(region, space)
     # The middle of the region is as far in as any of its points.
     return all(any(height(space, p) < 0 for p in region) for space in spaces)
 
 
 def is_outside(
-    body: Exact, triangles: Indices, box: Ends, spaces: Sequence[HalfSpace], p: Point
+    body: Exact, triangles: Indices, box: Ends, spaces: Sequence[Homogeneous], p: Point
 ) -> bool:
     """Whether an open cell lies outside of the body. triangles: that may enter it. box: world
     coordinates that it does not reach beyond. p: a point of it, or at its border."""

@@ -26,17 +26,19 @@ from satcheck.verify.exact import (
     Point,
     Rejected,
     dot,
+    height,
     homogeneous,
     integers,
     nearest_to_origin,
     normal_of,
+    opposite,
     planar_hull,
     root,
     sub,
     turn,
 )
 from satcheck.verify.pairs import index
-from satcheck.verify.partition import Cell, Frame, height, is_outside, reverse
+from satcheck.verify.partition import Cell, Frame, is_outside
 from satcheck.verify.surfaces import up
 from satcheck.verify.world import Corners, Exact, rounded
 
@@ -64,12 +66,10 @@ class Piece:
 
     def above(self, points: Floats) -> Floats:
         """At least the distances of points (n, 3) of the world, (n,)."""
-        bend = up(self.bend / (1 << self.k))
-        nearest = np.full(len(points), np.inf)
-        for triangle in self.floats:
-            spokes = triangle - points[:, None]
-            nearest = np.fmin(nearest, lengths(next_points(spokes)) + slack(spokes))
-        return nearest + bend
+        spokes = (self.floats - points[:, None, None]).reshape(-1, 3, 3)
+        most = lengths(next_points(spokes)) + slack(spokes)
+        nearest: Floats = np.fmin.reduce(most.reshape(len(points), -1), axis=1)
+        return nearest + up(self.bend / (1 << self.k))
 
 
 class Side:
@@ -112,10 +112,10 @@ class Side:
         low, high = np.nextafter(low - reach, -np.inf), np.nextafter(high + reach, np.inf)
         lattice = [[Fraction(c) * self.frame.scale for c in end.tolist()] for end in (low, high)]
         x, y, z = (lattice[c > 0][k] for k, c in enumerate(self.normal))
-        if height(self.space, (x, y, z)) <= 0:
+        if height(self.space, homogeneous((x, y, z))) <= 0:
             return True
         world = Frame((0.0, 0.0, 0.0), self.body.k)
-        spaces = [reverse(self.space), *world.box(low.tolist(), high.tolist())]
+        spaces = [opposite(self.space), *world.box(low.tolist(), high.tolist())]
         everything = np.arange(len(self.body.world.triangles))
         return is_outside(self.body, everything, (low, high), spaces, (x, y, z))
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +12,14 @@ from satcheck.verify.exact import (
     Floats,
     Point,
     TooMany,
+    cartesian,
+    clipped,
     dot,
+    half_space,
     half_spaces,
+    homogeneous,
     nearest_to_origin,
     normal_of,
-    point,
     sub,
 )
 from satcheck.verify.world import Corners, Exact, Indices
@@ -160,28 +162,14 @@ def _separates(axes: Floats, p: Floats, q: Floats, reach: float) -> Mask:
 def common(a: Corners, b: Corners) -> list[Point]:
     """The corners of the convex set that two closed triangles share: none, one, two or more.
 
-    One is clipped by half-spaces whose common region is the other: I. E. Sutherland, G. W.
-    Hodgman, "Reentrant Polygon Clipping" (1974). A triangle may be a segment or a point.
+    One is clipped by half-spaces whose common region is the other. A triangle may be a segment or a
+    point.
     """
     if not any(normal_of(a)):
         a, b = b, a
-    region: list[Any] = list(b)  # integers, and rationals only where something is cut off
+    region = [homogeneous(p) for p in b]
     for normal, limit in half_spaces(a):
-        region = clipped(region, normal, limit)
+        region = clipped(region, half_space(normal, limit))
         if not region:
             break
-    return [point(p) for p in region]
-
-
-def clipped(region: Sequence[Any], normal: Sequence[Any], limit: Any) -> list[Any]:
-    """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
-    heights = [dot(normal, p) - limit for p in region]
-    kept: list[Any] = []
-    for k, (p, h) in enumerate(zip(region, heights, strict=True)):
-        q, g = region[k - 1], heights[k - 1]
-        if g * h < 0:
-            s = Fraction(g) / (g - h)
-            kept.append(tuple(c + s * (d - c) for c, d in zip(q, p, strict=True)))
-        if h <= 0:
-            kept.append(p)
-    return [p for k, p in enumerate(kept) if p != kept[k - 1]] or kept[:1]
+    return [cartesian(p) for p in region]

@@ -15,7 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
-from satcheck.verify.exact import Floats, Point, Rejected, point
+from satcheck.verify.exact import Floats, Point, Rejected, cartesian, point
 from satcheck.verify.pairs import index
 from satcheck.verify.partition import (
     BOUNDED,
@@ -96,7 +96,8 @@ class _Sums:
         limit = most * self.frame.scale
         for number in self._open(bounded, most):
             cell, terms = bounded[number]
-            if any(self._exceeds(p, terms, limit) for p in cell.corners(self.frame)):
+            corners = map(cartesian, cell.corners(self.frame))
+            if any(self._exceeds(p, terms, limit) for p in corners):
                 raise Rejected("a cell is not shown to be as thin as that")
 
     def _are_clear(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:

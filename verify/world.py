@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
+    Homogeneous,
     IntVector,
     Point,
     Rejected,
@@ -52,7 +54,7 @@ class World:
     @cached_property
     def used(self) -> Indices:
         """The vertices that triangles have."""
-        return np.unique(self.triangles)
+        return np.flatnonzero(np.bincount(self.triangles.ravel()))
 
     @cached_property
     def lattice(self) -> int:
@@ -70,6 +72,20 @@ class World:
     def moved(self, offset: Sequence[float]) -> World:
         """Each coordinate rounded once."""
         return World(self.vertices + np.array(offset), self.triangles, self.solid)
+
+
+def stick_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+    """Return whether each body sticks out of the box of the other by more than a length. across: an
+    axis along which that does not count."""
+    return _sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)
+
+
+def _sticks_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+    (low, high), (least, most) = a.bounds, b.bounds
+    steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
+    return any(
+        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer for p, q, r, s in steps
+    )
 
 
 def placed(
@@ -145,25 +161,16 @@ def is_flat(points: Floats) -> bool:
     return normal is None or all(dot(normal, v) == 0 for v in spokes)
 
 
-def is_convex(vertices: Floats, triangles: Indices) -> bool:
-    """Whether a balanced surface winds around its hull and nothing else, outward.
-
-    All vertices lie on one side of the plane of each face; for a sheet flush with the hull they lie
-    in front. Such a surface wraps the hull a whole number of times. A volume above 0 proves that
-    this number is not 0.
-    """
-    body = Exact(World(vertices, triangles, solid=True), lattice(vertices))
-    volume = 0
-    for t in range(len(triangles)):
-        corners = body.corners(t)
-        normal = normal_of(corners)
-        if not any(normal):
-            continue
-        height = dot(normal, corners[0])
-        volume += height
-        if body.extent(normal) > height and body.extent(sub((0, 0, 0), normal)) > -height:
-            return False
-    return volume > 0
+def welded(vertices: Floats, triangles: Indices) -> tuple[Floats, Indices]:
+    """The points that triangles have, each once, and the triangles by them."""
+    used = vertices[triangles.ravel()] + 0.0
+    order = np.lexsort(used.T)
+    in_order = used[order]
+    is_first = np.ones(len(order), dtype=bool)
+    is_first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    number = np.empty(len(order), dtype=np.int64)
+    number[order] = np.cumsum(is_first) - 1
+    return in_order[is_first], number.reshape(-1, 3)
 
 
 def rounded(vector: Sequence[Any]) -> Floats:
@@ -204,7 +211,13 @@ class Exact:
     def farthest(self, normal: Sequence[Any]) -> tuple[int, Any]:
         """A vertex that lies farthest along the normal, and normal . vertex, exactly."""
         used = self.world.used
-        near = used[possibly_highest(normal, self.world.vertices[used])]
+        points = self.world.vertices[used]
+        along = [k for k, c in enumerate(normal) if c]
+        if len(along) == 1:  # no sum, so no rounding
+            heights_there = points[:, along[0]] * sign(normal[along[0]])
+            near = used[[int(heights_there.argmax())]]
+        else:
+            near = used[possibly_highest(normal, points)]
         heights = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
         best = max(range(len(heights)), key=heights.__getitem__)
         return int(near[best]), heights[best]
@@ -263,7 +276,6 @@ class Exact:
 
 
 Corners = tuple[IntVector, IntVector, IntVector]
-Homogeneous = tuple[int, int, int, int]
 
 
 def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:

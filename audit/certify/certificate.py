@@ -30,6 +30,7 @@ from satcheck.report.certificate import (
     Band,
     Cells,
     Certificate,
+    Cover,
     DepthProof,
     Ends,
     OnBody,
@@ -99,7 +100,7 @@ class _MeshMaker(Maker):
             depth = self._depth(Fraction(bounds[0]), Fraction(bounds[1]) - self.closer)
             made = replace(made, depth=or_unset(depth))
         elif bounds is not None:
-            made = replace(made, cover=or_unset(cover(self.placed, Fraction(bounds[0]))))
+            made = replace(made, cover=or_unset(self._cover(bounds[0])))
         if finding.distance and not self.closer:
             made = replace(made, distance=or_unset(self.gap()))
         return replace(made, thickness=or_unset(self._cells()))
@@ -148,11 +149,14 @@ class _MeshMaker(Maker):
     def _touching(self) -> AxisProof | None:
         if not self.placed.convex:
             return None
-        outside = expanded(self.placed, Fraction(0))
         nearest = nearest_point(self.placed)
-        if outside is None or outside.overlaps or any(nearest.point):
-            return None
-        return AxisProof(axis_of(shortened(outside.axis)), _on_hulls(nearest.weights))
+        axis = next((n for n in self._axes() if at_least(self.placed, n, Fraction(0))), None)
+        if axis is None:
+            outside = expanded(self.placed, Fraction(0))
+            if outside is None or outside.overlaps:
+                return None
+            axis = axis_of(shortened(outside.axis))
+        return None if any(nearest.point) else AxisProof(axis, _on_hulls(nearest.weights))
 
     def _hulls_overlap(self) -> PolytopeProof | None:
         """For convex bodies that stick out of each other."""
@@ -180,6 +184,12 @@ class _MeshMaker(Maker):
             return DepthProof(_polytope(inner), normal)
         complete = expanded(self.placed, limit * 2) or inner
         return DepthProof(_polytope(inner), axis_of(shortened(complete.axis)))
+
+    def _cover(self, lower: float) -> Cover | None:
+        if not (self.placed.a.world.solid and self.placed.b.world.solid):
+            return None
+        surfaces = self.pair.a.surface(), self.pair.b.surface()
+        return cover(*surfaces, lower, self.pair.settings.work)
 
     def _cells(self) -> Cells | None:
         """Certify the thickness of an overlap that is thinner than it is deep."""

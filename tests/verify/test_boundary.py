@@ -104,7 +104,7 @@ def pile_pairs() -> Iterator[tuple[Pile, Pile, Pair, int]]:
         if kind in (4, 5):
             b = [*b, *whole]
         splits = rng.integers(0, 256, 2).tolist()
-        yield a, b, Pair(solid(a, splits[0]), solid(b, splits[1]), False), number
+        yield a, b, Pair(solid(a, splits[0]), solid(b, splits[1])), number
 
 
 def proves(relation: Relation, pair: Pair, triangles: tuple[int, int] | UnsetType = UNSET) -> bool:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import json
 import math
-from fractions import Fraction
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from msgspec import ValidationError, convert
+from msgspec.structs import replace
 
 from satcheck.audit.certify.cover import cover
-from satcheck.report.certificate import Cover
+from satcheck.core import Mesh as CoreMesh
+from satcheck.core import Surface
+from satcheck.report.certificate import Cover, Region
 from satcheck.report.report import plain
 from satcheck.verify import Rejected
-from satcheck.verify.depth import depth_is_at_least
+from satcheck.verify.depth import FAR, _is_in_solid, depth_is_at_least
 from satcheck.verify.pairs import Pair
 from satcheck.verify.world import Exact, World, lattice
 from tests.audit.shapes import Mesh, bracket, moved, unit_box, write
@@ -35,15 +39,19 @@ def pair_of(a: Mesh, b: Mesh) -> Pair:
     worlds = [world_of(mesh) for mesh in (a, b)]
     k = max(world.lattice for world in worlds)
     first, second = (Exact(world, k) for world in worlds)
-    return Pair(first, second, False)
+    return Pair(first, second)
 
 
 def world_of(mesh: Mesh) -> World:
-    import numpy as np
-
     points, faces = mesh
     fans = [(f[0], f[k], f[k + 1]) for f in faces for k in range(1, len(f) - 1)]
     return World(np.array(points, dtype=float), np.array(fans, dtype=np.int64), solid=True)
+
+
+def cover_of(a: Mesh, b: Mesh, depth: float) -> Cover | None:
+    worlds = world_of(a), world_of(b)
+    surfaces = [Surface(CoreMesh(world.vertices, world.triangles), True) for world in worlds]
+    return cover(*surfaces, depth, 20_000_000)
 
 
 @pytest.mark.parametrize("name", DEEP)
@@ -62,70 +70,167 @@ def test_a_report_proves_its_lower_end(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", DEEP)
 def test_no_cover_is_found_beyond_the_depth(name: str) -> None:
     a, b, depth = DEEP[name]
-    pair = pair_of(a, b)
-    assert cover(pair, Fraction(depth) * 99 / 100) is not None
-    if depth != math.sqrt(0.5):  # shorter translations, not those as long
-        assert cover(pair, Fraction(depth)) is not None
-    assert cover(pair, Fraction(depth) * 101 / 100) is None
+    assert cover_of(a, b, depth * 0.99) is not None
+    assert cover_of(a, b, depth * 1.01) is None
 
 
 @pytest.mark.parametrize("name", DEEP)
 def test_a_cover_of_less_is_none_of_more(name: str) -> None:
     a, b, depth = DEEP[name]
-    pair = pair_of(a, b)
-    made = cover(pair, Fraction(depth) * 127 / 128)
+    pair, shorter = pair_of(a, b), depth * 127 / 128
+    made = cover_of(a, b, shorter)
     assert made is not None
-    depth_is_at_least(made, pair.a, pair.b, Fraction(depth) * 127 / 128)
-    for more in (Fraction(1, 1000), Fraction(1, 2), Fraction(5)):
+    depth_is_at_least(made, pair.a, pair.b, shorter)
+    for more in (depth / 16, depth, 8 * depth):
         with pytest.raises(Rejected):
-            depth_is_at_least(made, pair.a, pair.b, Fraction(depth) + more)
+            depth_is_at_least(made, pair.a, pair.b, shorter + more)
 
 
-def changed(made: Json) -> Any:
-    """Covers with one number of it changed, dropped or added."""
-    for key in ("cubes", "pairs"):
-        for place in range(len(made[key])):
+@pytest.mark.parametrize("name", DEEP)
+def test_far_from_the_origin_a_cover_is_found_too(name: str) -> None:
+    a, b, depth = DEEP[name]
+    away = 2.0**20, -(2.0**21), 2.0**19
+    a, b = moved(a, *away), moved(b, *away)
+    made = cover_of(a, b, depth * 127 / 128)
+    assert made is not None
+    assert any(made.origin)
+    depth_is_at_least(made, pair_of(a, b).a, pair_of(a, b).b, depth * 127 / 128)
+
+
+def places_of(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    if isinstance(value, dict | list):
+        yield path
+        for key, member in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from places_of(member, (*path, key))
+    else:
+        yield path
+
+
+def changed(made: Json) -> Iterator[Any]:
+    """Covers with one number of it changed, or one member of a list dropped or doubled."""
+    for path in places_of(made):
+        if not path:
+            continue
+        for change in CHANGES:
             other = json.loads(json.dumps(made))
-            del other[key][place]
-            yield other
-    for place, leaf in enumerate(made["cubes"]):
-        for false in {-2, -1, 0, 1, len(made["pairs"])} - {leaf}:
-            other = json.loads(json.dumps(made))
-            other["cubes"][place] = false
-            yield other
-    yield {**made, "cubes": [*made["cubes"], 0]}
-    yield {**made, "cubes": []}
+            holder = other
+            for key in path[:-1]:
+                holder = holder[key]
+            if change(holder, path[-1]):
+                yield other
+
+
+def is_other(holder: Any, key: Any) -> bool:
+    value = holder[key]
+    if isinstance(value, int):
+        holder[key] = value + 1
+    elif isinstance(value, float):
+        holder[key] = 2 * value + 0.5
+    return isinstance(value, int | float)
+
+
+def is_less(holder: Any, key: Any) -> bool:
+    value = holder[key]
+    if isinstance(value, int):
+        holder[key] = value - 1
+    elif isinstance(value, float):
+        holder[key] = -value
+    return isinstance(value, int | float)
+
+
+def is_dropped(holder: Any, key: Any) -> bool:
+    if isinstance(holder, list):
+        del holder[key]
+    return isinstance(holder, list)
+
+
+def is_doubled(holder: Any, key: Any) -> bool:
+    if isinstance(holder, list):
+        holder.insert(key, holder[key])
+    return isinstance(holder, list)
+
+
+CHANGES = (is_other, is_less, is_dropped, is_doubled)
 
 
 def test_what_is_changed_in_a_cover_proves_no_more_than_is_true() -> None:
     """Beyond the depth nothing is accepted, whatever the cover says."""
     a, b, depth = DEEP["a box across the notch"]
     pair = pair_of(a, b)
-    made = plain(cover(pair, Fraction(depth) * 15 / 16))
+    made = plain(cover_of(a, b, depth * 15 / 16))
     for other in changed(made):
         with pytest.raises((Rejected, ValidationError)):
-            depth_is_at_least(convert(other, Cover), pair.a, pair.b, Fraction(depth) * 129 / 128)
+            depth_is_at_least(convert(other, Cover), pair.a, pair.b, depth * 129 / 128)
+
+
+def test_numbers_of_a_cover_are_needed() -> None:
+    """Each claim of a cover that is changed alone ends it: corners of regions that leave a body,
+    normals that no longer keep the surface off, facets, parts and the cube around them."""
+    a, b, depth = DEEP["a box in an arm"]
+    pair, shorter = pair_of(a, b), depth * 127 / 128
+    made = cover_of(a, b, shorter)
+    assert made is not None
+    region = made.sets[0].a
+    outside = replace(region, vertices=((1e3, 0.0, 0.0), *region.vertices))
+    unseparated = replace(region, normals=((1.0, 0.0, 0.0),))
+    turned = tuple(face[::-1] for face in made.sets[0].difference.faces)
+    sets = [
+        replace(made.sets[0], a=outside),
+        replace(made.sets[0], a=unseparated),
+        replace(made.sets[0], b=region),
+        replace(made.sets[0], difference=replace(made.sets[0].difference, faces=turned)),
+        replace(made.sets[0], difference=replace(made.sets[0].difference, faces=turned[1:])),
+    ]
+    false = [replace(made, sets=(one, *made.sets[1:])) for one in sets]
+    false += [replace(made, half=made.half / 4), replace(made, parts=(FAR,) * len(made.parts))]
+    false += [replace(made, parts=made.parts[:-1]), replace(made, parts=(*made.parts, FAR))]
+    false += [replace(made, parts=(len(made.sets),) * len(made.parts))]
+    for cover_ in false:
+        with pytest.raises(Rejected):
+            depth_is_at_least(cover_, pair.a, pair.b, shorter)
+
+
+def test_the_outside_of_a_body_is_no_region() -> None:
+    """No surface enters the box in the notch, and it lies outside."""
+    a, b, depth = DEEP["a box in an arm"]
+    made = cover_of(a, b, depth / 2)
+    assert made is not None
+    notch = [(x, y, z) for x in (2.5, 3.5) for y in (2.5, 3.5) for z in (1.0, 3.0)]
+    ways = [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)]
+    region = Region(tuple(notch), (*ways, (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)))
+    with pytest.raises(Rejected, match="outside"):
+        _is_in_solid(region, pair_of(a, b).a, (0.0, 0.0, 0.0))
+    with pytest.raises(Rejected, match="no inside"):
+        _is_in_solid(replace(region, vertices=tuple(notch[:4])), pair_of(a, b).a, (0.0, 0.0, 0.0))
+
+
+def test_what_overflows_shows_nothing() -> None:
+    a, b, depth = DEEP["a box in an arm"]
+    pair, made = pair_of(a, b), cover_of(a, b, depth / 2)
+    assert made is not None
+    one = made.sets[0]
+    for length in (1e308, 1e305):
+        long = replace(one.a, normals=((length, length, length), (-length, 0.0, 0.0)))
+        with pytest.raises(Rejected, match="too long"):
+            depth_is_at_least(replace(made, sets=(replace(one, a=long),)), pair.a, pair.b, 0.25)
+    large = replace(made, half=2.0**900, parts=(FAR,))
+    with pytest.raises(Rejected, match="digits"):
+        depth_is_at_least(large, pair.a, pair.b, 2.0**800)
 
 
 def test_a_pinched_body_is_free_where_its_surfaces_only_cross() -> None:
-    """Two boxes that share an edge, put into the two corners that two others leave free: every
-    plane of one body crosses planes of the other there, and no interior is common."""
+    """Two boxes that share an edge, put into the two corners that two others leave free."""
     a = pieces(unit_box(0.0, 0.0, 0.0, edge=2.0), unit_box(-2.0, -2.0, 0.0, edge=2.0))
     b = pieces(unit_box(-2.0, 0.0, 0.0, edge=2.0), unit_box(0.0, -2.0, 0.0, edge=2.0))
-    for depth in (Fraction(1, 1 << 20), Fraction(1, 4), Fraction(1)):
-        assert cover(pair_of(a, b), depth) is None
+    for depth in (2.0**-20, 0.25, 1.0):
+        assert cover_of(a, b, depth) is None
     # Moved a little it overlaps, and moved back it does not.
-    assert cover(pair_of(moved(a, 0.25, 0.0, 0.0), b), Fraction(3, 10)) is None
+    assert cover_of(moved(a, 0.25, 0.0, 0.0), b, 0.3) is None
 
 
 def test_a_wall_of_no_thickness_shows_nothing() -> None:
     a = pieces(unit_box(8.0), unit_box(), turned(unit_box()))
-    pair = pair_of(a, unit_box(0.5, 0.5, 0.5))
-    assert cover(pair, Fraction(1, 8)) is None
-    every = [(s, t) for s in range(len(pair.a.world.triangles)) for t in range(12)]
-    for number in range(len(every)):
-        with pytest.raises(Rejected):
-            depth_is_at_least(Cover((every[number],), (0,)), pair.a, pair.b, Fraction(1, 1 << 30))
+    assert cover_of(a, unit_box(0.5, 0.5, 0.5), 0.125) is None
 
 
 def test_the_lattice_is_that_of_both() -> None:

@@ -35,5 +35,5 @@ def sheared(mesh: Mesh, by: int) -> World:
 def test_an_overlap_of_thin_bodies_is_shown(box: Mesh, by: int) -> None:
     a, b = sheared(bracket(), by), sheared(box, by)
     k = max(lattice(a.vertices), lattice(b.vertices))
-    pair = Pair(Exact(a, k), Exact(b, k), False)
+    pair = Pair(Exact(a, k), Exact(b, k))
     prove("penetrating", SurfacesProof(), pair, Fraction(0), Fraction(0))

@@ -9,12 +9,12 @@ from msgspec.structs import replace
 
 from satcheck.report.certificate import Cells
 from satcheck.verify import Rejected
-from satcheck.verify.exact import Point, point
+from satcheck.verify.exact import Homogeneous
 from satcheck.verify.partition import BOX, Partition, Polygon, clip, enters
 from tests.audit.shapes import unit_box
 from tests.verify.test_cover import pair_of
 
-CUBE = [point(p) for p in product((0, 2), repeat=3)]
+CUBE = [(x, y, z, 1) for x, y, z in product((0, 2), repeat=3)]
 
 
 def cube() -> list[Polygon]:
@@ -23,7 +23,8 @@ def cube() -> list[Polygon]:
 
 def corners(faces: list[Polygon] | None) -> set[tuple[int, ...]]:
     assert faces is not None
-    return {tuple(map(int, p)) for face in faces for p in face}
+    assert all(p[3] == 1 for face in faces for p in face)
+    return {p[:3] for face in faces for p in face}
 
 
 def cells(*kinds: int, at: tuple[float, ...] = ()) -> Cells:
@@ -31,7 +32,7 @@ def cells(*kinds: int, at: tuple[float, ...] = ()) -> Cells:
     return Cells(zero, zero, (1.0, 1.0, 1.0), (), kinds, at, (), ())
 
 
-def edges(faces: list[Polygon]) -> list[tuple[Point, Point]]:
+def edges(faces: list[Polygon]) -> list[tuple[Homogeneous, Homogeneous]]:
     return [(face[k - 1], face[k]) for face in faces for k in range(len(face))]
 
 

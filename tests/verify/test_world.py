@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.verify.exact import Rejected
+from satcheck.verify.exact import Rejected, dot, normal_of, sign, sub
 from satcheck.verify.open_parts import is_balanced
-from satcheck.verify.world import Exact, World, is_convex, placed
+from satcheck.verify.planes import AT_ONCE, is_convex
+from satcheck.verify.world import Exact, World, placed
 from tests.audit.shapes import Mesh, bracket, open_box, unit_box
 
 
@@ -71,3 +73,55 @@ def test_what_is_closed_and_what_is_convex() -> None:
     assert is_convex(points, backed)  # a sheet flush with a face
     assert is_convex(points, np.vstack([triangles, triangles]))
     assert not is_convex(points, np.vstack([triangles, triangles[:, ::-1]]))
+
+
+def bricks(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The surface of a box, each side in squares of two triangles."""
+    points: dict[tuple[int, ...], int] = {}
+    triangles = []
+    for axis, end in itertools.product(range(3), (0, count)):
+        for i, j in itertools.product(range(count), repeat=2):
+            square = []
+            for x, y in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                p = [0, 0, 0]
+                p[axis], p[axis - 2], p[axis - 1] = end, x, y
+                square.append(points.setdefault(tuple(p), len(points)))
+            k, m, n, o = square if end else square[::-1]
+            triangles += [(k, m, n), (k, n, o)]
+    return np.array(list(points), dtype=float) / 7 + 1 / 3, np.array(triangles, dtype=np.int64)
+
+
+def is_convex_slowly(points: np.ndarray, triangles: np.ndarray) -> bool:
+    exact = [[Fraction(c) for c in p] for p in points.tolist()]
+    volume = Fraction(0)
+    for face in triangles.tolist():
+        normal = normal_of([exact[v] for v in face])
+        heights = {sign(dot(normal, sub(p, exact[face[0]]))) for p in exact}
+        if heights >= {1, -1}:
+            return False
+        volume += dot(normal, exact[face[0]])
+    return volume > 0
+
+
+def test_convexity_is_exact() -> None:
+    """A side of many triangles in one plane, and the same with a point off it by a last place."""
+    points, triangles = bricks(3)
+    assert is_convex(points, triangles) == is_convex_slowly(points, triangles)
+    whole = np.round(points * 2**20)
+    assert is_convex(whole, triangles)
+    for row, axis in itertools.product(range(0, len(whole), 9), range(3)):
+        for way in (-np.inf, np.inf):
+            other = whole.copy()
+            other[row, axis] = np.nextafter(other[row, axis], way)
+            assert is_convex(other, triangles) == is_convex_slowly(other, triangles)
+
+
+def test_of_a_large_body_every_point_counts() -> None:
+    """More sides of points than are found at once: one point of thousands is in front."""
+    points, triangles = bricks(30)
+    assert len(points) * len(triangles) > 2 * AT_ONCE
+    points = np.round(points * 2**20)
+    assert is_convex(points, triangles)
+    row = int(np.flatnonzero(points[:, 0] == points[:, 0].max())[450])
+    points[row, 0] = np.nextafter(points[row, 0], np.inf)
+    assert not is_convex(points, triangles)

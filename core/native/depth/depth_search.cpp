@@ -76,11 +76,12 @@ class Search {
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
       : a_(a), b_(b), moved_(a), goal_(goal), budget_(goal.work, goal.poll), sets_(goal.across, budget_) {
     result_.upper = goal.upper;
+    scanned_ = goal.prove;
   }
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
-    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0);
+    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root());
     double open_from = result_.upper;
     while (!open_.empty()) {
       TranslationBox box = open_.top();
@@ -97,13 +98,13 @@ class Search {
       }
       if (!scanned_ && budget_.spent() >= goal_.work / kScanAfter) {
         scan_spheres(std::fmax(box.key, result_.upper / kSmallestSphere));
-        push(box.centre, box.half, std::move(box.sets), box.seen);
+        push(box.centre, box.half, std::move(box.sets), box.seen, box.part);
         continue;
       }
       ++result_.boxes;
       poll();
       open_from = result_.upper;
-      if (is_covered(box) || is_dropped(sets_.covered_by_several(box, enough()))) continue;
+      if (is_covered(box) || (!goal_.prove && is_dropped(sets_.covered_by_several(box, enough())))) continue;
       if (is_on_seam(box)) {
         fit(sets_.on_facets(box));
       } else if (const auto t = sets_.nearest_open(box, box.nearest_to_origin(), enough())) {
@@ -114,13 +115,19 @@ class Search {
       if (is_covered(box)) continue;
       split(box);
     }
-    snap();
+    if (!goal_.prove) snap();
     result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
     result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
     result_.work = budget_.spent();
     result_.sets = static_cast<std::uint32_t>(sets_.size());
     return result_;
+  }
+
+  // turned: what moves is B. After a search that proves all of it.
+  std::optional<DepthProof> proof(bool turned) const {
+    if (!goal_.prove || result_.lower < goal_.upper * (1 - 2 * kNormError)) return std::nullopt;
+    return record_.proof(root_half(goal_.upper), regions_, turned);
   }
 
  private:
@@ -130,10 +137,11 @@ class Search {
   // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
-  void push(Vec3 centre, Vec3 half, std::vector<std::shared_ptr<const ForbiddenSet>> sets, std::uint32_t seen) {
-    TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
+  void push(Vec3 centre, Vec3 half, std::vector<std::shared_ptr<const ForbiddenSet>> sets, std::uint32_t seen,
+            std::uint32_t part) {
+    TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++, part};
     box.key = norm(box.nearest_to_origin());
-    if (box.key >= result_.upper) return;
+    if (box.key >= result_.upper) return record_.set_far(part);
     budget_.spend(kBoxWork);
     open_.push(std::move(box));
   }
@@ -144,13 +152,16 @@ class Search {
     Vec3 half = h, shift;
     (axis == 0 ? half.x : axis == 1 ? half.y : half.z) *= 0.5;
     (axis == 0 ? shift.x : axis == 1 ? shift.y : shift.z) = half[axis];
-    push(box.centre - shift, half, box.sets, box.seen);
-    push(box.centre + shift, half, box.sets, box.seen);
+    const std::uint32_t first = record_.halve(box.part);
+    push(box.centre - shift, half, box.sets, box.seen, first);
+    push(box.centre + shift, half, box.sets, box.seen, first + 1);
   }
 
   // Whether one set forbids all translations in the box that are short enough to matter.
   bool is_covered(TranslationBox& box) {
-    return is_dropped(sets_.covered_by_one(box, enough(), result_.upper));
+    if (!is_dropped(sets_.covered_by_one(box, enough(), result_.upper))) return false;
+    record_.set_held(box.part, box.held_by);
+    return true;
   }
 
   // Whether a box can be dropped. covered: all translations in it up to this length are forbidden.
@@ -197,10 +208,10 @@ class Search {
         ++asked;
         const MeshRelation relation = relation_at(t);
         if (is_free(relation)) return take(t);
-        ForbiddenSet set = proof_at(t, relation);
-        if (set.empty()) return;
-        exit = set.exit(t);
-        sets_.add(std::move(set));
+        OverlapProof proof = proof_at(t, relation);
+        if (proof.set.empty()) return;
+        exit = proof.set.exit(t);
+        add(std::move(proof));
       }
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
@@ -209,9 +220,14 @@ class Search {
     }
   }
 
-  ForbiddenSet proof_at(Vec3 t, const MeshRelation& relation) {
+  void add(OverlapProof proof) {
+    sets_.add(std::move(proof.set));
+    if (goal_.prove) regions_.push_back(std::move(proof.regions));
+  }
+
+  OverlapProof proof_at(Vec3 t, const MeshRelation& relation) {
     const Overlaps overlaps = sets_.size() < kManySets ? Overlaps::first : Overlaps::thickest;
-    return prove_overlap(a_, moved_.at(t, &budget_), b_, t, relation, overlaps, budget_);
+    return prove_overlap(a_, moved_.at(t, &budget_), b_, t, relation, overlaps, goal_.prove, budget_);
   }
 
   // Searches a way out on spheres, the smallest first. Longer translations need not be searched then.
@@ -247,9 +263,9 @@ class Search {
   // Adds a set in which t is deeper than in all others.
   bool deepen(Vec3 t) {
     const double known = std::fmax(sets_.deepest_exit(t).depth, 0.0);
-    ForbiddenSet set = proof_at(t, relation_at(t));
-    if (!(set.exit(t).depth > kDeeper * known)) return false;
-    sets_.add(std::move(set));
+    OverlapProof proof = proof_at(t, relation_at(t));
+    if (!(proof.set.exit(t).depth > kDeeper * known)) return false;
+    add(std::move(proof));
     return true;
   }
 
@@ -292,6 +308,8 @@ class Search {
   double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
   double reached_ = 0;            // and the open ones none shorter than this
   ForbiddenUnion sets_;
+  DepthRecord record_;
+  std::vector<RegionPair> regions_;  // of each set, where the search writes down its proof
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
   std::uint64_t next_number_ = 0;
   bool scanned_ = false;
@@ -310,9 +328,11 @@ bool comes_first(const Mesh& a, const Mesh& b) {
 }
 
 DepthInterval search_near_origin(const Surface& a, const Surface& b, const DepthGoal& goal) {
-  if (comes_first(a.mesh, b.mesh)) return Search(a, b, goal).run();
-  DepthInterval result = Search(b, a, goal).run();
-  result.way_out = Vec3{} - result.way_out;
+  const bool turned = !comes_first(a.mesh, b.mesh);
+  Search search(turned ? b : a, turned ? a : b, goal);
+  DepthInterval result = search.run();
+  result.proof = search.proof(turned);
+  if (turned) result.way_out = Vec3{} - result.way_out;
   return result;
 }
 
@@ -322,7 +342,9 @@ DepthInterval search_depth(const Surface& a, const Surface& b, const DepthGoal& 
   const Vec3 centre = exact_centre(a, b);
   if (centre == Vec3{}) return search_near_origin(a, b, goal);
   MovedSurface moved_a(a), moved_b(b);
-  return search_near_origin(moved_a.at(-centre), moved_b.at(-centre), goal);
+  DepthInterval result = search_near_origin(moved_a.at(-centre), moved_b.at(-centre), goal);
+  if (result.proof) result.proof->origin = centre;
+  return result;
 }
 
 }  // namespace satcheck

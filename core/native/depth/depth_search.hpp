@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "base/budget.hpp"
+#include "depth/depth_proof.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -17,6 +19,8 @@ struct DepthGoal {
   std::uint64_t work = 0;  // steps that may be spent (base/budget.hpp)
   int across = -1;         // for a depth in a plane, the world axis along which nothing is moved; -1: none
   double limit = INFINITY;  // the search also ends once the depth is proven to be at least this
+  // Writes down why no translation shorter than `upper` frees the meshes, by regions inside solids alone.
+  bool prove = false;
   Poll poll = {};
 };
 
@@ -37,6 +41,7 @@ struct DepthInterval {
   DepthStop stop = DepthStop::narrow;
   std::uint64_t work = 0;
   std::uint32_t boxes = 0, mesh_tests = 0, sets = 0;
+  std::optional<DepthProof> proof;  // if it was asked for, and found
 };
 
 // Two overlapping meshes. Swapping them negates the way out and changes nothing else.

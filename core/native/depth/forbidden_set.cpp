@@ -59,6 +59,7 @@ ForbiddenSet::Reach ForbiddenSet::reach(Vec3 c, Vec3 h) const {
 ForbiddenSet ForbiddenSet::within(Vec3 c, Vec3 h) const {
   ForbiddenSet part;
   part.box = box;
+  part.number = number;
   for (std::size_t k = 0; k < normal.size(); ++k) {
     if (dot(normal[k], c) + spread_of(h, normal[k]) < offset[k]) continue;
     part.normal.push_back(normal[k]);

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/budget.hpp"
 #include "base/vec.hpp"
+#include "depth/inner_region.hpp"
 
 namespace satcheck {
+
+using RegionPair = std::pair<InnerRegion, InnerRegion>;  // in A, in B
 
 // The Minkowski difference B' - A' of two convex bodies: A' inside A, B' inside B. A translation on the inner side of
 // all planes is proven to be in its interior, because the planes are moved inward from the facets by the rounding
@@ -17,6 +22,7 @@ struct ForbiddenSet {
   std::vector<double> offset;
   std::vector<double> facet;  // the offset of the facet itself, rounded to nearest
   Aabb box;
+  std::uint32_t number = 0;  // in a union of such sets
 
   bool empty() const { return normal.empty(); }
 

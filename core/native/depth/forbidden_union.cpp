@@ -36,7 +36,10 @@ double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double 
   for (std::shared_ptr<const ForbiddenSet>& set : box.sets) {
     budget_.spend(work_of(*set));
     const ForbiddenSet::Reach reach = set->reach(box.centre, box.half);
-    farthest = std::fmax(farthest, reach.length);
+    if (reach.length > farthest) {
+      farthest = reach.length;
+      box.held_by = set->number;
+    }
     if (farthest >= most) break;
     if (!reach.meets) continue;
     if (reach.facets <= set->normal.size() / kFewer) set = std::make_shared<const ForbiddenSet>(set->within(box.centre, box.half));

@@ -19,7 +19,10 @@ class ForbiddenUnion {
   // across: an axis of the world along which nothing is moved; -1: none.
   ForbiddenUnion(int across, Budget& budget) : across_(across), budget_(budget) {}
 
-  void add(ForbiddenSet set) { sets_.push_back(std::make_shared<const ForbiddenSet>(std::move(set))); }
+  void add(ForbiddenSet set) {
+    set.number = static_cast<std::uint32_t>(sets_.size());
+    sets_.push_back(std::make_shared<const ForbiddenSet>(std::move(set)));
+  }
   std::size_t size() const { return sets_.size(); }
 
   // A length up to which a single set contains all translations in the box; -infinite if it is less than `least`. The

@@ -206,7 +206,8 @@ class Growth {
       if (is_on_this_side(p)) corner.push_back(p);
     }
     if (corner.size() < 4 || !are_in_range(corner)) return std::nullopt;
-    InnerRegion result{std::move(corner), {}};
+    InnerRegion result{std::move(corner), {}, {}};
+    for (const Plane& p : planes_) result.normals.push_back(p.normal);
     for (const Vec3& p : result.vertices) result.box.include(p);
     return result;
   }

@@ -13,6 +13,7 @@ namespace satcheck {
 struct InnerRegion {
   std::vector<Vec3> vertices;  // at least 4; up to rounding, all of them are extreme
   Aabb box;
+  std::vector<Vec3> normals;  // each triangle of the surface is farther along one of them than all vertices are
 };
 
 // The metric for distances while a region grows: the distance of x from the seed is the length of metric * (x - seed).

@@ -50,8 +50,8 @@ class Proof {
  public:
   Proof(const Surface& a, const Surface& b, Vec3 t, Budget& budget) : a_(a), b_(b), t_(t), budget_(budget) {}
 
-  bool empty() const { return set_.empty(); }
-  ForbiddenSet take() { return std::move(set_); }
+  bool empty() const { return proof_.set.empty(); }
+  OverlapProof take() { return std::move(proof_); }
 
   // Two metrics for each body give several sets. Takes the one in which t is deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
@@ -65,7 +65,9 @@ class Proof {
       const std::vector<InnerRegion> in_a = regions(a.walled(), common->point - t_);
       const std::vector<InnerRegion> in_b = regions(b.walled(), common->point);
       for (const InnerRegion& p : in_a) {
-        for (const InnerRegion& q : in_b) keep_deepest(p.vertices, q.vertices);
+        for (const InnerRegion& q : in_b) {
+          if (keep_deepest(p.vertices, q.vertices)) proof_.regions = {p, q};
+        }
       }
     }
   }
@@ -128,19 +130,22 @@ class Proof {
     return found;
   }
 
-  void keep_deepest(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
-    if (!may_be_deeper(part_of_a, part_of_b)) return;
+  // Whether t is deeper in the difference of these parts.
+  bool keep_deepest(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
+    if (!may_be_deeper(part_of_a, part_of_b)) return false;
     ForbiddenSet set = forbidden_set(part_of_a, part_of_b, &budget_);
     const double depth = set.exit(t_).depth;
-    if (!(depth > depth_)) return;
+    if (!(depth > depth_)) return false;
     depth_ = depth;
-    set_ = std::move(set);
+    proof_.set = std::move(set);
+    return true;
   }
 
   // Whether t may be deeper in the difference of these parts than in the best set so far. It is no deeper than behind any
   // plane that supports the difference, and those along the facets of the best set are likely to be near to t.
   bool may_be_deeper(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) const {
-    return std::none_of(set_.normal.begin(), set_.normal.end(), [&](Vec3 n) {
+    const ForbiddenSet& best = proof_.set;
+    return std::none_of(best.normal.begin(), best.normal.end(), [&](Vec3 n) {
       return highest(part_of_b, n) + highest(part_of_a, -n) - dot(n, t_) <= depth_ * (1 + kWorthwhile);
     });
   }
@@ -156,15 +161,16 @@ class Proof {
   Vec3 t_;
   Budget& budget_;
   double depth_ = 0;
-  ForbiddenSet set_;
+  OverlapProof proof_;
 };
 
 }  // namespace
 
-ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
-                           const MeshRelation& relation, Overlaps overlaps, Budget& budget) {
+OverlapProof prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
+                           const MeshRelation& relation, Overlaps overlaps, bool regions_alone, Budget& budget) {
   Proof proof(a, b, t, budget);
   proof.by_regions(moved, relation, overlaps);
+  if (regions_alone) return proof.take();
   proof.by_triangles(relation);
   if (proof.empty()) proof.by_triangle_within(relation);
   return proof.take();

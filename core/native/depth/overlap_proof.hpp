@@ -11,9 +11,14 @@ namespace satcheck {
 // (thickest). The latter takes twice the time, and proves more if there are many sets.
 enum class Overlaps { first, thickest };
 
+struct OverlapProof {
+  ForbiddenSet set;
+  RegionPair regions;  // that it is the difference of, unless triangles prove more
+};
+
 // The set in which t is deepest, among all sets that were tried; empty if t is in none. `moved`: `a` translated by t.
-// `relation`: of `moved` to `b`, with a common interior.
-ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
-                           const MeshRelation& relation, Overlaps overlaps, Budget& budget);
+// `relation`: of `moved` to `b`, with a common interior. regions_alone: triangles are not tried.
+OverlapProof prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
+                           const MeshRelation& relation, Overlaps overlaps, bool regions_alone, Budget& budget);
 
 }  // namespace satcheck

@@ -18,6 +18,8 @@ struct TranslationBox {
   std::vector<std::shared_ptr<const ForbiddenSet>> sets;
   std::uint32_t seen;
   std::uint64_t number;
+  std::uint32_t part = 0;  // of the record
+  std::uint32_t held_by = 0;  // the set that holds the most of it
 
   Vec3 nearest_to_origin() const;
   bool contains(Vec3 t) const;

@@ -26,7 +26,7 @@ def test_depth_and_distance_are_those_of_the_core() -> None:
         shapes = [core.Hull(mesh.convex_hull()) for mesh in hulls]
         k = lattice(*clouds)
         worlds = [World(c, np.arange(12).reshape(-1, 3), False) for c in clouds]
-        pair = Pair(Exact(worlds[0], k), Exact(worlds[1], k), True)
+        pair = Pair(Exact(worlds[0], k), Exact(worlds[1], k))
         truth = core.check_pair(*shapes, query="depth")
         found = expanded(pair, Fraction(10**6))
         assert found is not None
