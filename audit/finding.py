@@ -20,7 +20,7 @@ from satcheck.audit.figures.gap import measure_gap
 from satcheck.audit.figures.touch_band import Band, band_of, touch_band
 from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
-from satcheck.audit.ladder.ladder import boxes_verdict, settle
+from satcheck.audit.ladder.ladder import boxes_verdict, settle, why_open
 from satcheck.audit.request.trace import Trace
 from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
@@ -36,6 +36,7 @@ from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
+    from satcheck import core
     from satcheck.audit.figures.thickness_ahead import Ahead
     from satcheck.core import Climb
 
@@ -131,6 +132,14 @@ def deep_overlap(pair: Pair) -> Finding:
     trace.record("sort", "penetrating", "an overlap beyond the touch band")
     verdict = Verdict("penetrating", proven=True)
     return _judged(Draft(pair, trace, verdict, "penetrating", "penetrating"))
+
+
+def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
+    """Return the finding of bodies with separate surfaces of which the fill of this hole decides
+    whether they overlap."""
+    trace = Trace()
+    trace.record("sort", "indeterminate", "the fill of a hole decides")
+    return indeterminate(pair.a.id, pair.b.id, why_open(pair, hole), trace)
 
 
 def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:

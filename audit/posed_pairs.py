@@ -19,12 +19,13 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody, world_bounds
+from satcheck.audit.finding import deep_overlap, open_by_fill
 from satcheck.audit.request.planner import Planner
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES
+from satcheck.report.report import SEVERITIES, Finding
 from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.half_spaces import holds, reach_in_world
@@ -152,6 +153,18 @@ class PosedPairs:
         file = body.body.file
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
         return file.resolution * stretch + step
+
+    def proven(
+        self, matrices: Numbers, row: int, number: int, code: int, pair: Pair
+    ) -> Finding | None:
+        """Return the finding of a sorted pair in one of the poses, if the sort proves all of it.
+        pair: as placed there."""
+        a, b = self.places[number]
+        sides = self._posed[a], matrices[row, a], self._posed[b], matrices[row, b]
+        if code == DEEP and pair.request.by.keys() <= {"overlap", "distance"}:
+            return deep_overlap(pair) if core.neither_holds(*sides, pair.tolerance) else None
+        hole = core.open_hole(*sides) if code == UNDECIDED else None
+        return None if hole is None else open_by_fill(pair, hole)
 
     def at(
         self,

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.audit.checked_pairs import examine_pairs
-from satcheck.audit.finding import deep_overlap
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
@@ -24,7 +23,6 @@ from satcheck.report.verdict import fails
 from satcheck.scene.robot.pose_batches import PoseBatch
 
 if TYPE_CHECKING:
-    from satcheck.audit.bodies.boxes import Box
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
     from satcheck.core.overlap_volume import VolumeMeter
@@ -113,10 +111,12 @@ class _SortedBatch:
                 continue
             found = self._found.setdefault(row, {})
             for number, pair in zip(numbers, pairs, strict=True):
-                if self._sorted[row, number] == DEEP and proves_penetration(pair):
-                    found[number] = deep_overlap(pair)
-                else:
+                code = int(self._sorted[row, number])
+                finding = self._pairs.proven(self._matrices, row, number, code, pair)
+                if finding is None:
                     climbing.append((row, number, pair))
+                else:
+                    found[number] = finding
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -181,17 +181,3 @@ def _with_reasons(codes: Codes) -> Codes:
     opened = codes.copy()
     opened[undecided[:, pairs].argmax(axis=0), pairs] = OPEN
     return opened
-
-
-def proves_penetration(pair: Pair) -> bool:
-    """Return whether a deep overlap of the pair is a whole finding: no figure of it is requested,
-    and the boxes show that neither body holds the other."""
-    if not pair.request.by.keys() <= {"overlap", "distance"} or pair.curved:
-        return False
-    a, b = pair.a.bounds, pair.b.bounds
-    return _sticks_out(a, b, pair.tolerance) and _sticks_out(b, a, pair.tolerance)
-
-
-def _sticks_out(inner: Box, outer: Box, margin: float) -> bool:
-    low = any(p < q - margin for p, q in zip(inner[0], outer[0], strict=True))
-    return low or any(p > q + margin for p, q in zip(inner[1], outer[1], strict=True))

@@ -68,7 +68,7 @@ def _verdict_of(pair: Pair, climb: core.Climb) -> Verdict:
         climb.signed_distance,
         climb.crossing,
         climb.point,
-        _open(pair, climb.hole) if climb.hole is not None else None,
+        why_open(pair, climb.hole) if climb.hole is not None else None,
         climb,
     )
 
@@ -80,7 +80,8 @@ def boxes_verdict(pair: Pair, trace: Trace) -> Verdict | None:
     return _verdict_of(pair, climb) if climb.settled else None
 
 
-def _open(pair: Pair, hole: core.OpenHole) -> str:
+def why_open(pair: Pair, hole: core.OpenHole) -> str:
+    """Return why the hole leaves the relation open."""
     body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
     at = ", ".join(f"{c:.4g}" for c in hole.centre)
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
