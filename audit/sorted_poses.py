@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.pair_queue import PairQueue
-from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SingleChecks, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SampledPose
@@ -77,16 +77,13 @@ class _SortedBatch:
         self._find(self._sorted == OPEN)
         listed = self._listed()
         self._find(((self._sorted == DEEP) | (self._sorted == UNDECIDED)) & listed[:, None])
-        others = np.ones(self._batch.count, bool)
-        others[[*self._found, *self._alone]] = False
-        self._count_sorted(np.flatnonzero(others & ~listed))
-        for row in np.flatnonzero(listed | ~others).tolist():
+        verdicts = self._verdicts()
+        listed[list(self._alone)] = True
+        for row in np.flatnonzero(listed).tolist():
             if row in self._alone:
                 self._results.add(self._checks.sample(self._batch, row))
-            elif listed[row]:
-                self._results.add(self._sample(row))
             else:
-                self._count_unlisted(row)
+                self._results.listed.append(self._sample(row, verdicts[row]))
         return self._batch
 
     def _listed(self) -> NDArray[np.bool_]:
@@ -133,44 +130,40 @@ class _SortedBatch:
         found = sorted(self._found.get(row, {}).items())
         return tuple(finding for _, finding in found if not is_plain(finding))
 
-    def _sample(self, row: int) -> SampledPose:
+    def _sample(self, row: int, verdict: Verdict) -> SampledPose:
         posture = self._batch.posture(row)
-        findings = self._findings(row)
-        verdict = self._verdict(findings)
-        number = self._batch.first + row
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
-        return SampledPose(number, posture.pose(), verdict, findings, issues)
+        number = self._batch.first + row
+        return SampledPose(number, posture.pose(), verdict, self._findings(row), issues)
 
-    def _count_unlisted(self, row: int) -> None:
-        """A pose with findings."""
-        number, findings = self._batch.first + row, self._findings(row)
-        for finding in findings:
-            a, b = finding.a, finding.b
-            self._results.tally(a, b).count(finding, number, self._results.fail_on)
-        self._count_sorted([row], self._verdict(findings))
-
-    def _count_sorted(self, rows: Sequence[int] | NDArray[np.intp], rest: Verdict = "pass") -> None:
-        """Poses as the core has sorted their pairs. rest: their verdict without these pairs."""
-        codes, names, failing = self._sorted[rows], self._pairs.names, self._pairs.deep_fails
-        deep, undecided = codes == DEEP, codes == UNDECIDED
-        for k in np.flatnonzero(deep.any(axis=0)).tolist():
-            met = np.flatnonzero(deep[:, k])
-            first = self._batch.first + int(rows[met[0]])
-            self._results.tally(*names[k]).count_overlaps(len(met), first, fails=bool(failing[k]))
-        for k in np.flatnonzero(undecided.any(axis=0)).tolist():
-            self._results.tally(*names[k]).undecided += int(undecided[:, k].sum())
-        failed = (deep & failing).any(axis=1) | (rest == "fail")
-        incomplete = ~failed & (undecided.any(axis=1) | (rest == "incomplete"))
-        counts = self._results.by_verdict
-        counts["fail"] += int(failed.sum())
-        counts["incomplete"] += int(incomplete.sum())
-        counts["pass"] += int((~failed & ~incomplete).sum())
-
-    def _verdict(self, findings: Sequence[Finding]) -> Verdict:
-        """As a report with these findings has it."""
-        if any(fails(finding, self._results.fail_on) for finding in findings):
-            return "fail"
-        return "incomplete" if any(f.undecided is not None for f in findings) else "pass"
+    def _verdicts(self) -> dict[int, Verdict]:
+        """Return the verdict on each pose that needs no check of its own, all of them counted: by
+        their findings, and by the sort for pairs without one."""
+        codes, results = self._sorted.copy(), self._results
+        codes[list(self._alone)] = APART
+        for row, found in self._found.items():
+            codes[row, list(found)] = APART
+        failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1)
+        undecided = (codes == UNDECIDED).any(axis=1)
+        for row in sorted(self._found.keys() - self._alone):
+            for finding in self._findings(row):
+                pair, number = results.tally(finding.a, finding.b), self._batch.first + row
+                pair.count(finding, number, results.fail_on)
+                failed[row] |= fails(finding, results.fail_on)
+                undecided[row] |= finding.undecided is not None
+        for k in np.flatnonzero(((codes == DEEP) | (codes == UNDECIDED)).any(axis=0)).tolist():
+            pair, deep = results.tally(*self._pairs.names[k]), np.flatnonzero(codes[:, k] == DEEP)
+            if deep.size:
+                first, fails_by = self._batch.first + int(deep[0]), bool(self._pairs.deep_fails[k])
+                pair.count_overlaps(len(deep), first, fails=fails_by)
+            pair.undecided += int((codes[:, k] == UNDECIDED).sum())
+        verdicts: dict[int, Verdict] = {
+            row: "fail" if failed[row] else "incomplete" if undecided[row] else "pass"
+            for row in range(self._batch.count)
+            if row not in self._alone
+        }
+        results.by_verdict.update(verdicts.values())
+        return verdicts
 
 
 def _with_reasons(codes: Codes) -> Codes:
