@@ -14,8 +14,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.figures.escape import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.motion.limits import is_step
-from satcheck.audit.motion.moving_pair import MovingPair, overlaps
+from satcheck.audit.motion.moving_pair import MovingPair, is_step, overlaps
 from satcheck.audit.vectors import crossed, scaled, unit
 from satcheck.core.conventions import Vector
 

@@ -14,7 +14,6 @@ from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
 from satcheck.audit.request.planner import ALWAYS
 from satcheck.audit.request.trace import Trace
@@ -33,6 +32,21 @@ if TYPE_CHECKING:
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
+
+
+# The budget and the resolution of a sweep, in steps and shares of t, never in seconds.
+# If a step is shorter than this share of the motion, the bodies count as in contact. The first
+# overlap is searched down to the same share.
+SHORTEST_STEP = 2.0**-30
+# A contact that lasts for more touch bands of motion than this is a contact of its own; a shorter
+# one is the start of an overlap.
+SLID = 64
+# Queries about one pair: how long it stays free, how large its gap is.
+STEPS = 4096
+# Pairs of boxes and triangles that all these queries may visit: a few seconds.
+VISITS = 10_000_000
+# The least touch band of a sweep, in units of the rounding of a pose.
+PADS_IN_BAND = 8
 
 
 class Unanswerable(Exception):
@@ -196,6 +210,11 @@ class MovingPair:
             track.slack(track.piece_at(t), body.bounds)
             for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
         )
+
+
+def is_step(step: float, t: float, end: float) -> bool:
+    """Return whether a step from t on is long enough to be one, or reaches the end."""
+    return step >= SHORTEST_STEP or t + step >= end
 
 
 def overlaps(finding: Finding) -> bool:

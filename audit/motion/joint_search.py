@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.escape import FREE
 from satcheck.audit.finding import examine
-from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
 from satcheck.audit.motion.impact import Impact, impact_point
-from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
-from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.motion.joint_travel import Interval, Middle, Numbers, Travel
+from satcheck.audit.motion.moving_pair import PADS_IN_BAND, STEPS, overlaps
 from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 from satcheck.audit.request.planner import ALWAYS

@@ -10,9 +10,9 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.boxes import Box, around_both
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
-from satcheck.audit.joint_path.search import Search, SweptPair
-from satcheck.audit.joint_path.travel import Interval, Travel
 from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
+from satcheck.audit.motion.joint_search import Search, SweptPair
+from satcheck.audit.motion.joint_travel import Interval, Travel
 from satcheck.audit.motion.sweep import swept
 from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import PosedPairs
