@@ -12,7 +12,7 @@ import numpy as np
 from msgspec import Struct
 
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.near import Floats, Indices, cross, near_boxes
+from satcheck.audit.statics.near import Flags, Floats, Indices, cross, near_boxes
 
 # Edges whose directions differ by less than this sine are parallel: their vertices decide.
 PARALLEL = 1e-6
@@ -20,9 +20,6 @@ PARALLEL = 1e-6
 PLAIN_PATCH = 8
 # With more pairs of near features the tolerance is not small beside the facets.
 MOST_NEAR = 500_000
-
-
-NDArrayBool = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
 class Points(Struct, frozen=True):
@@ -34,7 +31,7 @@ class Points(Struct, frozen=True):
     at: Floats
     normals: Floats
     heights: Floats
-    strict: NDArrayBool
+    strict: Flags
 
     def __len__(self) -> int:
         return len(self.at)
@@ -87,9 +84,7 @@ def extreme(points: Points, rounding: float) -> Points:
     return Points(points.at[kept], points.normals[kept], points.heights[kept], strict[kept])
 
 
-def _corners_of_patches(
-    points: Points, kept: Indices, strict: NDArrayBool, rounding: float
-) -> Indices:
+def _corners_of_patches(points: Points, kept: Indices, strict: Flags, rounding: float) -> Indices:
     """Of contacts in one plane with one normal only the corners of their hull: forces at the others
     are mixtures of forces at these."""
     if len(kept) <= PLAIN_PATCH:
