@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from msgspec.structs import replace
@@ -13,8 +14,7 @@ from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
 from satcheck.audit.motion.joint_search import Search, SweptPair
 from satcheck.audit.motion.joint_travel import Interval, Travel
-from satcheck.audit.motion.sweep import swept
-from satcheck.audit.motion.worst import Worst
+from satcheck.audit.motion.sweep import relation_apart, swept, worst_pose
 from satcheck.audit.posed_pairs import PosedPairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
@@ -22,7 +22,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.motions import JointPath as StatedPath
 from satcheck.report.motions import JointWaypoint, StatedMotion
 from satcheck.report.report import Issue
-from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
+from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
 from satcheck.scene.robot import JointPath
 from satcheck.scene.robot.pose_batches import Numbers
@@ -106,23 +106,15 @@ class JointMovers:
         if impact.reason is not None:
             return swept(impact, pair.tolerance, pair.steps)
         clearance = self._pairs.pairs[k].request.clearance or 0.0
-        is_near = nearest is not None and nearest.upper < clearance
-        apart: SweptRelation = "near" if is_near else "separated"
+        worst = nearest if nearest is not None and nearest.upper < clearance else None
+        joints = None if worst is None else self._path.pose(worst.time)
         return swept(
             impact,
             pair.tolerance,
             pair.steps,
-            apart if impact.contact is None else "touching",
-            worst=self._worst(k, nearest) if nearest is not None and is_near else None,
-            distance_at_least=None if nearest is None or is_near else nearest.lower,
-        )
-
-    def _worst(self, k: int, nearest: Worst) -> WorstPose:
-        return WorstPose(
-            nearest.time,
-            self._places(k, nearest.time),
-            joints=self._path.pose(nearest.time),
-            distance=(nearest.lower, nearest.upper),
+            relation_apart(impact, worst, pair.tolerance, clearance),
+            worst=worst_pose(worst, partial(self._places, k), joints),
+            distance_at_least=None if nearest is None or worst is not None else nearest.lower,
         )
 
     def _places(self, k: int, time: float) -> tuple[Place, ...]:

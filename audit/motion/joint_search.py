@@ -17,14 +17,12 @@ from numpy.typing import NDArray
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.escape import FREE
-from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import Impact, impact_point
 from satcheck.audit.motion.joint_travel import Interval, Middle, Numbers, Travel
-from satcheck.audit.motion.moving_pair import PADS_IN_BAND, STEPS, overlaps
+from satcheck.audit.motion.moving_pair import PADS_IN_BAND, STEPS, found, overlaps
 from satcheck.audit.motion.worst import Worst
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
 from satcheck.core.conventions import Vector
 from satcheck.report.report import Effect, Finding
 from satcheck.report.request import Request
@@ -168,7 +166,7 @@ class Search:
                 continue
             swept[k].climbs += 1
             pair = self._pair(at, row, k, swept[k].tolerance, float(margins[row, k]))
-            finding = examine(pair, Trace()).finding
+            finding = found(pair)
             if overlaps(finding):
                 swept[k].hit, later[row, k] = float(middles[row]), False
             elif _is_clear(finding):
@@ -187,7 +185,7 @@ class Search:
         if travelled >= tolerance or tolerance > widest:
             return False
         pair = self._pair(at, row, k, tolerance - travelled, 0.0)
-        return examine(pair, Trace()).finding.relation in FREE
+        return found(pair).relation in FREE
 
     def _compare(
         self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]
@@ -205,7 +203,7 @@ class Search:
             for row in rows[:: -(-len(rows) // MEASURED)].tolist():
                 enough = nearest.lower + float(travelled[row, k])
                 pair = self._pair(at, row, k, swept[k].tolerance, enough)
-                finding = examine(pair, Trace()).finding
+                finding = found(pair)
                 unknown[row, k] = not _is_clear(finding)
                 if finding.distance is not None and finding.distance < nearest.upper:
                     lower = min(nearest.lower, NARROWED * finding.distance)

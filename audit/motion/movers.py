@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from itertools import pairwise
 
 import numpy as np
-from msgspec import convert, to_builtins
+from msgspec import Struct, convert, to_builtins
+from numpy.typing import NDArray
 
 from satcheck import core
 from satcheck.audit.bodies.boxes import Box, around_both, corners
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.ladder.close_pairs import IndexPair, close_pairs
-from satcheck.audit.motion.track import STANDS, Track, track_of
+from satcheck.audit.motion.track import Track, track_of
 from satcheck.audit.request.planner import Planner
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 
+Floats = NDArray[np.float64]
 # How a report calls the kinds of paths.
 KINDS = {Translation: "translation", Rotation: "rotation", PosePath: "path"}
 
@@ -35,9 +36,9 @@ class Movers:
     def __init__(self, motions: Sequence[Motion]) -> None:
         self._motions = tuple(motions)
         self._motion = {body: motion for motion in motions for body in motion.bodies}
-        self._tracks = {id(motion): track_of(motion.path) for motion in motions}
-        self._times = part_times(self._tracks.values())
-        self._boxes: dict[str, SweptBoxes] = {}
+        tracks = {id(motion): track_of(motion.path) for motion in motions}
+        times = part_times(tracks.values())
+        self._parts = {key: parts_of(track, times) for key, track in tracks.items()}
 
     def paths(self, a: str, b: str) -> Paths | None:
         """The paths of a pair; None: the bodies do not move relative to each other."""
@@ -51,26 +52,28 @@ class Movers:
     def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
         """The pairs that may be as close as they ask, as placed or at some t."""
         placed, ids = bodies.placed, bodies.ids
+        boxes: dict[int, SweptBoxes] = {}  # of bodies in pairs; many pairs have the same one
+
+        def boxes_of(k: int) -> SweptBoxes:
+            if k not in boxes:
+                boxes[k] = SweptBoxes(placed[k].bounds, self._parts_of(ids[k]))
+            return boxes[k]
 
         def meet(i: int, j: int) -> bool:
             limit = planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
             if self._motion.get(ids[i]) is self._motion.get(ids[j]):
                 return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
-            a, b = (self._swept(ids[k], placed[k].bounds) for k in (i, j))
-            return a.may_meet(b, limit)
+            return boxes_of(i).may_meet(boxes_of(j), limit)
 
         return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
-        return self._swept(body, placed).whole
+        return SweptBoxes(placed, self._parts_of(body)).whole
 
-    def _swept(self, body: str, placed: Box) -> SweptBoxes:
-        if body not in self._boxes:
-            motion = self._motion.get(body)
-            track = STANDS if motion is None else self._tracks[id(motion)]
-            self._boxes[body] = SweptBoxes(placed, track, self._times)
-        return self._boxes[body]
+    def _parts_of(self, body: str) -> Parts | None:
+        motion = self._motion.get(body)
+        return None if motion is None else self._parts[id(motion)]
 
     def stated(self) -> tuple[StatedMotion, ...]:
         """The motions as a report states them."""
@@ -102,22 +105,44 @@ class Movers:
         ]
 
 
-class SweptBoxes:
-    """The world boxes of a body over the parts of its motion between these times, which include
-    those of the track. low, high: shape (parts, 3). placed: its box as placed."""
+class Parts(Struct, frozen=True):
+    """A motion between times that include those of its track. poses: at the times, (n, 3, 4).
+    pivots: of each part, (n - 1, 3). bends: how far a point gets from the line between its places
+    at both ends of a part, as a share of its distance from the pivot, (n - 1)."""
 
-    def __init__(self, placed: Box, track: Track, times: Sequence[float]) -> None:
+    track: Track
+    poses: Floats
+    pivots: Floats
+    bends: Floats
+
+
+def parts_of(track: Track, times: Sequence[float]) -> Parts:
+    poses = np.array([track.pose_at(t)[:12] for t in times]).reshape(-1, 3, 4)
+    pieces = [track.piece_at(t) for t in times[:-1]]
+    turned = np.array([math.hypot(*piece.spin) for piece in pieces]) * np.diff(times)
+    # A point moves along an arc about the moving centre, never more than twice the radius away.
+    bends = np.minimum(turned, 4.0) ** 2 / 8.0
+    return Parts(track, poses, np.array([piece.pivot for piece in pieces]), bends)
+
+
+class SweptBoxes:
+    """The world boxes of a body over the parts of its motion. low, high: shape (parts, 3). placed:
+    its box as placed."""
+
+    def __init__(self, placed: Box, parts: Parts | None) -> None:
+        """parts: None: the body stands."""
         self.placed = placed
-        if track is STANDS:
+        if parts is None:
             self.low, self.high = (np.array([corner]) for corner in placed)
             return
-        poses = np.array([track.pose_at(t)[:12] for t in times]).reshape(-1, 3, 4)
-        grown = np.array([_off_the_line(placed, track, *part) for part in pairwise(times)])
+        ends = np.array(corners(placed))
         with np.errstate(all="ignore"):
-            at = poses[:, :, :3] @ np.array(corners(placed)).T + poses[:, :, 3:]
+            radius = np.linalg.norm(ends - parts.pivots[:, None], axis=2).max(axis=1)
+            grown = (radius * parts.bends + parts.track.pad(placed))[:, None]
+            at = parts.poses[:, :, :3] @ ends.T + parts.poses[:, :, 3:]
             low, high = at.min(axis=2), at.max(axis=2)
-            self.low = np.minimum(low[:-1], low[1:]) - grown[:, None]
-            self.high = np.maximum(high[:-1], high[1:]) + grown[:, None]
+            self.low = np.minimum(low[:-1], low[1:]) - grown
+            self.high = np.maximum(high[:-1], high[1:]) + grown
         beyond = ~(np.isfinite(self.low) & np.isfinite(self.high)).all(axis=1)
         self.low[beyond], self.high[beyond] = -math.inf, math.inf
 
@@ -144,14 +169,3 @@ def part_times(tracks: Collection[Track]) -> list[float]:
     count = min(max(steps, PARTS), MOST_PARTS)
     ends = {time for track in tracks for time in track.times}
     return sorted(ends | {k / count for k in range(count + 1)})
-
-
-def _off_the_line(placed: Box, track: Track, start: float, end: float) -> float:
-    """How far a point gets from the line between its places at both times, which are of one piece.
-
-    It moves along an arc about the moving centre, at most angle squared / 8 of its radius away, and
-    never more than twice the radius."""
-    piece = track.piece_at(start)
-    radius = max(math.dist(corner, piece.pivot) for corner in corners(placed))
-    angle = min(math.hypot(*piece.spin) * (end - start), 4.0)
-    return radius * angle * angle / 8.0 + track.pad(placed)

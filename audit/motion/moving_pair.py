@@ -173,7 +173,7 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
-        return examine(self.placed(t), Trace()).finding
+        return found(self.placed(t))
 
     def _hulls(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
@@ -210,6 +210,11 @@ class MovingPair:
             track.slack(track.piece_at(t), body.bounds)
             for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
         )
+
+
+def found(pair: Pair) -> Finding:
+    """The finding of a pair in one pose."""
+    return examine(pair, Trace()).finding
 
 
 def is_step(step: float, t: float, end: float) -> bool:

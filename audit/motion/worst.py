@@ -16,10 +16,8 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.finding import examine
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, found
 from satcheck.audit.request.planner import ALWAYS
-from satcheck.audit.request.trace import Trace
 from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
 
@@ -139,7 +137,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     placed = pair.placed(t)
     request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
-    finding = examine(replace(placed, settings=settings, request=request), Trace()).finding
+    finding = found(replace(placed, settings=settings, request=request))
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

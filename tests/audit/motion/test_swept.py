@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.movers import Movers, SweptBoxes, part_times
-from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.motion.movers import Movers, SweptBoxes, part_times, parts_of
+from satcheck.audit.motion.track import track_of
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
@@ -19,9 +19,12 @@ BOUNDS = ((1.0, -0.5, 0.0), (3.0, 0.5, 1.0))
 
 def swept(*moving):
     """moving: (box as placed, path) of each body; None: it stands."""
-    tracks = [STANDS if path is None else track_of(path) for _, path in moving]
-    times = part_times(tracks)
-    return [SweptBoxes(b, track, times) for (b, _), track in zip(moving, tracks, strict=True)]
+    tracks = [None if path is None else track_of(path) for _, path in moving]
+    times = part_times([track for track in tracks if track is not None])
+    return [
+        SweptBoxes(placed, None if track is None else parts_of(track, times))
+        for (placed, _), track in zip(moving, tracks, strict=True)
+    ]
 
 
 def meet(a, b, limit):
