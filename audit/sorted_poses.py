@@ -1,7 +1,8 @@
 """Poses whose pairs the core has sorted (`posed_pairs.py`), and what they add to the samples.
 
-Findings are made only for pairs that the core leaves open, and for poses that the report lists. A
-pair of these poses climbs the ladder only if the sort does not say all that its finding has.
+Findings are made only for pairs that the core leaves open, for poses that the report lists, and for
+the first pose of a batch in which a pair is undecided. A pair climbs the ladder only if the sort
+does not say all that its finding has.
 """
 
 from __future__ import annotations
@@ -73,10 +74,11 @@ class _SortedBatch:
         self._alone: set[int] = set()
 
     def count(self) -> PoseBatch:
-        self._sorted = _with_reasons(self._sorting.result())
-        self._find(self._sorted == OPEN)
+        self._sorted = self._sorting.result()
+        self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
+        self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
-        self._find(((self._sorted == DEEP) | (self._sorted == UNDECIDED)) & listed[:, None])
+        self._find(self._noted & listed[:, None])
         verdicts = self._verdicts()
         listed[list(self._alone)] = True
         for row in np.flatnonzero(listed).tolist():
@@ -90,7 +92,7 @@ class _SortedBatch:
         """Whether each pose is listed."""
         if self._results.lists_all:
             return np.ones(self._batch.count, bool)
-        noted = ((self._sorted == DEEP) | (self._sorted == UNDECIDED)).any(axis=1)
+        noted = self._noted.any(axis=1)
         noted[[*self._alone, *(row for row in self._found if self._findings(row))]] = True
         listed = np.zeros(self._batch.count, bool)
         listed[np.flatnonzero(noted)[: self._results.room]] = True
@@ -100,13 +102,13 @@ class _SortedBatch:
         """Makes the findings of these pairs, of shape (poses, pairs)."""
         climbing: list[tuple[int, int, Pair]] = []
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
-            numbers = np.flatnonzero(asked[row]).tolist()
+            found = self._found.setdefault(row, {})
+            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
             try:
                 pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
                 self._alone.add(row)
                 continue
-            found = self._found.setdefault(row, {})
             for number, pair in zip(numbers, pairs, strict=True):
                 code = int(self._sorted[row, number])
                 finding = self._pairs.proven(self._matrices, row, number, code, pair)
@@ -166,11 +168,7 @@ class _SortedBatch:
         return verdicts
 
 
-def _with_reasons(codes: Codes) -> Codes:
-    """Opens each undecided pair in the first of these poses where it is undecided, so that the
-    ladder gives the reason."""
+def _first_undecided(codes: Codes) -> NDArray[np.bool_]:
+    """Whether a pair is undecided in a pose for the first time. Its finding gives the reason."""
     undecided = codes == UNDECIDED
-    pairs = np.flatnonzero(undecided.any(axis=0))
-    opened = codes.copy()
-    opened[undecided[:, pairs].argmax(axis=0), pairs] = OPEN
-    return opened
+    return undecided & (undecided.cumsum(axis=0) == 1)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.margins import MOST_OF_STEP
-from satcheck.audit.statics.subjects import Subject
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import Issue
 from satcheck.report.statics import (
@@ -31,11 +30,11 @@ FALLS = "no contact forces hold it: it starts to move"
 
 
 def answer_to(
-    question: Question, k: int, subject: Subject, graph: Graph, outcome: Outcome | None
+    question: Question, k: int, graph: Graph, outcome: Outcome | None
 ) -> tuple[State, str | None]:
     """The answer, and the reason if it is not yes, or why the body may fall although forces exist
     that hold it. outcome: of its island; None: it is fixed."""
-    if subject.fixed is not None or outcome is None:
+    if outcome is None:
         return "yes", None
     stated = outcome.stated
     if graph.floating[k] == "yes":

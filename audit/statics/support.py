@@ -43,7 +43,7 @@ from satcheck.scene.statics import QUESTIONS, disagreeing_axes, terms_of
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
-    from satcheck.scene import Body, Scene, Unreadable
+    from satcheck.scene import Scene
 
 NOT_ASKED = "no rule asks about a body of this island"
 
@@ -126,37 +126,21 @@ class Support:
 
     def issues(self, scene: Scene, statics: Statics) -> list[Issue]:
         """Bodies that fail or are open, doubts about the bodies, and rules that select none."""
-        members = scene.in_order()
-        failed = issues_of(statics.findings, UNSUPPORTED, SUPPORT_OPEN)
-        return [*failed, *_axes(scene), *self._small(), *self._unused(members)]
-
-    def _small(self) -> list[Issue]:
+        found = issues_of(statics.findings, UNSUPPORTED, SUPPORT_OPEN)
+        if disagreeing_axes(scene):
+            why = "glTF files are y-up, and gravity is assumed along -z: state [statics] gravity"
+            found.append(Issue(GRAVITY_ASSUMED, "warning", None, None, why))
         tolerance = self.terms.tolerance
-        return [
-            Issue(
-                TOLERANCE_LARGE,
-                "warning",
-                subject.id,
-                None,
-                f"{subject.id} is smaller than the tolerance of contacts {tolerance:.3g}",
-            )
-            for subject in self.subjects
-            if subject.fixed is None and subject.body.diagonal < tolerance
-        ]
-
-    def _unused(self, members: list[Body | Unreadable]) -> list[Issue]:
-        return [
-            Issue(
-                UNUSED_RULE,
-                "warning",
-                None,
-                rule.file,
-                f"{rule.name}: the rule selects no body",
-                rule.line,
-            )
-            for rule in self.rules
-            if not rule.bodies.select(members)
-        ]
+        for subject in self.subjects:
+            if subject.fixed is None and subject.body.diagonal < tolerance:
+                why = f"{subject.id} is smaller than the tolerance of contacts {tolerance:.3g}"
+                found.append(Issue(TOLERANCE_LARGE, "warning", subject.id, None, why))
+        members = scene.in_order()
+        for rule in self.rules:
+            if not rule.bodies.select(members):
+                why = f"{rule.name}: the rule selects no body"
+                found.append(Issue(UNUSED_RULE, "warning", None, rule.file, why, rule.line))
+        return found
 
     def _body(self, k: int) -> SupportedBody:
         subject, graph = self.subjects[k], self.graph
@@ -200,19 +184,12 @@ class Support:
     def _findings(self) -> list[SupportFinding]:
         findings = []
         for k, subject in enumerate(self.subjects):
-            island = None if subject.fixed is not None else self.graph.island[k]
+            island = self.graph.island.get(k)
             outcome = None if island is None else self.outcomes[island]
             for question, rule in asked_of(subject.terms):
-                answer, reason = answer_to(question, k, subject, self.graph, outcome)
+                answer, reason = answer_to(question, k, self.graph, outcome)
                 findings.append(finding(subject.id, question, rule, subject.terms, answer, reason))
         for id_, (why, terms) in self.unusable.items():
             for question, rule in asked_of(terms):
                 findings.append(finding(id_, question, rule, terms, "open", why))
         return findings
-
-
-def _axes(scene: Scene) -> list[Issue]:
-    if not disagreeing_axes(scene):
-        return []
-    message = "glTF files are y-up, and gravity is assumed along -z: state [statics] gravity"
-    return [Issue(GRAVITY_ASSUMED, "warning", None, None, message)]
