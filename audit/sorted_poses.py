@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.pair_queue import PairQueue
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
-from satcheck.audit.sample_results import SingleChecks, is_plain
+from satcheck.audit.sample_results import SampleResults, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SampledPose
 from satcheck.report.verdict import fails
@@ -33,7 +33,7 @@ TOGETHER = 512
 
 
 def sorted_and_counted(
-    checks: SingleChecks,
+    results: SampleResults,
     batches: Iterator[PoseBatch],
     pairs: PosedPairs,
     meter: VolumeMeter | None,
@@ -43,13 +43,13 @@ def sorted_and_counted(
     waiting: _SortedBatch | None = None
     with ThreadPoolExecutor(1) as beside:
         for batch in batches:
-            matrices = batch.matrices(checks.scene)
+            matrices = batch.matrices(results.scene)
             sorting = beside.submit(pairs.sift, matrices)
-            if checks.settings.jobs == 1:
+            if results.settings.jobs == 1:
                 wait([sorting])
             if waiting is not None:
                 yield waiting.count()
-            waiting = _SortedBatch(checks, batch, matrices, sorting, pairs, meter)
+            waiting = _SortedBatch(results, batch, matrices, sorting, pairs, meter)
         if waiting is not None:
             yield waiting.count()
 
@@ -60,14 +60,14 @@ class _SortedBatch:
 
     def __init__(
         self,
-        checks: SingleChecks,
+        results: SampleResults,
         batch: PoseBatch,
         matrices: Numbers,
         sorting: Future[Codes],
         pairs: PosedPairs,
         meter: VolumeMeter | None,
     ) -> None:
-        self._checks, self._results, self._batch = checks, checks.results, batch
+        self._results, self._batch = results, batch
         self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
         self._found: dict[int, dict[int, Finding]] = {}
@@ -83,7 +83,7 @@ class _SortedBatch:
         listed[list(self._alone)] = True
         for row in np.flatnonzero(listed).tolist():
             if row in self._alone:
-                self._results.add(self._checks.sample(self._batch, row))
+                self._results.add(self._batch, row)
             else:
                 self._results.listed.append(self._sample(row, verdicts[row]))
         return self._batch
@@ -122,7 +122,7 @@ class _SortedBatch:
         self._climb(climbing)
 
     def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
-        queue = PairQueue(self._checks.settings.jobs)
+        queue = PairQueue(self._results.settings.jobs)
         checked = examine_pairs([pair for *_, pair in climbing], queue)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
             self._found[row][number] = pair.finding
@@ -149,9 +149,8 @@ class _SortedBatch:
         undecided = (codes == UNDECIDED).any(axis=1)
         for row in sorted(self._found.keys() - self._alone):
             for finding in self._findings(row):
-                pair, number = results.tally(finding.a, finding.b), self._batch.first + row
-                pair.count(finding, number, results.fail_on)
-                failed[row] |= fails(finding, results.fail_on)
+                results.count(finding, self._batch.first + row)
+                failed[row] |= fails(finding, results.settings.fail_on)
                 undecided[row] |= finding.undecided is not None
         for k in np.flatnonzero(((codes == DEEP) | (codes == UNDECIDED)).any(axis=0)).tolist():
             pair, deep = results.tally(*self._pairs.names[k]), np.flatnonzero(codes[:, k] == DEEP)
