@@ -169,5 +169,6 @@ class _SortedBatch:
 
 def _first_undecided(codes: Codes) -> NDArray[np.bool_]:
     """Whether a pair is undecided in a pose for the first time. Its finding gives the reason."""
-    undecided = codes == UNDECIDED
-    return undecided & (undecided.cumsum(axis=0) == 1)
+    undecided: NDArray[np.bool_] = codes == UNDECIDED
+    first: NDArray[np.bool_] = undecided & (undecided.cumsum(axis=0) == 1)
+    return first

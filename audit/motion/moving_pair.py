@@ -78,8 +78,9 @@ class MovingPair:
         self.pair = pair
         self.track_a = track_a
         self.track_b = track_b
-        self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
-        self.pad += _placing(pair.a, track_a) + _placing(pair.b, track_b)
+        self._sides = (pair.a, track_a), (pair.b, track_b)
+        self.pad = sum(track.pad(body.bounds) for body, track in self._sides)
+        self.pad += sum(_placing(body, track) for body, track in self._sides)
         self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
@@ -101,9 +102,7 @@ class MovingPair:
     def fastest(self, t: float) -> float:
         """An upper bound of the speed of a point of A relative to B, in the piece of t, per unit of
         t."""
-        return self.track_a.fastest(t, self.pair.a.bounds) + self.track_b.fastest(
-            t, self.pair.b.bounds
-        )
+        return sum(track.piece_at(t).fastest(body.bounds) for body, track in self._sides)
 
     def path_length(self, start: float, end: float) -> float:
         """An upper bound of the way of a point of A relative to B from start to end."""
@@ -158,7 +157,7 @@ class MovingPair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = _placed(self.pair.a, self.track_a, t), _placed(self.pair.b, self.track_b, t)
+            a, b = (_placed(body, track, t) for body, track in self._sides)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -179,13 +178,13 @@ class MovingPair:
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
+        return self._asked(ask, t, offset, [_shape_of(b) for b, _ in self._sides], **bounds)
 
     def _surfaces(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the surfaces of the bodies, or their curved shapes."""
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in self._bodies]
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         return result
@@ -199,17 +198,8 @@ class MovingPair:
         (a, frame_a), (b, frame_b) = sides
         moving_a = self.track_a.moving_at(t, offset, frame_a)
         moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
-
-    @property
-    def _bodies(self) -> tuple[PlacedBody, PlacedBody]:
-        return self.pair.a, self.pair.b
-
-    def _slack(self, t: float) -> float:
-        return sum(
-            track.slack(track.piece_at(t), body.bounds)
-            for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
-        )
+        slack = sum(track.piece_at(t).slack(body.bounds) for body, track in self._sides)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, **bounds)
 
 
 def found(pair: Pair) -> Finding:
