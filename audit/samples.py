@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
 from satcheck.audit.doubtful_sizes import size_of
-from satcheck.audit.posed_pairs import PosedPair, PosedPairs, same_way
+from satcheck.audit.posed_pairs import PosedPairs, same_way
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults
@@ -92,10 +92,9 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     if not same_way(scene, settings, bodies):
         return None
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
-    sizes = {k: size_of(body, None) for k, body in bodies.placed.items()}
-    return pairs if pairs.pairs and all(_is_small(p, sizes) for p in pairs.pairs) else None
-
-
-def _is_small(pair: PosedPair, sizes: dict[int, float]) -> bool:
-    """Whether the tolerance is below the sizes of both bodies; else a warning says so."""
-    return (pair.request.tolerance or 0.0) < min(sizes[pair.i], sizes[pair.j])
+    sizes = {bodies.ids[k]: size_of(body, None) for k, body in bodies.placed.items()}
+    # A tolerance of the size of a body gets a warning, from the check of its pose.
+    small = all(
+        (p.request.tolerance or 0.0) < min(sizes[id_] for id_ in p.ids) for p in pairs.pairs
+    )
+    return pairs if pairs.pairs and small else None

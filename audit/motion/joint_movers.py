@@ -52,21 +52,15 @@ class JointMovers:
     def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
         """The pairs whose boxes over the whole path are close, swept; `paths` has the results."""
         close = close_pairs(bodies, planner, self._bounds)
-        wanted = set(close)
-        places = self._pairs.places
-        moves = np.array(
-            [
-                (pair.i, pair.j) in wanted and self._travel.moves(*place)
-                for pair, place in zip(self._pairs.pairs, places, strict=True)
-            ],
-            dtype=bool,
-        )
+        wanted = {(bodies.ids[i], bodies.ids[j]) for i, j in close}
+        pairs = self._pairs.pairs
+        moves = np.array([p.ids in wanted and self._travel.moves(*p.places) for p in pairs], bool)
         found = self._search.first_overlaps(moves)
         near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
         if near.any():
             self._search.narrow(near, found)
         for k in np.flatnonzero(moves).tolist():
-            self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+            self._sweeps[pairs[k].ids] = self._swept(k, found[k])
         return close
 
     def _bounds(self, body: str, placed: Box) -> Box:
@@ -118,7 +112,7 @@ class JointMovers:
         )
 
     def _places(self, k: int, time: float) -> tuple[Place, ...]:
-        mover = next(id_ for id_ in self._pairs.names[k] if id_ in self._moving)
+        mover = next(id_ for id_ in self._pairs.pairs[k].ids if id_ in self._moving)
         return (Place(mover, "t", time),)
 
     def _swept_boxes(self) -> dict[str, Box]:

@@ -139,14 +139,14 @@ class Search:
         piece = max(int(np.searchsorted(self._path.times, hit)) - 1, 0)
         start, end = np.array([max(lower, self._path.times[piece])]), np.array([hit])
         at, way = (self._travel.middle(Interval(since, end)) for since in (end, start))
-        moved = 2.0 * float(self._travel.between(way, *self._pairs.places[k])[0])
+        moved = 2.0 * float(self._travel.between(way, *self._pairs.pairs[k].places)[0])
         return impact_point(self._pair(at, 0, k, self._pairs.tolerance(k), 0.0), moved)
 
     def _margins(self, active: Flags, at: Middle) -> Numbers:
         """Return how far each pair travels; NaN where it is not active."""
         margins = np.full(active.shape, np.nan)
         for k in np.flatnonzero(active.any(axis=0)).tolist():
-            travelled = self._travel.between(at, *self._pairs.places[k])
+            travelled = self._travel.between(at, *self._pairs.pairs[k].places)
             margins[:, k] = np.where(active[:, k], travelled, np.nan)
         return margins
 
