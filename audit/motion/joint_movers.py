@@ -40,13 +40,12 @@ class JointMovers:
         _require_answers(scene, planner.settings)
         usable = {bodies.ids[k] for k in bodies.placed}
         scene = replace(scene, bodies=tuple(body for body in scene.bodies if body.id in usable))
-        self._path, self._ids = path, bodies.ids
+        self._path = path
         self._pairs = PosedPairs(scene, bodies, planner)
         self._travel = Travel(scene, path, self._pairs.around())
         self._search = Search(path, self._travel, self._pairs)
         self._moving = self._travel.moving()
-        self._number = {body.id: k for k, body in enumerate(scene.bodies)}
-        self._boxes = self._swept_boxes()
+        self._boxes = self._swept_boxes(scene)
         self._sweeps: dict[tuple[str, str], Sweep] = {}
 
     def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
@@ -56,7 +55,8 @@ class JointMovers:
         pairs = self._pairs.pairs
         moves = np.array([p.ids in wanted and self._travel.moves(*p.places) for p in pairs], bool)
         found = self._search.first_overlaps(moves)
-        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
+        clearances = np.array([bool(pair.request.clearance) for pair in pairs], bool)
+        near = moves & clearances & np.array([pair.impact.free for pair in found], bool)
         if near.any():
             self._search.narrow(near, found)
         for k in np.flatnonzero(moves).tolist():
@@ -80,9 +80,6 @@ class JointMovers:
 
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
-
-    def _asks_for_distance(self, k: int, pair: SweptPair) -> bool:
-        return bool(self._pairs.pairs[k].request.clearance) and pair.impact.free
 
     def _swept(self, k: int, pair: SweptPair) -> Sweep:
         impact, nearest = pair.impact, pair.nearest
@@ -115,13 +112,13 @@ class JointMovers:
         mover = next(id_ for id_ in self._pairs.pairs[k].ids if id_ in self._moving)
         return (Place(mover, "t", time),)
 
-    def _swept_boxes(self) -> dict[str, Box]:
-        intervals = _parts(self._path.times)
-        at = self._travel.middle(intervals)
+    def _swept_boxes(self, scene: Scene) -> dict[str, Box]:
+        at = self._travel.middle(_parts(self._path.times))
         boxes: dict[str, Box] = {}
-        for id_ in self._moving:
-            low, high = self._travel.in_world(at, self._number[id_])
-            boxes[id_] = (tuple(low.tolist()), tuple(high.tolist()))
+        for number, body in enumerate(scene.bodies):
+            if body.id in self._moving:
+                low, high = self._travel.in_world(at, number)
+                boxes[body.id] = (tuple(low.tolist()), tuple(high.tolist()))
         return boxes
 
 
