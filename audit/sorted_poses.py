@@ -173,5 +173,7 @@ class _SortedBatch:
 def _first_undecided(codes: Codes) -> NDArray[np.bool_]:
     """Whether a pair is undecided in a pose for the first time. Its finding gives the reason."""
     undecided: NDArray[np.bool_] = codes == UNDECIDED
-    first: NDArray[np.bool_] = undecided & (undecided.cumsum(axis=0) == 1)
+    pairs = np.flatnonzero(undecided.any(axis=0))
+    first = np.zeros_like(undecided)
+    first[undecided[:, pairs].argmax(axis=0), pairs] = True
     return first
