@@ -145,8 +145,8 @@ class _SortedBatch:
         codes[list(self._alone)] = APART
         for row, found in self._found.items():
             codes[row, list(found)] = APART
-        failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1)
-        undecided = (codes == UNDECIDED).any(axis=1)
+        failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1).tolist()
+        undecided = (codes == UNDECIDED).any(axis=1).tolist()
         for row in sorted(self._found.keys() - self._alone):
             for finding in self._findings(row):
                 results.count(finding, self._batch.first + row)

@@ -87,15 +87,20 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
 
 Vec3 column(const Mat3& m, int i) { return {m.row[0][i], m.row[1][i], m.row[2][i]}; }
 
-// Whether a point of A is farther out than all of B by more than `margin`, along an axis of either file.
+// Whether a point of A is farther out than all of B by more than `margin`: along the line of their centres, or along an
+// axis of either file.
 bool sticks_out(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double margin) {
   const double enough = margin + b.margin() * at_b.stretch.most + rounding_between(at_a, at_b);
+  const auto is_farther_along = [&](Vec3 axis) {
+    const double length = norm(axis);
+    if (!(length > 0)) return false;
+    const Vec3 way = axis * (1 / length);
+    return dot(way, support(a.own_corners(), at_a, way).point - support(b.corners(), at_b, way).point) > enough;
+  };
+  if (is_farther_along(at_a.around.centre - at_b.around.centre)) return true;
   for (int i = 0; i < 6; ++i) {
     const Vec3 axis = column(i < 3 ? at_b.linear : at_a.linear, i % 3);
-    for (const Vec3 way : {axis * (1 / norm(axis)), axis * (-1 / norm(axis))}) {
-      const Vec3 of_a = support(a.own_corners(), at_a, way).point, of_b = support(b.corners(), at_b, way).point;
-      if (dot(way, of_a - of_b) > enough) return true;
-    }
+    if (is_farther_along(axis) || is_farther_along(-axis)) return true;
   }
   return false;
 }
