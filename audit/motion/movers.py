@@ -106,7 +106,7 @@ class Movers:
 
 
 class Parts(Struct, frozen=True):
-    """A motion between times that include those of its track. poses: at the times, (n, 3, 4).
+    """A motion between some times. poses: at the times, (n, 3, 4).
     pivots: of each part, (n - 1, 3). bends: how far a point gets from the line between its places
     at both ends of a part, as a share of its distance from the pivot, (n - 1)."""
 
@@ -117,6 +117,7 @@ class Parts(Struct, frozen=True):
 
 
 def parts_of(track: Track, times: Sequence[float]) -> Parts:
+    """Return a motion between these times, which include those of its track."""
     poses = np.array([track.pose_at(t)[:12] for t in times]).reshape(-1, 3, 4)
     pieces = [track.piece_at(t) for t in times[:-1]]
     turned = np.array([math.hypot(*piece.spin) for piece in pieces]) * np.diff(times)

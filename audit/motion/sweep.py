@@ -90,6 +90,7 @@ def relation_apart(
 def worst_pose(
     worst: Worst | None, places: Places, joints: Joints | None = None
 ) -> WorstPose | None:
+    """Return the worst pose as a report states it. joints: there, on a path of joints."""
     if worst is None:
         return None
     at = places(worst.time)

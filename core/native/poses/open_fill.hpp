@@ -15,6 +15,7 @@ bool fills_differ(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const Pose
 
 // The hole of that kind that comes first in a comparison of the bodies in the world: the largest one there of the first
 // open body. Empty if it is not of that kind, or if rounding may make another one the largest.
-std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double rounding);
+std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b,
+                                  double rounding);
 
 }  // namespace satcheck
