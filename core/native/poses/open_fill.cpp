@@ -86,8 +86,8 @@ bool fills_differ(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const Pose
 std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b,
                                   double rounding) {
   const Side of_a{a, at_a}, of_b{b, at_b};
-  if (of_a.is_open()) return largest_in_the_way(of_a, of_b, true, rounding);
-  return of_b.is_open() ? largest_in_the_way(of_b, of_a, false, rounding) : std::nullopt;
+  if (of_a.is_open() == of_b.is_open()) return {};
+  return of_a.is_open() ? largest_in_the_way(of_a, of_b, true, rounding) : largest_in_the_way(of_b, of_a, false, rounding);
 }
 
 }  // namespace satcheck

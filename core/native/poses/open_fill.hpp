@@ -13,8 +13,8 @@ namespace satcheck {
 // in the world are rounded by at most `rounding`. The bodies have meshes whose surfaces do not meet.
 bool fills_differ(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double rounding);
 
-// The hole of that kind that comes first in a comparison of the bodies in the world: the largest one there of the first
-// open body. Empty if it is not of that kind, or if rounding may make another one the largest.
+// The hole of that kind that comes first in a comparison of the bodies in the world: the largest one there of the only
+// open body. Empty if both are open, if it is not of that kind, or if rounding may make another one the largest.
 std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b,
                                   double rounding);
 
