@@ -110,3 +110,16 @@ def test_the_sort_proves_turned_curved_and_open_bodies(tmp_path: Path) -> None:
     )
     assert stages["penetrating", "sort"] > 2 * stages["penetrating", "aabb"]
     assert stages["indeterminate", "sort"]
+
+
+def test_the_hole_between_two_open_bodies_is_that_of_a_check_of_the_pose(tmp_path: Path) -> None:
+    """Either body has a hole in the way of the other one, and only one is named."""
+    open_cups(tmp_path)
+    cup = (tmp_path / "cup.obj").read_text()
+    (tmp_path / "bowl.obj").write_text(cup + "f 2 4 8 6\nf 3 7 8 4\n")  # without its lid
+    scales = ("1 1 1", "0.9 0.8 0.95", "0.7 0.7 0.7", "1.1 0.6 0.8")
+    geometries = [
+        f'<mesh filename="{name}.obj" scale="{scale}"/>'
+        for name, scale in zip(("bowl", "cup") * 2, scales, strict=True)
+    ]
+    assert "indeterminate" in compare(spider(tmp_path, geometries), QUICK, 60)
