@@ -41,7 +41,7 @@ from satcheck.report.report import (
 from satcheck.report.verdict import summarise, truncated_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.joint_path.movers import JointMovers
+    from satcheck.audit.motion.joint_movers import JointMovers
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
@@ -159,7 +159,7 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
 
 def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | JointMovers | None:
     if scene.joint_path is not None:
-        from satcheck.audit.joint_path.movers import JointMovers
+        from satcheck.audit.motion.joint_movers import JointMovers
 
         return JointMovers(scene, scene.joint_path, bodies, planner)
     if not scene.motions:

@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
+from satcheck.audit.finding import deep_overlap, open_by_fill
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.core.shapes import is_curved
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES
+from satcheck.report.report import SEVERITIES, Finding
 from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.half_spaces import holds, reach_in_world
@@ -47,17 +48,17 @@ Codes = NDArray[np.uint8]
 
 
 class PosedPair(Struct, frozen=True):
-    """A pair of bodies, by their numbers among the placed bodies, and its request."""
+    """The ids of two bodies, their numbers in `Scene.bodies`, and what is asked about them."""
 
-    i: int
-    j: int
+    ids: tuple[str, str]
+    places: tuple[int, int]
     request: Request
 
 
 class PosedPairs:
-    """The pairs of a scene that are checked and can be compared, sorted. names: their ids. places:
-    the numbers of their bodies in `Scene.bodies`. deep_fails: whether a deep overlap of each is a
-    failure. bodies: as placed in any of the poses; all those of the scene can be used."""
+    """The pairs of a scene that are checked and can be compared, sorted. deep_fails: whether a deep
+    overlap of each is a failure. bodies: as placed in any of the poses; all those of the scene can
+    be used."""
 
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         self._settings = planner.settings
@@ -71,9 +72,10 @@ class PosedPairs:
             for i, j in bodies.book.checked_pairs()
             if i in place and j in place and bodies.units[i] == bodies.units[j]
         )
-        self.pairs = [PosedPair(i, j, planner.request(i, j)) for i, j in checked]
-        self.names = [(bodies.ids[i], bodies.ids[j]) for i, j in checked]
-        self.places = [(place[i], place[j]) for i, j in checked]
+        self.pairs = [
+            PosedPair((bodies.ids[i], bodies.ids[j]), (place[i], place[j]), planner.request(i, j))
+            for i, j in checked
+        ]
         self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
 
     def _deep_fails(self, request: Request) -> bool:
@@ -91,12 +93,13 @@ class PosedPairs:
 
     def tolerance(self, number: int) -> float:
         """Half the width of the touch band of a pair, as the scene is placed."""
-        a, b = (self._bodies[k] for k in self.places[number])
-        return Pair(a, b, self._settings, self.pairs[number].request).tolerance
+        pair = self.pairs[number]
+        a, b = (self._bodies[k] for k in pair.places)
+        return Pair(a, b, self._settings, pair.request).tolerance
 
     def sizes(self) -> list[float]:
         """The size of the smaller body of each pair."""
-        return [min(self._bodies[k].diagonal for k in pair) for pair in self.places]
+        return [min(self._bodies[k].diagonal for k in pair.places) for pair in self.pairs]
 
     def sift(
         self,
@@ -110,7 +113,8 @@ class PosedPairs:
         they count, and no clearances."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for k, (pair, (a, b)) in enumerate(zip(self.pairs, self.places, strict=True)):
+        for k, pair in enumerate(self.pairs):
+            a, b = pair.places
             tolerance = pair.request.tolerance if tolerances is None else tolerances[k]
             if tolerance is None:
                 deviations = (self._bodies[body].body.file.deviation for body in (a, b))
@@ -132,8 +136,8 @@ class PosedPairs:
     def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""
         codes, balls = codes.copy(), self.around()
-        for column, pair in enumerate(self.places):
-            for floor, other in (pair, pair[::-1]):
+        for column, pair in enumerate(self.pairs):
+            for floor, other in (pair.places, pair.places[::-1]):
                 if not self._bodies[floor].endless:
                     continue
                 _, reach = reach_in_world(self._bodies[floor].body)
@@ -153,6 +157,18 @@ class PosedPairs:
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
         return file.resolution * stretch + step
 
+    def proven(
+        self, matrices: Numbers, row: int, number: int, code: int, pair: Pair
+    ) -> Finding | None:
+        """Return the finding of a sorted pair in one of the poses, if the sort proves all of it.
+        pair: as placed there."""
+        a, b = self.pairs[number].places
+        sides = self._posed[a], matrices[row, a], self._posed[b], matrices[row, b]
+        if code == DEEP and pair.request.by.keys() <= {"overlap", "distance"}:
+            return deep_overlap(pair) if core.neither_holds(*sides, pair.tolerance) else None
+        hole = core.open_hole(*sides) if code == UNDECIDED else None
+        return None if hole is None else open_by_fill(pair, hole)
+
     def at(
         self,
         matrices: Numbers,
@@ -162,22 +178,22 @@ class PosedPairs:
     ) -> list[Pair]:
         """These pairs in one of the poses. Raises ValueError or OverflowError if a body cannot be
         placed there."""
-        needed = sorted({k for number in numbers for k in self.places[number]})
+        asked = [self.pairs[number] for number in numbers]
+        needed = sorted({k for pair in asked for k in pair.places})
         moved = [_moved(self._bodies[k].body, matrices[row, k]) for k in needed]
         bounds = world_bounds(moved, 1)
         placed = {
             k: PlacedBody(body, self._bodies[k].shared, box)
             for k, body, box in zip(needed, moved, bounds, strict=True)
         }
-        for a, b in (self.places[n] for n in numbers):
-            for floor, other in ((placed[a], placed[b]), (placed[b], placed[a])):
+        pairs = []
+        for pair in asked:
+            a, b = (placed[k] for k in pair.places)
+            for floor, other in ((a, b), (b, a)):
                 if floor.endless and not holds(floor.body, other.bounds):
                     raise ValueError(f"{other.id} lies beyond the reach of the half space")
-        settings, pairs = self._settings, self.pairs
-        return [
-            Pair(placed[a], placed[b], settings, pairs[n].request, meter)
-            for n, (a, b) in ((n, self.places[n]) for n in numbers)
-        ]
+            pairs.append(Pair(a, b, self._settings, pair.request, meter))
+        return pairs
 
 
 def _posed(body: PlacedBody) -> core.PosedBody:

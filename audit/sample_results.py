@@ -1,9 +1,8 @@
-"""What the samples of a check of robots in many poses add up to, and checks of single ones."""
+"""What the samples of a check of robots in many poses add up to."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, get_args
 
 from msgspec.structs import replace
@@ -11,7 +10,7 @@ from msgspec.structs import replace
 from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import check
 from satcheck.audit.messages import finding_message
-from satcheck.audit.settings import FailOn, Settings
+from satcheck.audit.settings import Settings
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.report.samples import (
     SampledBody,
@@ -26,7 +25,7 @@ from satcheck.report.samples import (
 from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
-    from satcheck.scene import Scene
+    pass
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -37,10 +36,12 @@ VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 
 
 class SampleResults:
-    """What the samples so far have added up to."""
+    """What the samples so far have added up to. first: the report of the first one."""
 
-    def __init__(self, fail_on: FailOn, *, lists_all: bool) -> None:
-        self.fail_on, self.lists_all = fail_on, lists_all
+    def __init__(self, settings: Settings, *, lists_all: bool) -> None:
+        self.settings, self.lists_all = settings, lists_all
+        self.cache = BodyCache()
+        self.first: Report | None = None
         self.by_verdict: Counter[Verdict] = Counter()
         self.listed: list[SampledPose] = []
         self.issues: dict[Issue, None] = {}
@@ -54,15 +55,32 @@ class SampleResults:
     def tally(self, a: str, b: str) -> SampledPair:
         return self._tallies.setdefault((a, b), SampledPair(a, b))
 
-    def add(self, sample: SampledPose) -> None:
-        self.count(sample.number, sample.verdict, sample.findings)
+    def check(self, batch: PoseBatch, row: int) -> SampledPose:
+        """Checks a pose as a scene of its own."""
+        scene = batch.posed(row)
+        report = check(scene, self.settings, cache=self.cache)
+        self.first = self.first or report
+        posture = scene.posture
+        assert posture is not None
+        own = {(issue.code, issue.message) for issue in posture.issues}
+        of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
+        others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
+        self.issues |= dict.fromkeys(others)
+        findings = tuple(finding for finding in report.findings if not is_plain(finding))
+        verdict = report.summary.verdict
+        return SampledPose(batch.first + row, posture.pose(), verdict, findings, tuple(of_pose))
+
+    def add(self, batch: PoseBatch, row: int) -> None:
+        """Adds what the check of a pose says."""
+        sample = self.check(batch, row)
+        self.by_verdict[sample.verdict] += 1
+        for finding in sample.findings:
+            self.count(finding, sample.number)
         if self.lists_all or (sample.findings and self.room > 0):
             self.listed.append(sample)
 
-    def count(self, number: int, verdict: Verdict, findings: Sequence[Finding]) -> None:
-        self.by_verdict[verdict] += 1
-        for finding in findings:
-            self.tally(finding.a, finding.b).count(finding, number, self.fail_on)
+    def count(self, finding: Finding, number: int) -> None:
+        self.tally(finding.a, finding.b).count(finding, number, self.settings.fail_on)
 
     def keep_first_poses(self, batch: PoseBatch) -> None:
         """States the poses of this batch in which a pair overlaps first."""
@@ -74,10 +92,10 @@ class SampleResults:
                     poses[number] = batch.posture(number - batch.first).pose()
                 tally.first_pose = poses[number]
 
-    def report(self, checks: SingleChecks, number: int) -> SamplesReport:
+    def report(self, number: int) -> SamplesReport:
         """Nothing passes while an issue of all samples blocks it. number: of the checked
         samples."""
-        first, book = checks.first, checks.cache.book
+        first, book = self.first, self.cache.book
         assert first is not None
         assert book is not None
         if any(issue.state == "blocking" for issue in self.issues):
@@ -123,30 +141,6 @@ def _with_messages(sample: SampledPose, first: Report) -> SampledPose:
 
 def _incomplete_at_most(sample: SampledPose) -> SampledPose:
     return replace(sample, verdict="incomplete") if sample.verdict == "pass" else sample
-
-
-class SingleChecks:
-    """Checks of single poses. first: the report of the first one."""
-
-    def __init__(
-        self, scene: Scene, settings: Settings, cache: BodyCache, results: SampleResults
-    ) -> None:
-        self.scene, self.settings, self.cache, self.results = scene, settings, cache, results
-        self.first: Report | None = None
-
-    def sample(self, batch: PoseBatch, row: int) -> SampledPose:
-        scene = batch.posed(row)
-        report = check(scene, self.settings, cache=self.cache)
-        self.first = self.first or report
-        posture = scene.posture
-        assert posture is not None
-        own = {(issue.code, issue.message) for issue in posture.issues}
-        of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
-        others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
-        self.results.issues |= dict.fromkeys(others)
-        findings = tuple(finding for finding in report.findings if not is_plain(finding))
-        verdict = report.summary.verdict
-        return SampledPose(batch.first + row, posture.pose(), verdict, findings, tuple(of_pose))
 
 
 def is_plain(finding: Finding) -> bool:

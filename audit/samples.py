@@ -14,11 +14,11 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from satcheck.audit.bodies import BodyCache, place
+from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
 from satcheck.audit.planner import Planner
-from satcheck.audit.posed_pairs import PosedPair, PosedPairs, same_way
-from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, SingleChecks
+from satcheck.audit.posed_pairs import PosedPairs, same_way
+from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults
 from satcheck.audit.settings import Settings
 from satcheck.audit.sorted_poses import sorted_and_counted
 from satcheck.audit.summary import size_of
@@ -55,47 +55,44 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     settings = replace(settings, list_pruned=False)
-    cache = BodyCache()
-    results = SampleResults(settings.fail_on, lists_all=len(poses) <= LISTED_SAMPLES)
-    checks = SingleChecks(scene, settings, cache, results)
+    results = SampleResults(settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
     first = next(batches)  # all poses are judged before work is done
-    pairs, batches = _sortable(checks, first), chain((first,), batches)
+    pairs, batches = _sortable(results, first), chain((first,), batches)
     with ExitStack() as stack:
         if pairs is None:
-            counted = _checked_alone(checks, batches)
+            counted = _checked_alone(results, batches)
         else:
             by_volume = any(pair.request.wants("volume") for pair in pairs.pairs)
             meter = stack.enter_context(volume_meter(settings)) if by_volume else None
-            counted = sorted_and_counted(checks, batches, pairs, meter)
+            counted = sorted_and_counted(results, batches, pairs, meter)
         for batch in counted:
             results.keep_first_poses(batch)
             for number in range(batch.first, batch.first + batch.count):
                 if progress is not None:
                     progress(number, len(poses))
-    return results.report(checks, len(poses))
+    return results.report(len(poses))
 
 
-def _checked_alone(checks: SingleChecks, batches: Iterator[PoseBatch]) -> Iterator[PoseBatch]:
+def _checked_alone(results: SampleResults, batches: Iterator[PoseBatch]) -> Iterator[PoseBatch]:
     for batch in batches:
         for row in range(batch.count):
-            checks.results.add(checks.sample(batch, row))
+            results.add(batch, row)
         yield batch
 
 
-def _sortable(checks: SingleChecks, batch: PoseBatch) -> PosedPairs | None:
+def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
     what is the same in all poses."""
-    checks.sample(batch, 0)
-    scene, settings = batch.posed(0), checks.settings
-    bodies = place(scene, settings, checks.cache)
+    results.check(batch, 0)
+    scene, settings = batch.posed(0), results.settings
+    bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
     pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
-    sizes = {k: size_of(body, None) for k, body in bodies.placed.items()}
-    return pairs if pairs.pairs and all(_is_small(p, sizes) for p in pairs.pairs) else None
-
-
-def _is_small(pair: PosedPair, sizes: dict[int, float]) -> bool:
-    """Whether the tolerance is below the sizes of both bodies; else a warning says so."""
-    return (pair.request.tolerance or 0.0) < min(sizes[pair.i], sizes[pair.j])
+    sizes = {bodies.ids[k]: size_of(body, None) for k, body in bodies.placed.items()}
+    # A tolerance of the size of a body gets a warning, from the check of its pose.
+    small = all(
+        (p.request.tolerance or 0.0) < min(sizes[id_] for id_ in p.ids) for p in pairs.pairs
+    )
+    return pairs if pairs.pairs and small else None

@@ -1,7 +1,8 @@
 """Poses whose pairs the core has sorted (`posed_pairs.py`), and what they add to the samples.
 
-Findings are made only for pairs that the core leaves open, and for poses that the report lists. A
-pair of these poses climbs the ladder only if the sort does not say all that its finding has.
+Findings are made only for pairs that the core leaves open, for poses that the report lists, and for
+the first pose of a batch in which a pair is undecided. A pair climbs the ladder only if the sort
+does not say all that its finding has.
 """
 
 from __future__ import annotations
@@ -14,16 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from satcheck.audit.checked_pairs import examine_pairs
-from satcheck.audit.finding import deep_overlap
-from satcheck.audit.posed_pairs import DEEP, OPEN, UNDECIDED, PosedPairs
-from satcheck.audit.sample_results import SingleChecks, is_plain
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
+from satcheck.audit.sample_results import SampleResults, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SampledPose
 from satcheck.report.verdict import fails
 from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
-    from satcheck.audit.body import Box
     from satcheck.audit.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
     from satcheck.core.overlap_volume import VolumeMeter
@@ -33,7 +32,7 @@ TOGETHER = 512
 
 
 def sorted_and_counted(
-    checks: SingleChecks,
+    results: SampleResults,
     batches: Iterator[PoseBatch],
     pairs: PosedPairs,
     meter: VolumeMeter | None,
@@ -45,11 +44,11 @@ def sorted_and_counted(
         for batch in batches:
             matrices = batch.matrices
             sorting = beside.submit(pairs.sift, matrices)
-            if checks.settings.jobs == 1:
+            if results.settings.jobs == 1:
                 wait([sorting])
             if waiting is not None:
                 yield waiting.count()
-            waiting = _SortedBatch(checks, batch, matrices, sorting, pairs, meter)
+            waiting = _SortedBatch(results, batch, matrices, sorting, pairs, meter)
         if waiting is not None:
             yield waiting.count()
 
@@ -60,41 +59,39 @@ class _SortedBatch:
 
     def __init__(
         self,
-        checks: SingleChecks,
+        results: SampleResults,
         batch: PoseBatch,
         matrices: Numbers,
         sorting: Future[Codes],
         pairs: PosedPairs,
         meter: VolumeMeter | None,
     ) -> None:
-        self._checks, self._results, self._batch = checks, checks.results, batch
+        self._results, self._batch = results, batch
         self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
         self._found: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> PoseBatch:
-        self._sorted = _with_reasons(self._sorting.result())
-        self._find(self._sorted == OPEN)
+        self._sorted = self._sorting.result()
+        self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
+        self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
-        self._find(((self._sorted == DEEP) | (self._sorted == UNDECIDED)) & listed[:, None])
-        others = np.ones(self._batch.count, bool)
-        others[[*self._found, *self._alone]] = False
-        self._count_sorted(np.flatnonzero(others & ~listed))
-        for row in np.flatnonzero(listed | ~others).tolist():
+        self._find(self._noted & listed[:, None])
+        verdicts = self._verdicts()
+        listed[list(self._alone)] = True
+        for row in np.flatnonzero(listed).tolist():
             if row in self._alone:
-                self._results.add(self._checks.sample(self._batch, row))
-            elif listed[row]:
-                self._results.add(self._sample(row))
+                self._results.add(self._batch, row)
             else:
-                self._count_unlisted(row)
+                self._results.listed.append(self._sample(row, verdicts[row]))
         return self._batch
 
     def _listed(self) -> NDArray[np.bool_]:
         """Whether each pose is listed."""
         if self._results.lists_all:
             return np.ones(self._batch.count, bool)
-        noted = ((self._sorted == DEEP) | (self._sorted == UNDECIDED)).any(axis=1)
+        noted = self._noted.any(axis=1)
         noted[[*self._alone, *(row for row in self._found if self._findings(row))]] = True
         listed = np.zeros(self._batch.count, bool)
         listed[np.flatnonzero(noted)[: self._results.room]] = True
@@ -104,18 +101,20 @@ class _SortedBatch:
         """Makes the findings of these pairs, of shape (poses, pairs)."""
         climbing: list[tuple[int, int, Pair]] = []
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
-            numbers = np.flatnonzero(asked[row]).tolist()
+            found = self._found.setdefault(row, {})
+            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
             try:
                 pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
                 self._alone.add(row)
                 continue
-            found = self._found.setdefault(row, {})
             for number, pair in zip(numbers, pairs, strict=True):
-                if self._sorted[row, number] == DEEP and proves_penetration(pair):
-                    found[number] = deep_overlap(pair)
-                else:
+                code = int(self._sorted[row, number])
+                finding = self._pairs.proven(self._matrices, row, number, code, pair)
+                if finding is None:
                     climbing.append((row, number, pair))
+                else:
+                    found[number] = finding
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -123,7 +122,7 @@ class _SortedBatch:
 
     def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
         pairs = [pair for *_, pair in climbing]
-        checked = examine_pairs(pairs, self._checks.settings.jobs)
+        checked = examine_pairs(pairs, self._results.settings.jobs)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
             self._found[row][number] = pair.finding
             self._results.issues |= dict.fromkeys(pair.issues)
@@ -132,65 +131,48 @@ class _SortedBatch:
         found = sorted(self._found.get(row, {}).items())
         return tuple(finding for _, finding in found if not is_plain(finding))
 
-    def _sample(self, row: int) -> SampledPose:
+    def _sample(self, row: int, verdict: Verdict) -> SampledPose:
         posture = self._batch.posture(row)
-        findings = self._findings(row)
-        verdict = self._verdict(findings)
-        number = self._batch.first + row
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
-        return SampledPose(number, posture.pose(), verdict, findings, issues)
+        number = self._batch.first + row
+        return SampledPose(number, posture.pose(), verdict, self._findings(row), issues)
 
-    def _count_unlisted(self, row: int) -> None:
-        """A pose with findings."""
-        number, findings = self._batch.first + row, self._findings(row)
-        for finding in findings:
-            a, b = finding.a, finding.b
-            self._results.tally(a, b).count(finding, number, self._results.fail_on)
-        self._count_sorted([row], self._verdict(findings))
+    def _verdicts(self) -> dict[int, Verdict]:
+        """Return the verdict on each pose that needs no check of its own, all of them counted: by
+        their findings, and by the sort for pairs without one."""
+        codes, results = self._sorted.copy(), self._results
+        codes[list(self._alone)] = APART
+        for row, found in self._found.items():
+            codes[row, list(found)] = APART
+        failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1).tolist()
+        undecided = (codes == UNDECIDED).any(axis=1).tolist()
+        for row in sorted(self._found.keys() - self._alone):
+            for finding in self._findings(row):
+                results.count(finding, self._batch.first + row)
+                failed[row] |= fails(finding, results.settings.fail_on)
+                undecided[row] |= finding.undecided is not None
+        for k in np.flatnonzero(((codes == DEEP) | (codes == UNDECIDED)).any(axis=0)).tolist():
+            pair, deep = (
+                results.tally(*self._pairs.pairs[k].ids),
+                np.flatnonzero(codes[:, k] == DEEP),
+            )
+            if deep.size:
+                first, fails_by = self._batch.first + int(deep[0]), bool(self._pairs.deep_fails[k])
+                pair.count_overlaps(len(deep), first, fails=fails_by)
+            pair.undecided += int((codes[:, k] == UNDECIDED).sum())
+        verdicts: dict[int, Verdict] = {
+            row: "fail" if failed[row] else "incomplete" if undecided[row] else "pass"
+            for row in range(self._batch.count)
+            if row not in self._alone
+        }
+        results.by_verdict.update(verdicts.values())
+        return verdicts
 
-    def _count_sorted(self, rows: Sequence[int] | NDArray[np.intp], rest: Verdict = "pass") -> None:
-        """Poses as the core has sorted their pairs. rest: their verdict without these pairs."""
-        codes, names, failing = self._sorted[rows], self._pairs.names, self._pairs.deep_fails
-        deep, undecided = codes == DEEP, codes == UNDECIDED
-        for k in np.flatnonzero(deep.any(axis=0)).tolist():
-            met = np.flatnonzero(deep[:, k])
-            first = self._batch.first + int(rows[met[0]])
-            self._results.tally(*names[k]).count_overlaps(len(met), first, fails=bool(failing[k]))
-        for k in np.flatnonzero(undecided.any(axis=0)).tolist():
-            self._results.tally(*names[k]).undecided += int(undecided[:, k].sum())
-        failed = (deep & failing).any(axis=1) | (rest == "fail")
-        incomplete = ~failed & (undecided.any(axis=1) | (rest == "incomplete"))
-        counts = self._results.by_verdict
-        counts["fail"] += int(failed.sum())
-        counts["incomplete"] += int(incomplete.sum())
-        counts["pass"] += int((~failed & ~incomplete).sum())
 
-    def _verdict(self, findings: Sequence[Finding]) -> Verdict:
-        """As a report with these findings has it."""
-        if any(fails(finding, self._results.fail_on) for finding in findings):
-            return "fail"
-        return "incomplete" if any(f.undecided is not None for f in findings) else "pass"
-
-
-def _with_reasons(codes: Codes) -> Codes:
-    """Opens each undecided pair in the first of these poses where it is undecided, so that the
-    ladder gives the reason."""
-    undecided = codes == UNDECIDED
+def _first_undecided(codes: Codes) -> NDArray[np.bool_]:
+    """Whether a pair is undecided in a pose for the first time. Its finding gives the reason."""
+    undecided: NDArray[np.bool_] = codes == UNDECIDED
     pairs = np.flatnonzero(undecided.any(axis=0))
-    opened = codes.copy()
-    opened[undecided[:, pairs].argmax(axis=0), pairs] = OPEN
-    return opened
-
-
-def proves_penetration(pair: Pair) -> bool:
-    """Return whether a deep overlap of the pair is a whole finding: no figure of it is requested,
-    and the boxes show that neither body holds the other."""
-    if not pair.request.by.keys() <= {"overlap", "distance"} or pair.curved:
-        return False
-    a, b = pair.a.bounds, pair.b.bounds
-    return _sticks_out(a, b, pair.tolerance) and _sticks_out(b, a, pair.tolerance)
-
-
-def _sticks_out(inner: Box, outer: Box, margin: float) -> bool:
-    low = any(p < q - margin for p, q in zip(inner[0], outer[0], strict=True))
-    return low or any(p > q + margin for p, q in zip(inner[1], outer[1], strict=True))
+    first = np.zeros_like(undecided)
+    first[undecided[:, pairs].argmax(axis=0), pairs] = True
+    return first

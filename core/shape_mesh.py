@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Iterator
+from functools import lru_cache
 
 from satcheck._native.core import Mesh
 from satcheck.core.conventions import Vector
@@ -60,6 +61,7 @@ def sag_of(shape: Primitive, segments: int) -> float:
     return radius * (math.cos(math.pi / segments) ** -2 - 1.0)
 
 
+@lru_cache(maxsize=64)  # a robot in many poses has few shapes
 def mesh_around(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
     """A mesh that contains the shape: the inner mesh, scaled by s about the origin, which lies
     inside. s is the least factor for which no face plane is nearer to the origin than the support

@@ -11,8 +11,7 @@ from itertools import combinations
 
 from satcheck import core
 from satcheck.audit.body import PlacedBody
-from satcheck.audit.motion.limits import is_step
-from satcheck.audit.motion.moving_pair import MovingPair, overlaps
+from satcheck.audit.motion.moving_pair import MovingPair, is_step, overlaps
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.depth import FREE, relation_after, way_out_of_hulls
 from satcheck.audit.vectors import crossed, scaled, unit

@@ -23,14 +23,14 @@ from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.motion.contact_offsets import ContactOffsets
-from satcheck.audit.motion.limits import (
-    PROBES,
+from satcheck.audit.motion.moving_pair import (
     SHORTEST_STEP,
-    SHORTEST_WIDE_STEP,
     SLID,
+    MovingPair,
+    Unanswerable,
     is_step,
+    overlaps,
 )
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, overlaps
 from satcheck.audit.motion.swept_hull import safe_slide
 from satcheck.audit.stages.depth import FREE
 from satcheck.audit.stages.thickness import why_not_thick
@@ -40,7 +40,11 @@ if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.core.conventions import Vector
 
-
+# If no step of at least this share keeps the bodies farther apart than a length, the scan no longer
+# tries to prove that they stay so far apart.
+SHORTEST_WIDE_STEP = 2.0**-12
+# Poses after an unproven contact in which an overlap is searched.
+PROBES = 64
 # The point is the centre of a ball in both bodies. The search ends once the thickest ball is at
 # most twice as thick, so that it is a ball of the impact, not of a contact before it. Or it ends
 # after this work, less than a tenth of a second after its preparation.

@@ -3,41 +3,41 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from functools import reduce
+from collections.abc import Collection, Sequence
 
-from msgspec import convert, to_builtins
+import numpy as np
+from msgspec import Struct, convert, to_builtins
+from numpy.typing import NDArray
 
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both, corners
-from satcheck.audit.motion.limits import HALVINGS
-from satcheck.audit.motion.track import STANDS, Piece, Track, track_of
+from satcheck.audit.motion.track import Track, track_of
 from satcheck.audit.pair import Paths
 from satcheck.audit.planner import IndexPair, Planner, close_pairs
-from satcheck.core.transform import Transform
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 
+Floats = NDArray[np.float64]
 # How a report calls the kinds of paths.
 KINDS = {Translation: "translation", Rotation: "rotation", PosePath: "path"}
 
 
-# Radians that a body turns between two boxed poses: 15 degrees.
+# A motion is boxed in this many parts, or in more, up to MOST_PARTS, so that no body turns by more
+# than STEP radians in one of them.
+PARTS = 64
+MOST_PARTS = 512
 STEP = math.pi / 12
-# A motion with more steps gets the box of an endless rotation.
-MOST_POSES = 96
-# The box of a motion beyond float64.
-EVERYWHERE: Box = ((-math.inf, -math.inf, -math.inf), (math.inf, math.inf, math.inf))
 
 
 class Movers:
     def __init__(self, motions: Sequence[Motion]) -> None:
         self._motions = tuple(motions)
         self._motion = {body: motion for motion in motions for body in motion.bodies}
-        self._tracks = {id(motion): track_of(motion.path) for motion in motions}
-        self._boxes: dict[str, SweptBoxes] = {}
+        tracks = {id(motion): track_of(motion.path) for motion in motions}
+        times = part_times(tracks.values())
+        self._parts = {key: parts_of(track, times) for key, track in tracks.items()}
 
     def paths(self, a: str, b: str) -> Paths | None:
         """The paths of a pair; None: the bodies do not move relative to each other."""
@@ -51,26 +51,28 @@ class Movers:
     def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
         """The pairs that may be as close as they ask, as placed or at some t."""
         placed, ids = bodies.placed, bodies.ids
+        boxes: dict[int, SweptBoxes] = {}  # of bodies in pairs; many pairs have the same one
+
+        def boxes_of(k: int) -> SweptBoxes:
+            if k not in boxes:
+                boxes[k] = SweptBoxes(placed[k].bounds, self._parts_of(ids[k]))
+            return boxes[k]
 
         def meet(i: int, j: int) -> bool:
             limit = planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
             if self._motion.get(ids[i]) is self._motion.get(ids[j]):
                 return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
-            swept = [self._swept(ids[k], placed[k].bounds) for k in (i, j)]
-            return may_meet(swept[0], swept[1], limit)
+            return boxes_of(i).may_meet(boxes_of(j), limit)
 
         return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
-        return around_both(placed, self._swept(body, placed).over(0.0, 1.0))
+        return SweptBoxes(placed, self._parts_of(body)).whole
 
-    def _swept(self, body: str, placed: Box) -> SweptBoxes:
-        if body not in self._boxes:
-            motion = self._motion.get(body)
-            track = STANDS if motion is None else self._tracks[id(motion)]
-            self._boxes[body] = SweptBoxes(placed, track)
-        return self._boxes[body]
+    def _parts_of(self, body: str) -> Parts | None:
+        motion = self._motion.get(body)
+        return None if motion is None else self._parts[id(motion)]
 
     def stated(self) -> tuple[StatedMotion, ...]:
         """The motions as a report states them."""
@@ -102,73 +104,68 @@ class Movers:
         ]
 
 
+class Parts(Struct, frozen=True):
+    """A motion between some times. poses: at the times, (n, 3, 4).
+    pivots: of each part, (n - 1, 3). bends: how far a point gets from the line between its places
+    at both ends of a part, as a share of its distance from the pivot, (n - 1)."""
+
+    track: Track
+    poses: Floats
+    pivots: Floats
+    bends: Floats
+
+
+def parts_of(track: Track, times: Sequence[float]) -> Parts:
+    """Return a motion between these times, which include those of its track."""
+    poses = np.array([track.pose_at(t)[:12] for t in times]).reshape(-1, 3, 4)
+    pieces = [track.piece_at(t) for t in times[:-1]]
+    turned = np.array([math.hypot(*piece.spin) for piece in pieces]) * np.diff(times)
+    # A point moves along an arc about the moving centre, never more than twice the radius away.
+    bends = np.minimum(turned, 4.0) ** 2 / 8.0
+    return Parts(track, poses, np.array([piece.pivot for piece in pieces]), bends)
+
+
 class SweptBoxes:
-    """The world boxes of a body over parts of its motion. bounds: of the body as placed. The boxes
-    are kept, because many pairs have the same moving body."""
+    """The world boxes of a body over the parts of its motion. low, high: shape (parts, 3). placed:
+    its box as placed."""
 
-    def __init__(self, bounds: Box, track: Track = STANDS) -> None:
-        self.placed = bounds
-        self._track = track
-        self._boxes: dict[tuple[float, float], Box] = {}
+    def __init__(self, placed: Box, parts: Parts | None) -> None:
+        """parts: None: the body stands."""
+        self.placed = placed
+        if parts is None:
+            self.low, self.high = (np.array([corner]) for corner in placed)
+            return
+        ends = np.array(corners(placed))
+        with np.errstate(all="ignore"):
+            radius = np.linalg.norm(ends - parts.pivots[:, None], axis=2).max(axis=1)
+            grown = (radius * parts.bends + parts.track.pad(placed))[:, None]
+            at = parts.poses[:, :, :3] @ ends.T + parts.poses[:, :, 3:]
+            low, high = at.min(axis=2), at.max(axis=2)
+            self.low = np.minimum(low[:-1], low[1:]) - grown
+            self.high = np.maximum(high[:-1], high[1:]) + grown
+        beyond = ~(np.isfinite(self.low) & np.isfinite(self.high)).all(axis=1)
+        self.low[beyond], self.high[beyond] = -math.inf, math.inf
 
-    def over(self, start: float, end: float) -> Box:
-        """Contains the body at every t from start to end."""
-        if self._track is STANDS:
-            return self.placed
-        box = self._boxes.get((start, end))
-        if box is None:
-            box = self._boxes[start, end] = swept_box(self.placed, self._track, start, end)
-        return box
+    @property
+    def whole(self) -> Box:
+        """The box of the body as placed and over the whole motion."""
+        low, high = (tuple(c.tolist()) for c in (self.low.min(axis=0), self.high.max(axis=0)))
+        return around_both(self.placed, (low, high))
 
-
-def may_meet(a: SweptBoxes, b: SweptBoxes, limit: float) -> bool:
-    """Return whether the boxes are as close as the limit, at rest or over some part of the motion.
-
-    Two bodies whose boxes over the whole motion overlap are mostly never close at the same time. So
-    the motion is halved, again and again, until the boxes over each part are apart.
-    """
-    if core.box_gap(a.placed, b.placed) <= limit:
-        return True
-    parts = [(0.0, 1.0)]
-    while parts:
-        start, end = parts.pop()
-        if core.box_gap(a.over(start, end), b.over(start, end)) > limit:
-            continue
-        if end - start <= 2.0**-HALVINGS:
-            return True
-        middle = 0.5 * (start + end)
-        parts += [(middle, end), (start, middle)]
-    return False
+    def may_meet(self, other: SweptBoxes, limit: float) -> bool:
+        """Return whether the boxes are as close as the limit, as placed or over some part of the
+        motion. Boxes over the whole motion may overlap of bodies that are never close at the same
+        time."""
+        gaps = np.maximum(self.low - other.high, other.low - self.high).clip(min=0.0)
+        near = bool((np.linalg.norm(gaps, axis=1) <= limit).any())
+        return near or core.box_gap(self.placed, other.placed) <= limit
 
 
-def swept_box(bounds: Box, track: Track, start: float = 0.0, end: float = 1.0) -> Box:
-    """Contains the body at every t from start to end. bounds: of the body as placed."""
-    pad, boxes = track.pad(bounds), []
-    for piece in track.pieces:
-        if piece.start < end and start < piece.end:
-            boxes += _boxes(bounds, piece, max(start, piece.start), min(end, piece.end), pad)
-    if not all(math.isfinite(c) for box in boxes for corner in box for c in corner):
-        return EVERYWHERE
-    return reduce(around_both, boxes)
-
-
-def _boxes(bounds: Box, piece: Piece, start: float, end: float, pad: float) -> list[Box]:
-    """Between two poses a point moves along an arc about the moving centre. Its distance from the
-    linear interpolation is at most angle squared / 8 of its radius."""
-    length = end - start
-    turned = math.radians(abs(piece.degrees)) * (length / (piece.end - piece.start))
-    count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
-    radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
-    angle = min(turned / count, 4.0)  # radians; the error is never more than twice the radius
-    grown = radius * angle * angle / 8.0 + pad
-    poses = [piece.pose_at(start + length * k / count) for k in range(count + 1)]
-    return [_box(bounds, pose, grown) for pose in poses]
-
-
-def _box(bounds: Box, pose: Transform, grown: float) -> Box:
-    low, high = [], []
-    for p, q, r, shift in (pose[0:4], pose[4:8], pose[8:12]):
-        along = [p * x + q * y + r * z + shift for x, y, z in corners(bounds)]
-        low.append(min(along) - grown)
-        high.append(max(along) + grown)
-    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+def part_times(tracks: Collection[Track]) -> list[float]:
+    """The times between which a motion gets a box of its own: even parts, in which no body turns by
+    more than STEP if that makes few enough of them, and the ends of all pieces."""
+    turned = [sum(abs(piece.degrees) for piece in track.pieces) for track in tracks]
+    steps = math.ceil(math.radians(max(turned, default=0.0)) / STEP)
+    count = min(max(steps, PARTS), MOST_PARTS)
+    ends = {time for track in tracks for time in track.times}
+    return sorted(ends | {k / count for k in range(count + 1)})

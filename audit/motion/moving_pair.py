@@ -13,7 +13,6 @@ from satcheck import core
 from satcheck.audit.body import PlacedBody, diagonal
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.planner import ALWAYS
@@ -32,6 +31,21 @@ if TYPE_CHECKING:
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
+
+
+# The budget and the resolution of a sweep, in steps and shares of t, never in seconds.
+# If a step is shorter than this share of the motion, the bodies count as in contact. The first
+# overlap is searched down to the same share.
+SHORTEST_STEP = 2.0**-30
+# A contact that lasts for more touch bands of motion than this is a contact of its own; a shorter
+# one is the start of an overlap.
+SLID = 64
+# Queries about one pair: how long it stays free, how large its gap is.
+STEPS = 4096
+# Pairs of boxes and triangles that all these queries may visit: a few seconds.
+VISITS = 10_000_000
+# The least touch band of a sweep, in units of the rounding of a pose.
+PADS_IN_BAND = 8
 
 
 class Unanswerable(Exception):
@@ -63,8 +77,9 @@ class MovingPair:
         self.pair = pair
         self.track_a = track_a
         self.track_b = track_b
-        self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
-        self.pad += _placing(pair.a, track_a) + _placing(pair.b, track_b)
+        self._sides = (pair.a, track_a), (pair.b, track_b)
+        self.pad = sum(track.pad(body.bounds) for body, track in self._sides)
+        self.pad += sum(_placing(body, track) for body, track in self._sides)
         self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
@@ -86,9 +101,7 @@ class MovingPair:
     def fastest(self, t: float) -> float:
         """An upper bound of the speed of a point of A relative to B, in the piece of t, per unit of
         t."""
-        return self.track_a.fastest(t, self.pair.a.bounds) + self.track_b.fastest(
-            t, self.pair.b.bounds
-        )
+        return sum(track.piece_at(t).fastest(body.bounds) for body, track in self._sides)
 
     def path_length(self, start: float, end: float) -> float:
         """An upper bound of the way of a point of A relative to B from start to end."""
@@ -143,7 +156,7 @@ class MovingPair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = _placed(self.pair.a, self.track_a, t), _placed(self.pair.b, self.track_b, t)
+            a, b = (_placed(body, track, t) for body, track in self._sides)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -158,19 +171,19 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
-        return examine(Draft(self.placed(t)))
+        return found(self.placed(t))
 
     def _hulls(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
+        return self._asked(ask, t, offset, [_shape_of(b) for b, _ in self._sides], **bounds)
 
     def _surfaces(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the surfaces of the bodies, or their curved shapes."""
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in self._bodies]
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         return result
@@ -184,17 +197,18 @@ class MovingPair:
         (a, frame_a), (b, frame_b) = sides
         moving_a = self.track_a.moving_at(t, offset, frame_a)
         moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
+        slack = sum(track.piece_at(t).slack(body.bounds) for body, track in self._sides)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, **bounds)
 
-    @property
-    def _bodies(self) -> tuple[PlacedBody, PlacedBody]:
-        return self.pair.a, self.pair.b
 
-    def _slack(self, t: float) -> float:
-        return sum(
-            track.slack(track.piece_at(t), body.bounds)
-            for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
-        )
+def found(pair: Pair) -> Finding:
+    """The finding of a pair in one pose."""
+    return examine(Draft(pair))
+
+
+def is_step(step: float, t: float, end: float) -> bool:
+    """Return whether a step from t on is long enough to be one, or reaches the end."""
+    return step >= SHORTEST_STEP or t + step >= end
 
 
 def overlaps(finding: Finding) -> bool:

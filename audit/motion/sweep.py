@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from msgspec.structs import replace
@@ -17,8 +18,10 @@ from satcheck.audit.motion.worst import (
     least_hull_distance,
 )
 from satcheck.audit.pair import Pair
-from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
+from satcheck.report.sweep import Joints, Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene.motion import Path, Rotation, Translation
+
+Places = Callable[[float], tuple[Place, ...]]
 
 
 def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
@@ -30,14 +33,27 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
         moving = MovingPair(pair, *tracks)
     except Unanswerable as why:
         return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, 0)
-    impact = first_impact(moving, _gaps(moving)) if pair.may("hull") else _not_swept(pair)
-    answer = _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b})
+
+    def places(t: float) -> tuple[Place, ...]:
+        paths = ((pair.a.id, path_a), (pair.b.id, path_b))
+        return tuple(_place(body, path, t) for body, path in paths if path is not None)
+
+    if not pair.may("hull"):
+        reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
+        impact = Impact(0.0, None, 0.0, reason=reason)
+    else:
+        impact = first_impact(moving, _gaps(moving))
     if impact.upper is not None:
-        return answer.hit(impact.upper)
+        return _hit(moving, impact, impact.upper, places)
     if impact.reason is None:
-        return answer.free()
-    possible = None if pair.may("exact") else possible_overlap(moving, impact.reached)
-    return answer.possible_hit(possible)
+        return _free(moving, impact, places)
+    # An overlap of boxes, hulls or parts instead of the bodies is no proof.
+    hit = None if pair.may("exact") else possible_overlap(moving, impact.reached)
+    if hit is None:
+        return swept(impact, moving.tolerance, moving.steps)
+    impact = replace(impact, upper=hit, reason=None)
+    shown = {"at": places(hit), "proven": False}
+    return swept(impact, moving.tolerance, moving.steps, "penetrating", **shown)
 
 
 def swept(
@@ -60,111 +76,86 @@ def swept(
     )
 
 
+def relation_apart(
+    impact: Impact, worst: Worst | None, tolerance: float, clearance: float | None
+) -> SweptRelation:
+    """The relation of bodies that stay apart, or within the touch band, during the whole motion.
+    worst: the nearest pose, as far as it is known."""
+    upper = math.inf if worst is None else worst.upper
+    if impact.contact is not None or upper <= tolerance:
+        return "touching"
+    return "near" if upper < (clearance or 0.0) else "separated"
+
+
+def worst_pose(
+    worst: Worst | None, places: Places, joints: Joints | None = None
+) -> WorstPose | None:
+    """Return the worst pose as a report states it. joints: there, on a path of joints."""
+    if worst is None:
+        return None
+    at = places(worst.time)
+    if worst.upper < 0.0:
+        return WorstPose(worst.time, at, joints, depth=(-worst.upper, -worst.lower))
+    return WorstPose(worst.time, at, joints, distance=(max(worst.lower, 0.0), worst.upper))
+
+
 def _gaps(pair: MovingPair) -> tuple[float, ...]:
     """The lengths that decide the relation of bodies that stay apart. If a body has holes, only
     hulls that have no common point prove that no fill is entered."""
     return () if pair.holed else (pair.tolerance, pair.pair.request.clearance or 0.0)
 
 
-def _not_swept(pair: Pair) -> Impact:
-    reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
-    return Impact(0.0, None, 0.0, reason=reason)
+def _hit(pair: MovingPair, impact: Impact, upper: float, places: Places) -> Sweep:
+    worst, request = None, pair.pair.request
+    if request.wants("depth") or request.max_thickness is not None:
+        worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
+    return swept(
+        impact,
+        pair.tolerance,
+        pair.steps,
+        "penetrating",
+        at=places(upper),
+        point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
+        worst=worst_pose(worst, places),
+    )
 
 
-class _Answer:
-    def __init__(self, pair: MovingPair, impact: Impact, paths: dict[str, Path | None]) -> None:
-        self._pair = pair
-        self._impact = impact
-        self._paths = paths
+def _free(pair: MovingPair, impact: Impact, places: Places) -> Sweep:
+    worst, clearance = _nearest(pair, impact), pair.pair.request.clearance
+    relation = relation_apart(impact, worst, pair.tolerance, clearance)
+    if pair.holed and not pair.hulls_apart:
+        unfilled = f"the fills of the holes of {' and '.join(pair.holed)} were not swept"
+        impact = replace(impact, reason=unfilled)
+    if worst is not None and pair.holed and clearance:
+        # The fill of a hole may be nearer than the surfaces, but not nearer than the hulls.
+        hulls = least_hull_distance(pair, worst.upper, clearance)
+        worst = replace(worst, lower=min(worst.lower, hulls))
+    return swept(
+        impact,
+        pair.tolerance,
+        pair.steps,
+        relation,
+        worst=worst_pose(worst, places),
+        distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
+    )
 
-    def possible_hit(self, upper: float | None) -> Sweep:
-        """An overlap of boxes, hulls or parts instead of the bodies; no proof. None: undecided."""
-        if upper is None:
-            return self._swept(self._impact)
-        hit = replace(self._impact, upper=upper, reason=None)
-        return self._swept(hit, "penetrating", at=self._places(upper), proven=False)
 
-    def hit(self, upper: float) -> Sweep:
-        pair, impact = self._pair, self._impact
-        worst = None
-        request = pair.pair.request
-        if request.wants("depth") or request.max_thickness is not None:
-            worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
-        return self._swept(
-            impact,
-            "penetrating",
-            at=self._places(upper),
-            point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
-            worst=None if worst is None else self._pose(worst),
-        )
-
-    def free(self) -> Sweep:
-        impact, worst = self._impact, self._nearest()
-        return self._swept(
-            replace(impact, reason=self._unfilled()),
-            self._relation(worst),
-            worst=None if worst is None else self._pose(self._with_fills(worst)),
-            distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
-        )
-
-    def _swept(
-        self, impact: Impact, relation: SweptRelation = "indeterminate", **figures: Any
-    ) -> Sweep:
-        return swept(impact, self._pair.tolerance, self._pair.steps, relation, **figures)
-
-    def _nearest(self) -> Worst | None:
-        """The nearest pose, as narrowly as the relation and the clearance need it; None: they do
-        not need it, or it is unknown."""
-        pair, contact = self._pair, self._impact.contact
-        clearance = pair.pair.request.clearance
-        if not pair.convex and not pair.pair.may("exact"):
-            return None
-        if contact is not None:
-            return self._nearest_at(contact) if clearance else None
+def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
+    """The nearest pose, as narrowly as the relation and the clearance need it; None: they do not
+    need it, or it is unknown."""
+    contact, clearance = impact.contact, pair.pair.request.clearance
+    if not pair.convex and not pair.pair.may("exact"):
+        return None
+    if contact is None:
         lengths = (pair.tolerance, clearance or 0.0)
-        if self._impact.gap >= max(lengths):
+        if impact.gap >= max(lengths):
             return None
         return least_distance(pair, lengths, narrow=bool(clearance))
-
-    def _nearest_at(self, contact: float) -> Worst | None:
-        try:
-            return Worst(contact, 0.0, max(self._pair.least_gap(contact, contact)[1], 0.0))
-        except Unanswerable:
-            return None
-
-    def _with_fills(self, worst: Worst) -> Worst:
-        """The fill of a hole may be nearer than the surfaces, but not nearer than the hulls."""
-        clearance = self._pair.pair.request.clearance
-        if not clearance or not self._pair.holed:
-            return worst
-        hulls = least_hull_distance(self._pair, worst.upper, clearance)
-        return replace(worst, lower=min(worst.lower, hulls))
-
-    def _relation(self, worst: Worst | None) -> SweptRelation:
-        """The relation of bodies that stay apart, or within the touch band, during the whole
-        motion."""
-        upper = math.inf if worst is None else worst.upper
-        if self._impact.contact is not None or upper <= self._pair.tolerance:
-            return "touching"
-        return "near" if upper < (self._pair.pair.request.clearance or 0.0) else "separated"
-
-    def _unfilled(self) -> str | None:
-        """Which holes leave open whether a body entered the other one: fills are not swept."""
-        holed = self._pair.holed
-        if not holed or self._pair.hulls_apart:
-            return None
-        return f"the fills of the holes of {' and '.join(holed)} were not swept"
-
-    def _pose(self, worst: Worst) -> WorstPose:
-        at = self._places(worst.time)
-        if worst.upper < 0.0:
-            return WorstPose(worst.time, at, depth=(-worst.upper, -worst.lower))
-        return WorstPose(worst.time, at, distance=(max(worst.lower, 0.0), worst.upper))
-
-    def _places(self, t: float) -> tuple[Place, ...]:
-        return tuple(
-            _place(body, path, t) for body, path in self._paths.items() if path is not None
-        )
+    try:
+        gap = pair.least_gap(contact, contact)[1] if clearance else None
+    except Unanswerable:
+        return None
+    return None if gap is None else Worst(contact, 0.0, max(gap, 0.0))
 
 
 def _place(body: str, path: Path, t: float) -> Place:

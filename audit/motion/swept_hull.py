@@ -17,8 +17,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.motion.limits import SLID, SLIDES
-from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.motion.moving_pair import SLID, overlaps
 from satcheck.audit.stages.depth import FREE
 from satcheck.audit.vectors import scaled
 from satcheck.core.conventions import Vector
@@ -30,6 +29,9 @@ if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
     from satcheck.audit.motion.moving_pair import MovingPair
 
+# The hull is tried over the rest of a piece of the motion, and over so many parts of it, each half
+# as long as the one before.
+SLIDES = 8
 # What a body has to keep of its size without the margin. A smaller one may lie in the other body.
 LEAST_REST = 0.5
 

@@ -96,6 +96,23 @@ class Piece(Struct, frozen=True):
         rate = math.radians(self.degrees) / (self.end - self.start)
         return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
 
+    def reach(self, bounds: Box) -> float:
+        """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
+        units. bounds: of the body as placed."""
+        radius = max(math.dist(corner, self.pivot) for corner in corners(bounds))
+        farthest = max(math.hypot(*end) for end in (self.centre, self.centre_at(self.end)))
+        return (radius + math.hypot(*self.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
+
+    def fastest(self, bounds: Box) -> float:
+        """An upper bound of the speed of any point of the body, world units per unit of t."""
+        return math.hypot(*self.velocity) + math.hypot(*self.spin) * self.reach(bounds)
+
+    def slack(self, bounds: Box) -> float:
+        """The largest effect of rounding on the rate at which a gap closes, world units per unit of
+        t."""
+        leg = LEG_ROUNDOFFS * self.reach(bounds) / (self.end - self.start)
+        return (RATE_ROUNDOFFS * self.fastest(bounds) + leg) * UNIT_ROUNDOFF
+
 
 class Track(Struct, frozen=True):
     """The pieces of a motion, without gaps from t = 0 to t = 1."""
@@ -133,26 +150,12 @@ class Track(Struct, frozen=True):
         centre = added(piece.centre_at(t), offset)
         return core.Moving(turn, shift, centre, piece.velocity, piece.spin)
 
-    def reach(self, bounds: Box) -> float:
-        """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
-        units. bounds: of the body as placed."""
-        return max(_reach(piece, bounds) for piece in self.pieces)
-
     def pad(self, bounds: Box) -> float:
-        """The largest effect of rounding on a point of the body, and on a gap there, world
-        units."""
+        """The largest effect of rounding on a point of the body, and on a gap there, world units.
+        bounds: of the body as placed."""
         turned = math.radians(max(abs(piece.degrees) for piece in self.pieces))
-        return (POSE_ROUNDOFFS + 4 * turned) * UNIT_ROUNDOFF * self.reach(bounds)
-
-    def slack(self, piece: Piece, bounds: Box) -> float:
-        """The largest effect of rounding on the rate at which a gap closes, world units per unit of
-        t."""
-        leg = LEG_ROUNDOFFS * _reach(piece, bounds) / (piece.end - piece.start)
-        return (RATE_ROUNDOFFS * _fastest(piece, bounds) + leg) * UNIT_ROUNDOFF
-
-    def fastest(self, t: float, bounds: Box) -> float:
-        """An upper bound of the speed of any point of the body, world units per unit of t."""
-        return _fastest(self.piece_at(t), bounds)
+        reach = max(piece.reach(bounds) for piece in self.pieces)
+        return (POSE_ROUNDOFFS + 4 * turned) * UNIT_ROUNDOFF * reach
 
 
 def track_of(path: Path) -> Track:
@@ -207,17 +210,6 @@ def unit(v: Sequence[float]) -> tuple[float, ...]:
     small = [c / largest for c in v]
     length = math.hypot(*small)
     return tuple(c / length for c in small)
-
-
-def _fastest(piece: Piece, bounds: Box) -> float:
-    return math.hypot(*piece.velocity) + math.hypot(*piece.spin) * _reach(piece, bounds)
-
-
-def _reach(piece: Piece, bounds: Box) -> float:
-    radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
-    ends = (piece.centre, piece.centre_at(piece.end))
-    farthest = max(math.hypot(*end) for end in ends)
-    return (radius + math.hypot(*piece.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
 
 
 STANDS = Track((Piece(0.0, 1.0),))

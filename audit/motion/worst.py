@@ -16,15 +16,19 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.draft import Draft
-from satcheck.audit.finding import examine
-from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, found
 from satcheck.audit.planner import ALWAYS
 from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
+# The search ends when the interval is narrower than this share of the figure.
+WIDTH = 0.01
+# The most intervals of t. For bodies that are not both convex, the most poses whose depth is
+# measured coarsely, and the most measured as narrowly as the depth of a pair.
+INTERVALS = 512
+DEPTHS = 24
+REFINED = 2
 # An interval with a bound below this share of the best figure is always halved.
 WORTHLESS = 0.5
 
@@ -64,11 +68,11 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     motion.
     """
     budget = pair.pair.settings.depth_budget
-    step = (1.0 - impact) / (WORST_DEPTHS - 1)
-    times = [min(impact + step * k, 1.0) for k in range(WORST_DEPTHS)]
+    step = (1.0 - impact) / (DEPTHS - 1)
+    times = [min(impact + step * k, 1.0) for k in range(DEPTHS)]
     try:
-        depths = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
-        longest = sorted(depths, key=lambda depth: -depth[1])[:WORST_REFINED]
+        depths = [(*_depth_at(pair, t, budget / DEPTHS), t) for t in times]
+        longest = sorted(depths, key=lambda depth: -depth[1])[:REFINED]
         depths += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
     except Unanswerable:
         return None
@@ -104,7 +108,7 @@ def _least(
     except Unanswerable:
         return None
     try:
-        for _ in range(WORST_INTERVALS):
+        for _ in range(INTERVALS):
             if _answers(so_far(), pair.pad, lengths, narrow=narrow):
                 break
             _, start, end = queue[0]
@@ -124,7 +128,7 @@ def _answers(found: Worst, pad: float, lengths: Sequence[float], *, narrow: bool
     kept = [keeps(length, found.lower, found.upper) for length in lengths]
     if None in kept:
         return False
-    is_narrow = width <= WORST_WIDTH * abs(found.upper)
+    is_narrow = width <= WIDTH * abs(found.upper)
     return not narrow or (bool(kept) and all(kept)) or is_narrow
 
 
@@ -133,7 +137,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     placed = pair.placed(t)
     request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
-    finding = examine(Draft(replace(placed, settings=settings, request=request)))
+    finding = found(replace(placed, settings=settings, request=request))
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

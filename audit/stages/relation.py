@@ -89,12 +89,13 @@ def _by_rungs(draft: Draft, climb: core.Climb) -> None:
 
 def _take(draft: Draft, climb: core.Climb) -> None:
     """Take the answer of the core."""
-    weak = None if climb.hole is None else _open(draft.pair, climb.hole)
+    weak = None if climb.hole is None else open_hole(draft.pair, climb.hole)
     draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
     draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
 
 
-def _open(pair: Pair, hole: core.OpenHole) -> str:
+def open_hole(pair: Pair, hole: core.OpenHole) -> str:
+    """Return why the hole leaves the relation open."""
     body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
     at = ", ".join(f"{c:.4g}" for c in hole.centre)
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"

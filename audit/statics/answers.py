@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from satcheck.audit.statics.graph import Graph
 from satcheck.audit.statics.islands import Outcome
-from satcheck.audit.statics.margins import Margins
-from satcheck.audit.statics.subjects import Subject
+from satcheck.audit.statics.margins import MOST_OF_STEP
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import Issue
 from satcheck.report.statics import (
-    BodyIsland,
     BodyRuleReport,
     Question,
     State,
     SupportFinding,
 )
 from satcheck.report.verdict import severity_of_answer
-from satcheck.scene.statics import KEYS, BodyRule, BodyTerms
+from satcheck.scene.statics import KEYS, QUESTIONS, BodyRule, BodyTerms
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
@@ -32,47 +30,43 @@ FALLS = "no contact forces hold it: it starts to move"
 
 
 def answer_to(
-    question: Question, k: int, subject: Subject, graph: Graph, outcome: Outcome | None
+    question: Question, k: int, graph: Graph, outcome: Outcome | None
 ) -> tuple[State, str | None]:
-    """The answer, and the reason if it is not yes. outcome: of its island; None: it is fixed."""
-    if subject.fixed is not None or outcome is None:
+    """The answer, and the reason if it is not yes, or why the body may fall although forces exist
+    that hold it. outcome: of its island; None: it is fixed."""
+    if outcome is None:
         return "yes", None
+    stated = outcome.stated
     if graph.floating[k] == "yes":
         return "no", NO_CHAIN
-    if outcome.tolerant == "no":
+    if stated.tolerant == "no":
         if k in outcome.motions:
             return "no", FALLS
         return "open", "it is in contact with bodies that start to move"
     if graph.floating[k] == "open":
-        return "open", outcome.reason or "whether a chain of contacts holds it is not decided"
-    state = outcome.tolerant if question == "supported" else outcome.strict
-    if state == "yes":
-        return "yes", None
-    return "open", outcome.reason
-
-
-def doubt_about(margins: Margins | None) -> str | None:
-    """Why a body may fall although forces exist that hold it; None: no such reason is known."""
-    if margins is None:
-        return None
-    if margins.squeezed:
-        return "squeeze only: forces hold it if something presses it, else it falls"
-    if margins.balanced:
-        return "balanced: any tilt of gravity moves it"
-    return None
+        return "open", stated.reason or "whether a chain of contacts holds it is not decided"
+    if (stated.tolerant if question == "supported" else stated.strict) != "yes":
+        return "open", stated.reason
+    if stated.squeezed:
+        return "yes", "squeeze only: forces hold it if something presses it, else it falls"
+    if stated.balanced:
+        return "yes", "balanced: any tilt of gravity moves it"
+    if stated.squeezed is None and outcome.beside_walls:
+        is_large = outcome.standing is not None and len(outcome.standing.at) > MOST_OF_STEP
+        return "open" if question == "stable" else "yes", NOT_LET_GO if is_large else NOT_DECIDED
+    return "yes", None
 
 
 def finding(
     body: str,
     question: Question,
     rule: BodyRule,
-    severity: str | None,
+    terms: BodyTerms,
     answer: State,
     reason: str | None,
 ) -> SupportFinding:
-    """reason: of a yes, a doubt, which is a warning. severity: that a rule gives the errors of this
-    body; None: the default."""
-    level = severity_of_answer(answer, severity)
+    """reason: of a yes, a doubt, which is a warning. terms: of the body."""
+    level = severity_of_answer(answer, terms.value("severity"))
     if answer == "yes" and reason is not None:
         level = "warning"
     return SupportFinding(body, question, rule.name, level, answer, reason)
@@ -92,24 +86,6 @@ def issues_of(
     return list(issues.values())
 
 
-def island_report(
-    members: Sequence[int],
-    subjects: Sequence[Subject],
-    outcome: Outcome,
-    margins: Margins | None,
-) -> BodyIsland:
-    return BodyIsland(
-        bodies=tuple(subjects[k].id for k in members),
-        tolerant=outcome.tolerant,
-        strict=outcome.strict,
-        missing=outcome.missing,
-        margin=None if margins is None else margins.tilt,
-        least_friction=None if margins is None else margins.least_friction,
-        squeezed=None if margins is None else margins.squeezed,
-        reason=outcome.reason,
-    )
-
-
 def rule_report(rule: BodyRule) -> BodyRuleReport:
     values = {key: getattr(rule, key) for key in (*KEYS, "reason", "where")}
     return BodyRuleReport(bodies=rule.bodies.text, **values)
@@ -120,5 +96,7 @@ def vector(values: Floats) -> Vector:
     return x, y, z
 
 
-def asks(terms: BodyTerms) -> bool:
-    return terms.asks("supported") is not None or terms.asks("stable") is not None
+def asked_of(terms: BodyTerms) -> list[tuple[Question, BodyRule]]:
+    """The questions about a body, with the rule that asks each."""
+    rules = ((question, terms.asks(question)) for question in QUESTIONS)
+    return [(question, rule) for question, rule in rules if rule is not None]

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.audit.statics.features import Features
-from satcheck.audit.statics.near import Floats, Indices, cross, near_boxes
+from satcheck.audit.statics.near import Flags, Floats, Indices, cross, near_boxes
 
 # Edges whose directions differ by less than this sine are parallel: their vertices decide.
 PARALLEL = 1e-6
@@ -20,9 +21,6 @@ PARALLEL = 1e-6
 PLAIN_PATCH = 8
 # With more pairs of near features the tolerance is not small beside the facets.
 MOST_NEAR = 500_000
-
-
-NDArrayBool = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
 class Points(Struct, frozen=True):
@@ -34,14 +32,18 @@ class Points(Struct, frozen=True):
     at: Floats
     normals: Floats
     heights: Floats
-    strict: NDArrayBool
+    strict: Flags
 
     def __len__(self) -> int:
         return len(self.at)
 
     def turned(self) -> Points:
         """The same contacts of B and A."""
-        return Points(self.at, -self.normals, self.heights, self.strict)
+        return replace(self, normals=-self.normals)
+
+    def among(self, rows: Indices | Flags) -> Points:
+        """Some of the contacts."""
+        return Points(*(getattr(self, name)[rows] for name in self.__struct_fields__))
 
 
 NOBODY = Points(np.empty((0, 3)), np.empty((0, 3)), np.empty(0), np.empty(0, dtype=bool))
@@ -64,12 +66,8 @@ def joined(parts: list[Points]) -> Points:
     """Contacts of one pair together; the nearest of all decides which are strict."""
     if not parts:
         return NOBODY
-    return Points(
-        np.concatenate([part.at for part in parts]),
-        np.concatenate([part.normals for part in parts]),
-        np.concatenate([part.heights for part in parts]),
-        np.concatenate([part.strict for part in parts]),
-    )
+    columns = ([getattr(part, name) for part in parts] for name in Points.__struct_fields__)
+    return Points(*map(np.concatenate, columns))
 
 
 def extreme(points: Points, rounding: float) -> Points:
@@ -84,12 +82,10 @@ def extreme(points: Points, rounding: float) -> Points:
     ordered = keys[order][:, :6]
     first = np.r_[True, (ordered[1:] != ordered[:-1]).any(axis=1)]
     kept = _corners_of_patches(points, order[first], strict, rounding)
-    return Points(points.at[kept], points.normals[kept], points.heights[kept], strict[kept])
+    return replace(points, strict=strict).among(kept)
 
 
-def _corners_of_patches(
-    points: Points, kept: Indices, strict: NDArrayBool, rounding: float
-) -> Indices:
+def _corners_of_patches(points: Points, kept: Indices, strict: Flags, rounding: float) -> Indices:
     """Of contacts in one plane with one normal only the corners of their hull: forces at the others
     are mixtures of forces at these."""
     if len(kept) <= PLAIN_PATCH:
@@ -152,7 +148,7 @@ def _vertices_on_faces(
     lowest = _lowest_neighbour(a, i, n)
     kept = lowest >= -2 * tolerance
     strict = (lowest >= -2 * rounding) & (aside <= rounding)
-    points = Points(foot[kept], n[kept], height[kept], strict[kept])
+    points = Points(foot, n, height, strict).among(kept)
     return points.turned() if turned else points
 
 
@@ -207,7 +203,7 @@ def _edges_on_edges(a: Features, b: Features, tolerance: float, rounding: float)
     depth = np.maximum(-low_a, high_b)
     kept = outward & (np.einsum("ci,ci->c", step, step) <= tolerance**2) & (depth <= 2 * tolerance)
     strict = (depth <= 2 * rounding) & (aside <= rounding)
-    return Points(0.5 * (on_a + on_b)[kept], n[kept], height[kept], strict[kept])
+    return Points(0.5 * (on_a + on_b), n, height, strict).among(kept)
 
 
 def _nearest_on_lines(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats]:

@@ -9,12 +9,14 @@ v.w > 0, so that no forces exist (Farkas).
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
-from satcheck.audit.statics.near import Floats, Indices, cross
+from satcheck.audit.statics.near import Flags, Floats, Indices, cross
 from satcheck.core.errors import SatcheckError
 
 # Cones are narrowed by this share to look for forces, and widened to look for a motion: rounding of
@@ -34,12 +36,16 @@ SOLVED = ("Solved", "AlmostSolved")
 PRECISION = 1e-10
 
 
+Block = tuple[Any, Floats, list[Any]]  # rows A, limits b, cones: b - A x is in the cones
+
+
 class Island(Struct, frozen=True):
     """Bodies that touch each other, and their contacts. Body numbers count from 0; -1 is fixed.
 
     weights: (n,) over 0. centres: (n, 3). sizes: (n,) lengths for torques. down: unit. first,
     second: (c,) the bodies of each contact. at: (c, 3). normals: (c, 3) unit, from second to first.
-    friction: (c,).
+    friction: (c,). strict: (c,) as `Points.strict`. rows: (c, 2) the numbers of the contact of two
+    bodies, and of its point.
     """
 
     weights: Floats
@@ -51,20 +57,13 @@ class Island(Struct, frozen=True):
     at: Floats
     normals: Floats
     friction: Floats
+    strict: Flags
+    rows: Indices
 
-    def among(self, contacts: Indices) -> Island:
-        """The same bodies with some of the contacts."""
-        return Island(
-            self.weights,
-            self.centres,
-            self.sizes,
-            self.down,
-            self.first[contacts],
-            self.second[contacts],
-            self.at[contacts],
-            self.normals[contacts],
-            self.friction[contacts],
-        )
+    def among_strict(self) -> Island:
+        """The same bodies with the strict contacts alone."""
+        of_contacts = ("first", "second", "at", "normals", "friction", "strict", "rows")
+        return replace(self, **{name: getattr(self, name)[self.strict] for name in of_contacts})
 
 
 class Answer(Struct, frozen=True):
@@ -147,30 +146,26 @@ class Programme:
         return Answer(None, missing=missing)
 
     def _minimum(self) -> tuple[Floats | None, Floats | None, float]:
+        from clarabel import SecondOrderConeT
         from scipy import sparse
 
         rows, columns = self.matrix.shape
         # Variables: x, t. Cones: (t, A x + w), then (friction * normal, tangents) of each contact.
-        top = sparse.csc_matrix(([-1.0], ([0], [columns])), shape=(1, columns + 1))
-        below = sparse.hstack([-self.matrix, sparse.csc_matrix((rows, 1))])
-        own = friction_rows(self.friction, columns + 1)
-        q = np.zeros(columns + 1)
-        q[-1] = 1.0
+        missed = sparse.block_diag([-self.matrix, [[-1.0]]]).tocsr()
+        missed = missed[[rows, *range(rows)]]
+        limits = np.concatenate([[0.0], self.load.ravel()])
         solution = minimum(
-            sparse.csc_matrix((columns + 1, columns + 1)),
-            q,
-            sparse.vstack([top, below, own]),
-            np.concatenate([[0.0], self.load.ravel(), np.zeros(columns)]),
-            [cone(rows + 1)] + [cone(3)] * (columns // 3),
+            np.eye(1, columns + 1, columns)[0],
+            (missed, limits, [SecondOrderConeT(rows + 1)]),
+            friction_cones(self.friction, columns + 1),
+            accepted=(*SOLVED, "InsufficientProgress"),
         )
-        if str(solution.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
+        if solution is None:
             return None, None, 0.0
         forces = np.array(solution.x[:-1]).reshape(-1, 3)
         forces[self.friction == 0, 1:] = 0.0
-        rest = self._rest(forces)
-        missing = float(np.linalg.norm(rest))
-        dual = -np.array(solution.z[1 : rows + 1]).reshape(-1, 6)
-        return forces, dual, missing
+        missing = float(np.linalg.norm(self._rest(forces)))
+        return forces, -np.array(solution.z[1 : rows + 1]).reshape(-1, 6), missing
 
     def _rest(self, x: Floats) -> Floats:
         """(n, 6) what is missing."""
@@ -247,19 +242,21 @@ def _balance(island: Island, frame: Floats) -> Any:
     return sparse.csc_matrix((flat[0], (flat[1], flat[2])), shape=shape)
 
 
-def friction_rows(friction: Floats, columns: int) -> Any:
-    """Rows of -(mu x_n, x_t, x_t) for each contact, of `columns` variables in all: each three are
-    in a second-order cone."""
+def friction_cones(friction: Floats, columns: int) -> Block:
+    """(mu x_n, x_t, x_t) of each contact in a second-order cone, of `columns` variables in all."""
+    from clarabel import SecondOrderConeT
     from scipy import sparse
 
     scale = np.ones((len(friction), 3))
     scale[:, 0] = friction
-    own = sparse.diags(-scale.ravel())
-    return sparse.hstack([own, sparse.csc_matrix((own.shape[0], columns - own.shape[1]))])
+    rows = sparse.diags(-scale.ravel(), shape=(scale.size, columns))
+    return rows, np.zeros(scale.size), [SecondOrderConeT(3)] * len(friction)
 
 
-def minimum(quadratic: Any, linear: Floats, rows: Any, limits: Floats, cones: list[Any]) -> Any:
-    """The solution of: minimise x'Px / 2 + q'x with b - A x in the cones."""
+def minimum(
+    linear: Floats, *blocks: Block, quadratic: Any = None, accepted: tuple[str, ...] = SOLVED
+) -> Any:
+    """The solution of: minimise x'Px / 2 + q'x, where each block holds; None: not solved."""
     import clarabel
     from scipy import sparse
 
@@ -267,26 +264,13 @@ def minimum(quadratic: Any, linear: Floats, rows: Any, limits: Floats, cones: li
     settings.verbose = False
     settings.max_threads = 1
     settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = PRECISION
-    solver = clarabel.DefaultSolver(
-        sparse.csc_matrix(quadratic), linear, sparse.csc_matrix(rows), limits, cones, settings
-    )
-    return solver.solve()
-
-
-def cone(size: int) -> Any:
-    """A second-order cone."""
-    import clarabel
-
-    return clarabel.SecondOrderConeT(size)
-
-
-def zeros(size: int) -> Any:
-    import clarabel
-
-    return clarabel.ZeroConeT(size)
-
-
-def positive(size: int) -> Any:
-    import clarabel
-
-    return clarabel.NonnegativeConeT(size)
+    rows, limits, cones = zip(*blocks, strict=True)
+    solution = clarabel.DefaultSolver(
+        sparse.csc_matrix((linear.size, linear.size) if quadratic is None else quadratic),
+        linear,
+        sparse.vstack(rows, format="csc"),
+        np.concatenate(limits),
+        list(chain.from_iterable(cones)),
+        settings,
+    ).solve()
+    return solution if str(solution.status) in accepted else None

@@ -7,42 +7,42 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec import Struct
 
+from satcheck.audit.statics.contacts import joined
 from satcheck.audit.statics.equilibrium import Answer, Island, find_forces, solve
 from satcheck.audit.statics.near import Floats
 from satcheck.audit.statics.subjects import Subject, Terms
 from satcheck.audit.statics.touching import Contact
-from satcheck.report.statics import State
-
-
-class Weighed(Struct, frozen=True):
-    """An island as the solver sees it. rows: (contact, point) of each of its contact points.
-    strict: (c,) whether that is a strict one."""
-
-    island: Island
-    rows: list[tuple[int, int]]
-    strict: np.ndarray[tuple[int], np.dtype[np.bool_]]
+from satcheck.report.statics import BodyIsland, State
 
 
 class Outcome(Struct, frozen=True):
-    """tolerant, strict: whether forces exist at all contacts, and at the strict ones. forces:
-    (contact, point) -> force on the first body of the contact. motions: body -> velocity (6,).
-    weighed: what was solved; None: nothing was. reason: why something is open."""
+    """stated: as in the report. island: with all its contacts; None: nothing was solved. forces:
+    (contact, point) -> force on the first body of the contact. motions: body -> velocity (6,)."""
 
-    tolerant: State
-    strict: State
-    forces: dict[tuple[int, int], Floats]
-    motions: dict[int, Floats]
-    missing: float | None = None
-    weighed: Weighed | None = None
-    reason: str | None = None
+    stated: BodyIsland
+    island: Island | None = None
+    forces: dict[tuple[int, int], Floats] = {}
+    motions: dict[int, Floats] = {}
+
+    @property
+    def standing(self) -> Island | None:
+        """The island with the contacts at which forces hold it; None: no such forces are known."""
+        if self.island is None or self.stated.tolerant != "yes":
+            return None
+        return self.island.among_strict() if self.stated.strict == "yes" else self.island
 
     @property
     def beside_walls(self) -> bool:
         """Whether a contact is steeper than 45 degrees, so that it may squeeze."""
-        if self.weighed is None:
+        if self.island is None:
             return False
-        island = self.weighed.island
-        return bool((np.abs(island.normals @ island.down) < np.sqrt(0.5)).any())
+        return bool((np.abs(self.island.normals @ self.island.down) < np.sqrt(0.5)).any())
+
+
+def left_open(members: Sequence[int], subjects: Sequence[Subject], reason: str) -> Outcome:
+    """An island of which nothing is known."""
+    names = tuple(subjects[k].id for k in members)
+    return Outcome(BodyIsland(names, "open", "open", reason=reason))
 
 
 def outcome_of(
@@ -57,27 +57,34 @@ def outcome_of(
     body of the scene is unusable."""
     reason = _why_not(members, subjects, contacts)
     if reason is not None:
-        return Outcome("open", "open", {}, {}, reason=reason)
-    weighed = weigh(members, subjects, contacts, terms)
-    nearest = np.flatnonzero(weighed.strict)
-    strict = find_forces(weighed.island.among(nearest))
-    if strict.holds:
-        rows = [weighed.rows[k] for k in nearest.tolist()]
-        forces = _forces(rows, strict)
-        return Outcome("yes", "yes", forces, {}, strict.missing, weighed)
-    tolerant = solve(weighed.island)
+        return left_open(members, subjects, reason)
+    island = weigh(members, subjects, contacts, terms)
+
+    def outcome(
+        tolerant: State, strict: State, answer: Answer, reason: str | None = None
+    ) -> Outcome:
+        names = tuple(subjects[k].id for k in members)
+        stated = BodyIsland(names, tolerant, strict, answer.missing, reason=reason)
+        if answer.forces is None:
+            return Outcome(stated, island)
+        solved = island.among_strict() if strict == "yes" else island
+        rows = map(tuple, solved.rows.tolist())
+        return Outcome(stated, island, dict(zip(rows, answer.forces, strict=True)))
+
+    nearest = find_forces(island.among_strict())
+    if nearest.holds:
+        return outcome("yes", "yes", nearest)
+    tolerant = solve(island)
     if tolerant.holds:
         reason = "forces exist only if all surfaces within the tolerance count as contacts"
-        forces = _forces(weighed.rows, tolerant)
-        return Outcome("yes", "open", forces, {}, tolerant.missing, weighed, reason)
-    if tolerant.holds is None:
-        reason = "the solver finds neither forces nor a motion: it is at its limit"
-        return Outcome("open", "open", {}, {}, tolerant.missing, weighed, reason)
-    reason = _why_incomplete(subjects, contacts, alone)
-    if reason is not None:
-        return Outcome("open", "open", {}, {}, tolerant.missing, weighed, reason)
-    motions = _motions(members, tolerant)
-    return Outcome("no", "no", {}, motions, tolerant.missing, weighed)
+        return outcome("yes", "open", tolerant, reason)
+    reason = "the solver finds neither forces nor a motion: it is at its limit"
+    if tolerant.motion is not None:
+        reason = _why_incomplete(subjects, contacts, alone)
+        if reason is None:
+            falls = outcome("no", "no", tolerant)
+            return Outcome(falls.stated, island, motions=_motions(members, tolerant.motion))
+    return outcome("open", "open", tolerant, reason)
 
 
 def _why_not(
@@ -112,44 +119,31 @@ def weigh(
     subjects: Sequence[Subject],
     contacts: Sequence[tuple[int, Contact]],
     terms: Terms,
-) -> Weighed:
+) -> Island:
     number = {body: k for k, body in enumerate(members)}
-    first, second, at, normals, friction, strict = [], [], [], [], [], []
-    rows: list[tuple[int, int]] = []
-    for index, contact in contacts:
-        count = len(contact.points)
-        one, other = subjects[contact.a], subjects[contact.b]
-        first += [number.get(contact.a, -1)] * count
-        second += [number.get(contact.b, -1)] * count
-        friction += [terms.friction_of(one.terms, other.terms)] * count
-        at.append(contact.points.at)
-        normals.append(contact.points.normals)
-        strict.append(contact.points.strict)
-        rows += [(index, k) for k in range(count)]
+    bodies = [(number.get(c.a, -1), number.get(c.b, -1)) for _, c in contacts]
+    friction = [terms.friction_of(subjects[c.a].terms, subjects[c.b].terms) for _, c in contacts]
+    points = joined([contact.points for _, contact in contacts])
+    counts = [len(contact.points) for _, contact in contacts]
+    both = np.repeat(np.array(bodies, dtype=np.int64).reshape(-1, 2), counts, axis=0)
+    rows = [(index, k) for index, contact in contacts for k in range(len(contact.points))]
     free = [subjects[k] for k in members]
-    nowhere = np.empty((0, 3))
-    island = Island(
-        np.array([subject.mass for subject in free], dtype=float),
-        np.array([subject.centre for subject in free], dtype=float),
-        np.array([subject.body.diagonal for subject in free]),
-        np.array(terms.gravity),
-        np.array(first, dtype=np.int64),
-        np.array(second, dtype=np.int64),
-        np.concatenate([nowhere, *at]),
-        np.concatenate([nowhere, *normals]),
-        np.array(friction, dtype=float),
+    return Island(
+        weights=np.array([subject.mass for subject in free], dtype=float),
+        centres=np.array([subject.centre for subject in free], dtype=float),
+        sizes=np.array([subject.body.diagonal for subject in free]),
+        down=np.array(terms.gravity),
+        first=both[:, 0],
+        second=both[:, 1],
+        at=points.at,
+        normals=points.normals,
+        friction=np.repeat(np.array(friction, dtype=float), counts),
+        strict=points.strict,
+        rows=np.array(rows, dtype=np.int64).reshape(-1, 2),
     )
-    return Weighed(island, rows, np.concatenate([np.empty(0, dtype=bool), *strict]))
 
 
-def _forces(rows: Sequence[tuple[int, int]], answer: Answer) -> dict[tuple[int, int], Floats]:
-    assert answer.forces is not None
-    return dict(zip(rows, answer.forces, strict=True))
-
-
-def _motions(members: Sequence[int], answer: Answer) -> dict[int, Floats]:
-    assert answer.motion is not None
-    fastest = np.abs(answer.motion).max()
-    return {
-        body: answer.motion[k] / fastest for k, body in enumerate(members) if answer.motion[k].any()
-    }
+def _motions(members: Sequence[int], motion: Floats) -> dict[int, Floats]:
+    """The motions of the bodies that move, as shares of the fastest."""
+    fastest = np.abs(motion).max()
+    return {body: motion[k] / fastest for k, body in enumerate(members) if motion[k].any()}

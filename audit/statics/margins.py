@@ -7,23 +7,18 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.statics.equilibrium import (
-    SOLVED,
     Island,
     Programme,
-    cone,
     find_forces,
-    friction_rows,
+    friction_cones,
     minimum,
-    positive,
     tangents,
-    zeros,
 )
+from satcheck.audit.statics.islands import Outcome
 from satcheck.audit.statics.near import Floats
-from satcheck.report.statics import BALANCED_DEGREES
 
 # The most contact points of all islands together whose tilt and friction are looked for, by some
 # twenty programmes each, and the most of one island whose first step is.
@@ -41,40 +36,26 @@ AT_REST = 1e-2
 GYRATION = 1.0 / 12.0
 
 
-class Margins(Struct, frozen=True):
-    """tilt: degrees, a lower and an upper end of the smallest tilt of gravity that the island does
-    not stand. least_friction: a friction of all contacts that suffices; None: they
-    differ. squeezed: whether it falls unless something presses it; None: not decided."""
-
-    tilt: tuple[float, float] | None
-    least_friction: float | None
-    squeezed: bool | None
-
-    @property
-    def balanced(self) -> bool:
-        return self.tilt is not None and self.tilt[1] <= BALANCED_DEGREES
-
-
-def margins_of(islands: Sequence[Island | None]) -> list[Margins | None]:
-    """Of islands that stand; None: it does not, or has too many contacts. The first islands use up
-    the points for tilts."""
-    margins: list[Margins | None] = []
+def with_margins(outcomes: Sequence[Outcome]) -> list[Outcome]:
+    """The same outcomes with the figures of islands that stand, unless they have too many contacts.
+    The first islands use up the points for tilts."""
+    measured: list[Outcome] = []
     left = MOST_POINTS
-    for island in islands:
-        points = MOST_OF_STEP + 1 if island is None else len(island.at)
-        if island is None or points > MOST_OF_STEP:
-            margins.append(None)
+    for outcome in outcomes:
+        island = outcome.standing
+        if island is None or len(island.at) > MOST_OF_STEP:
+            measured.append(outcome)
             continue
-        full = points <= left
-        left -= points if full else 0
-        margins.append(
-            Margins(
-                _tilt(island) if full else None,
-                _least_friction(island) if full else None,
-                _is_squeezed(island),
-            )
+        full = len(island.at) <= left
+        left -= len(island.at) if full else 0
+        stated = replace(
+            outcome.stated,
+            margin=_tilt(island) if full else None,
+            least_friction=_least_friction(island) if full else None,
+            squeezed=_is_squeezed(island),
         )
-    return margins
+        measured.append(replace(outcome, stated=stated))
+    return measured
 
 
 def _tilt(island: Island) -> tuple[float, float] | None:
@@ -104,6 +85,7 @@ def _distance_to_line(p: tuple[float, float], q: tuple[float, float]) -> float:
 
 def _most_tilt(island: Island, aside: Floats) -> float | None:
     """The largest s for which forces balance gravity along down + s aside; None: not known."""
+    from clarabel import NonnegativeConeT, ZeroConeT
     from scipy import sparse
 
     programme = Programme(island, 1.0)
@@ -111,20 +93,14 @@ def _most_tilt(island: Island, aside: Floats) -> float | None:
     push = np.zeros((len(island.weights), 6))
     push[:, :3] = aside
     balance = sparse.hstack([programme.matrix, sparse.csc_matrix(push.reshape(-1, 1))])
-    own = friction_rows(programme.friction, columns + 1)
-    limit = sparse.csc_matrix(([1.0], ([0], [columns])), shape=(1, columns + 1))
-    q = np.zeros(columns + 1)
-    q[-1] = -1.0
+    tilt = np.eye(1, columns + 1, columns)
     solution = minimum(
-        sparse.csc_matrix((columns + 1, columns + 1)),
-        q,
-        sparse.vstack([balance, limit, own]),
-        np.concatenate([-programme.load.ravel(), [MOST_TILT], np.zeros(columns)]),
-        [zeros(rows), positive(1)] + [cone(3)] * (columns // 3),
+        -tilt[0],
+        (balance, -programme.load.ravel(), [ZeroConeT(rows)]),
+        (sparse.csc_matrix(tilt), np.array([MOST_TILT]), [NonnegativeConeT(1)]),
+        friction_cones(programme.friction, columns + 1),
     )
-    if str(solution.status) not in SOLVED:
-        return None
-    return max(float(solution.x[-1]), 0.0)
+    return None if solution is None else max(float(solution.x[-1]), 0.0)
 
 
 def _least_friction(island: Island) -> float | None:
@@ -155,6 +131,7 @@ def _is_squeezed(island: Island) -> bool | None:
     Coulomb friction problem via convex optimization" (2011). The first guess are the accelerations
     of a free fall, so that nothing presses unless it has to.
     """
+    from clarabel import ZeroConeT
     from scipy import sparse
 
     programme = Programme(island, 1.0)
@@ -163,19 +140,17 @@ def _is_squeezed(island: Island) -> bool | None:
     mass = np.repeat(np.sqrt(island.weights / programme.unit), 6)
     metric = sparse.diags(gyration * mass) @ programme.matrix  # forces -> sqrt(M) acceleration
     load = gyration * mass * programme.load.ravel()
-    own = friction_rows(programme.friction, columns + rows)
-    tie = sparse.hstack([metric, -sparse.eye(rows)])
-    quadratic = sparse.block_diag([sparse.csc_matrix((columns, columns)), sparse.eye(rows)])
-    limits = np.concatenate([-load, np.zeros(columns)])
-    cones = [zeros(rows)] + [cone(3)] * (columns // 3)
+    tie = sparse.hstack([metric, -sparse.eye(rows)]), -load, [ZeroConeT(rows)]
+    own = friction_cones(programme.friction, columns + rows)
+    quadratic = sparse.diags(np.repeat([0.0, 1.0], [columns, rows]))
     moved = load
     last = math.inf
     for _ in range(ROUNDS):
         sliding = (metric.T @ moved).reshape(-1, 3)
         q = np.zeros(columns + rows)
         q[0:columns:3] = programme.friction * np.hypot(sliding[:, 1], sliding[:, 2])
-        solution = minimum(quadratic, q, sparse.vstack([tie, own]), limits, cones)
-        if str(solution.status) not in SOLVED:
+        solution = minimum(q, tie, own, quadratic=quadratic)
+        if solution is None:
             return None
         moved = np.array(solution.x[columns:])
         fastest = float(np.abs(moved / mass).max())

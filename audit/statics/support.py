@@ -5,27 +5,21 @@ from __future__ import annotations
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from satcheck.audit.bodies import UNUSED_RULE, PlacedBodies
 from satcheck.audit.settings import Settings
 from satcheck.audit.statics.answers import (
-    NOT_DECIDED,
-    NOT_LET_GO,
     answer_to,
-    asks,
-    doubt_about,
+    asked_of,
     finding,
-    island_report,
     issues_of,
     rule_report,
     vector,
 )
-from satcheck.audit.statics.equilibrium import Island, require_solver
+from satcheck.audit.statics.equilibrium import require_solver
 from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.graph import graph_of
-from satcheck.audit.statics.islands import Outcome, outcome_of
-from satcheck.audit.statics.margins import margins_of
+from satcheck.audit.statics.islands import Outcome, left_open, outcome_of
+from satcheck.audit.statics.margins import with_margins
 from satcheck.audit.statics.subjects import subjects_of, terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
@@ -41,18 +35,17 @@ from satcheck.report.statics import (
     BodyContact,
     ContactPoint,
     FirstMotion,
-    Question,
     Statics,
     SupportedBody,
     SupportFinding,
 )
-from satcheck.scene.statics import QUESTIONS, BodyRule, disagreeing_axes, terms_of
+from satcheck.scene.statics import QUESTIONS, disagreeing_axes, terms_of
 
 if TYPE_CHECKING:
     from satcheck.audit.statics.near import Floats
-    from satcheck.scene import Body, Scene, Unreadable
+    from satcheck.scene import Scene
 
-NOT_SOLVED = Outcome("open", "open", {}, {}, reason="no rule asks about a body of this island")
+NOT_ASKED = "no rule asks about a body of this island"
 
 
 class Support:
@@ -81,13 +74,7 @@ class Support:
         contacts, self.pairs = contacts_of(self.subjects, self.terms.tolerance, settings)
         self.contacts = without_flush_edges(contacts, self.subjects, self.terms)
         self.graph = graph_of(self.subjects, self.contacts, alone=alone)
-        self.outcomes = self._outcomes(alone)
-        self.margins = margins_of(
-            [
-                self._standing(members, outcome)
-                for members, outcome in zip(self.graph.islands, self.outcomes, strict=True)
-            ]
-        )
+        self.outcomes = with_margins(self._outcomes(alone))
         self.microseconds = (perf_counter_ns() - started) / 1000.0
 
     def _outcomes(self, alone: bool) -> list[Outcome]:
@@ -101,8 +88,8 @@ class Support:
                 by_island[island].append((index, contact))
         return [
             self._outcome(members, contacts, alone)
-            if any(asks(self.subjects[k].terms) for k in members)
-            else NOT_SOLVED
+            if any(asked_of(self.subjects[k].terms) for k in members)
+            else left_open(members, self.subjects, NOT_ASKED)
             for members, contacts in zip(self.graph.islands, by_island, strict=True)
         ]
 
@@ -115,18 +102,7 @@ class Support:
         except Exception as error:  # noqa: BLE001 what failed is open, with the reason
             not_for_lack_of_memory(error)
             reason = f"internal error: {type(error).__name__}: {error}"
-            return Outcome("open", "open", {}, {}, reason=reason)
-
-    def _standing(self, members: list[int], outcome: Outcome) -> Island | None:
-        """An island with forces, if a rule asks about one of its bodies: at its strict contacts, if
-        these suffice."""
-        asked = any(asks(self.subjects[k].terms) for k in members)
-        weighed = outcome.weighed
-        if not asked or outcome.tolerant != "yes" or weighed is None:
-            return None
-        if outcome.strict != "yes":
-            return weighed.island
-        return weighed.island.among(np.flatnonzero(weighed.strict))
+            return left_open(members, self.subjects, reason)
 
     def stated(self) -> Statics:
         names = dict.fromkeys(
@@ -142,12 +118,7 @@ class Support:
             rules=tuple(map(rule_report, self.rules)),
             bodies=tuple(self._body(k) for k in range(len(self.subjects))),
             contacts=tuple(self._contact(k, forces) for k in range(len(self.contacts))),
-            islands=tuple(
-                island_report(members, self.subjects, outcome, margins)
-                for members, outcome, margins in zip(
-                    self.graph.islands, self.outcomes, self.margins, strict=True
-                )
-            ),
+            islands=tuple(outcome.stated for outcome in self.outcomes),
             findings=tuple(self._findings()),
             pairs=self.pairs,
             microseconds=self.microseconds,
@@ -155,37 +126,21 @@ class Support:
 
     def issues(self, scene: Scene, statics: Statics) -> list[Issue]:
         """Bodies that fail or are open, doubts about the bodies, and rules that select none."""
-        members = scene.in_order()
-        failed = issues_of(statics.findings, UNSUPPORTED, SUPPORT_OPEN)
-        return [*failed, *_axes(scene), *self._small(), *self._unused(members)]
-
-    def _small(self) -> list[Issue]:
+        found = issues_of(statics.findings, UNSUPPORTED, SUPPORT_OPEN)
+        if disagreeing_axes(scene):
+            why = "glTF files are y-up, and gravity is assumed along -z: state [statics] gravity"
+            found.append(Issue(GRAVITY_ASSUMED, "warning", None, None, why))
         tolerance = self.terms.tolerance
-        return [
-            Issue(
-                TOLERANCE_LARGE,
-                "warning",
-                subject.id,
-                None,
-                f"{subject.id} is smaller than the tolerance of contacts {tolerance:.3g}",
-            )
-            for subject in self.subjects
-            if subject.fixed is None and subject.body.diagonal < tolerance
-        ]
-
-    def _unused(self, members: list[Body | Unreadable]) -> list[Issue]:
-        return [
-            Issue(
-                UNUSED_RULE,
-                "warning",
-                None,
-                rule.file,
-                f"{rule.name}: the rule selects no body",
-                rule.line,
-            )
-            for rule in self.rules
-            if not rule.bodies.select(members)
-        ]
+        for subject in self.subjects:
+            if subject.fixed is None and subject.body.diagonal < tolerance:
+                why = f"{subject.id} is smaller than the tolerance of contacts {tolerance:.3g}"
+                found.append(Issue(TOLERANCE_LARGE, "warning", subject.id, None, why))
+        members = scene.in_order()
+        for rule in self.rules:
+            if not rule.bodies.select(members):
+                why = f"{rule.name}: the rule selects no body"
+                found.append(Issue(UNUSED_RULE, "warning", None, rule.file, why, rule.line))
+        return found
 
     def _body(self, k: int) -> SupportedBody:
         subject, graph = self.subjects[k], self.graph
@@ -229,35 +184,12 @@ class Support:
     def _findings(self) -> list[SupportFinding]:
         findings = []
         for k, subject in enumerate(self.subjects):
-            for question in QUESTIONS:
-                rule = subject.terms.asks(question)
-                if rule is not None:
-                    findings.append(self._finding(k, question, rule))
-        for id_, (reason, terms) in self.unusable.items():
-            for question in QUESTIONS:
-                rule = terms.asks(question)
-                if rule is not None:
-                    findings.append(
-                        finding(id_, question, rule, terms.value("severity"), "open", reason)
-                    )
+            island = self.graph.island.get(k)
+            outcome = None if island is None else self.outcomes[island]
+            for question, rule in asked_of(subject.terms):
+                answer, reason = answer_to(question, k, self.graph, outcome)
+                findings.append(finding(subject.id, question, rule, subject.terms, answer, reason))
+        for id_, (why, terms) in self.unusable.items():
+            for question, rule in asked_of(terms):
+                findings.append(finding(id_, question, rule, terms, "open", why))
         return findings
-
-    def _finding(self, k: int, question: Question, rule: BodyRule) -> SupportFinding:
-        subject, graph = self.subjects[k], self.graph
-        outcome = None if subject.fixed is not None else self.outcomes[graph.island[k]]
-        answer, reason = answer_to(question, k, subject, graph, outcome)
-        margins = None if subject.fixed is not None else self.margins[graph.island[k]]
-        if answer == "yes" and outcome is not None:
-            reason = doubt_about(margins)
-            undecided = margins is None or margins.squeezed is None
-            if reason is None and undecided and outcome.beside_walls:
-                answer = "open" if question == "stable" else "yes"
-                reason = NOT_LET_GO if margins is None else NOT_DECIDED
-        return finding(subject.id, question, rule, subject.terms.value("severity"), answer, reason)
-
-
-def _axes(scene: Scene) -> list[Issue]:
-    if not disagreeing_axes(scene):
-        return []
-    message = "glTF files are y-up, and gravity is assumed along -z: state [statics] gravity"
-    return [Issue(GRAVITY_ASSUMED, "warning", None, None, message)]

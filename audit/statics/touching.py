@@ -12,12 +12,10 @@ import numpy as np
 from msgspec import Struct
 
 from satcheck.audit.body import largest_coordinate
-from satcheck.audit.draft import Draft
-from satcheck.audit.finding import examine
+from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.audit.settings import Settings
-from satcheck.audit.stages.relation import start_climbs
 from satcheck.audit.statics.contacts import (
     NOBODY,
     Points,
@@ -28,7 +26,6 @@ from satcheck.audit.statics.contacts import (
 from satcheck.audit.statics.features import Features
 from satcheck.audit.statics.near import Floats, TooManyNear, near_boxes
 from satcheck.audit.statics.subjects import Ball, Subject
-from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.report import Finding
 from satcheck.report.statics import Touch
@@ -67,46 +64,23 @@ def contacts_of(
     i, j = near_boxes(low, high, low, high, tolerance)
     kept = (i < j) & ~(fixed[i] & fixed[j])
     numbers = sorted(zip(i[kept].tolist(), j[kept].tolist(), strict=True))
-    findings = _relations(subjects, numbers, tolerance, settings)
-    contacts = []
-    for (a, b), finding in zip(numbers, findings, strict=True):
-        contact = _contact(subjects, a, b, finding, tolerance)
-        if contact is not None:
-            contacts.append(contact)
-    return contacts, len(numbers)
-
-
-def _relations(
-    subjects: Sequence[Subject],
-    numbers: Sequence[tuple[int, int]],
-    tolerance: float,
-    settings: Settings,
-) -> list[Finding | str]:
-    """A finding of each pair with this tolerance, and of nothing else; or why there is none."""
-    if not numbers:
-        return []
     plain = Settings(
         tolerance=tolerance, depth=False, allow_open=settings.allow_open, jobs=settings.jobs
     )
     request = request_for(plain, composed=True)
     pairs = [Pair(subjects[a].body, subjects[b].body, plain, request) for a, b in numbers]
-    climbs = start_climbs(pairs, settings.jobs)()
-    findings: list[Finding | str] = []
-    for pair, climb in zip(pairs, climbs, strict=True):
-        try:
-            findings.append(examine(Draft(pair), climb))
-        except Exception as error:  # noqa: BLE001 the other pairs are still looked at
-            not_for_lack_of_memory(error)
-            findings.append(f"internal error: {type(error).__name__}: {error}")
-    return findings
+    contacts = []
+    for (a, b), pair in zip(numbers, examine_pairs(pairs, settings.jobs), strict=True):
+        contact = _contact(subjects, a, b, pair.finding, tolerance)
+        if contact is not None:
+            contacts.append(contact)
+    return contacts, len(numbers)
 
 
 def _contact(
-    subjects: Sequence[Subject], a: int, b: int, finding: Finding | str, tolerance: float
+    subjects: Sequence[Subject], a: int, b: int, finding: Finding, tolerance: float
 ) -> Contact | None:
     """None: they are farther apart than the tolerance."""
-    if isinstance(finding, str):
-        return Contact(a, b, "unknown", False, reason=finding)
     if finding.undecided in ("relation", "inside") or finding.quality == "estimate":
         reason = finding.reason or "how they relate is not decided"
         return Contact(a, b, "unknown", False, reason=reason)

@@ -14,7 +14,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Finding, Report, Settings, check
-from satcheck.audit.joint_path.search import WIDEST
+from satcheck.audit.motion.joint_search import WIDEST
 from satcheck.audit.samples import check_poses
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene import Scene, load_scene

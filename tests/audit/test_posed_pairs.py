@@ -139,8 +139,8 @@ def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int
         for row in range(batch.count):
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
-            for code, names in zip(codes[row], pairs.names, strict=True):
-                seen[int(code), relations.get(names, "separated")] += 1
+            for code, pair in zip(codes[row], pairs.pairs, strict=True):
+                seen[int(code), relations.get(pair.ids, "separated")] += 1
     return seen
 
 

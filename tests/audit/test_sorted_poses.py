@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from satcheck.audit.samples import check_poses
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.robot import Pose, RandomPoses, posed
-from tests.audit.test_posed_pairs import QUICK, SHAPES, meshes, open_cups, plain, spider
+from tests.audit.test_posed_pairs import QUICK, SHAPES, compare, meshes, open_cups, plain, spider
 from tests.scene.robot.robots import joint, link, robot_of
 
 
@@ -93,3 +94,32 @@ def test_a_listed_pose_climbs_only_what_the_sort_does_not_prove(tmp_path: Path) 
         assert plain(sample.findings[0]) == plain(own)
     measured = check_poses(scene, poses, Settings(depth=True)).samples[0].findings[0]
     assert measured.depth == pytest.approx(0.5)
+
+
+def test_the_sort_proves_turned_curved_and_open_bodies(tmp_path: Path) -> None:
+    """Boxes and discs that are turned against the axes of the world, and cups: what the sort lists
+    without a climb says what a check of the pose says."""
+    scene = spider(tmp_path, [*SHAPES, *SHAPES[:3], *open_cups(tmp_path)])
+    relations = compare(scene, QUICK, 25)
+    assert relations >= {"penetrating", "contains", "indeterminate"}
+    samples = check_poses(scene, poses_of(scene), QUICK).samples
+    stages = Counter(
+        (finding.relation, finding.plan[0].stage)
+        for sample in samples
+        for finding in sample.findings
+    )
+    assert stages["penetrating", "sort"] > 2 * stages["penetrating", "aabb"]
+    assert stages["indeterminate", "sort"]
+
+
+def test_the_hole_between_two_open_bodies_is_that_of_a_check_of_the_pose(tmp_path: Path) -> None:
+    """Either body has a hole in the way of the other one, and only one is named."""
+    open_cups(tmp_path)
+    cup = (tmp_path / "cup.obj").read_text()
+    (tmp_path / "bowl.obj").write_text(cup + "f 2 4 8 6\nf 3 7 8 4\n")  # without its lid
+    scales = ("1 1 1", "0.9 0.8 0.95", "0.7 0.7 0.7", "1.1 0.6 0.8")
+    geometries = [
+        f'<mesh filename="{name}.obj" scale="{scale}"/>'
+        for name, scale in zip(("bowl", "cup") * 2, scales, strict=True)
+    ]
+    assert "indeterminate" in compare(spider(tmp_path, geometries), QUICK, 60)

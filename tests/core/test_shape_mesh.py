@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from satcheck.core import Surface
-from satcheck.core.shape_mesh import mesh_of, sag_of
+from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import (
     Box,
     Capsule,
@@ -122,3 +122,9 @@ def test_the_sag_bounds_how_far_a_shape_is_off_its_mesh(shape: Primitive, segmen
     around = np.array([support(shape, tuple(d)) for d in directions.tolist()])
     off = around - (directions @ vertices.T).max(axis=1)
     assert 0.25 * sag_of(shape, segments) < off.max() <= sag_of(shape, segments)
+
+
+def test_the_mesh_around_a_shape_is_made_once() -> None:
+    """A robot in many poses asks for the same few."""
+    assert mesh_around(Cylinder(0.2, 0.7)) is mesh_around(Cylinder(0.2, 0.7))
+    assert mesh_around(Cylinder(0.2, 0.8)) is not mesh_around(Cylinder(0.2, 0.7))

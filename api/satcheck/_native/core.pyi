@@ -352,6 +352,16 @@ def sift(
     threads: int = 0,
     margins: NDArray[float64] | None = None,
 ) -> NDArray[uint8]: ...
+def neither_holds(
+    a: PosedBody,
+    matrix_a: NDArray[float64],
+    b: PosedBody,
+    matrix_b: NDArray[float64],
+    margin: float,
+) -> bool: ...
+def open_hole(
+    a: PosedBody, matrix_a: NDArray[float64], b: PosedBody, matrix_b: NDArray[float64]
+) -> OpenHole | None: ...
 
 Rung = Literal["aabb", "obb", "hull", "triangles"]
 # a, b, asked_gap, tolerance, wants_distance

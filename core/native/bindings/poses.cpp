@@ -24,6 +24,7 @@ namespace {
 using Corner = std::array<double, 3>;
 using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
 using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
+using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
 using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using Sifting = std::vector<Sifted>;
 
@@ -52,6 +53,23 @@ nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::
   return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(values, {matrices.shape(0), pairs.size()}, owner));
 }
 
+void bind_listed(nb::module_& m) {
+  m.def(
+      "neither_holds",
+      [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b, double margin) {
+        return neither_holds(a, at_a.data(), b, at_b.data(), margin);
+      },
+      "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(), "margin"_a,
+      "Whether each of two bodies in a pose is proven to reach out of the other one by more than the margin.");
+  m.def(
+      "open_hole",
+      [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b) {
+        return open_hole(a, at_a.data(), b, at_b.data());
+      },
+      "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(),
+      "The hole that leaves a pair open in a pose in which `sift` returns 3. None: a climb has to find it.");
+}
+
 }  // namespace
 
 void bind_poses(nb::module_& m) {
@@ -72,6 +90,7 @@ in the closed mesh of the geometry `around`; the closed mesh of `within` lies in
            "corners"_a, "margin"_a, "around"_a, "within"_a, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("around", [](const PosedBody& self) { return std::make_pair(to_tuple(self.around().centre), self.around().radius); },
                    "A ball that holds the body: its centre and its radius.");
+  bind_listed(m);
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
         R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
 gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;

@@ -68,6 +68,12 @@ void PosedBody::enclose(const std::vector<Vec3>& corners) {
   around_.radius += margin_ + chain_rounding(max_abs(largest_));
 }
 
+const VertexLanes& PosedBody::own_corners() {
+  if (has_mesh()) return corners_;
+  std::call_once(has_own_corners_, [&] { own_corners_ = VertexLanes(within_->hull_points()->points); });
+  return own_corners_;
+}
+
 const Surface& PosedBody::surface() {
   std::call_once(has_surface_, [&] { surface_ = geometry_->surface(); });
   return *surface_;

@@ -34,6 +34,8 @@ class PosedBody {
             std::shared_ptr<Geometry> within);
 
   const VertexLanes& corners() const { return corners_; }
+  // Points of the body: its corners, or those of the mesh within a curved one. Made by the first call.
+  const VertexLanes& own_corners();
   double margin() const { return margin_; }
   const Ball& around() const { return around_; }          // holds the body
   Vec3 largest() const { return largest_; }               // |coordinate| of all corners and vertices
@@ -59,11 +61,11 @@ class PosedBody {
   void widen(Vec3 p);  // largest()
 
   std::shared_ptr<Geometry> geometry_, within_;
-  VertexLanes corners_;
+  VertexLanes corners_, own_corners_;
   double margin_ = 0;
   Ball around_;
   Vec3 largest_;
-  std::once_flag has_surface_, has_material_, has_walls_, has_inner_, has_filled_;
+  std::once_flag has_own_corners_, has_surface_, has_material_, has_walls_, has_inner_, has_filled_;
   std::shared_ptr<Surface> surface_, material_;
   std::shared_ptr<const Surface> walls_;
   std::vector<Ball> inner_;

@@ -20,6 +20,8 @@ namespace {
 // the world: 2. Rounded up.
 constexpr double kPosedRounding = 64 * kUnitRoundoff;
 
+double rounding_between(const PosedPlace& a, const PosedPlace& b) { return kPosedRounding * (a.reach + b.reach); }
+
 // The poses that one thread takes at a time. Neighbours in a list of poses are often close to each other, and the axis
 // of a pair starts anew with each block, so that threads do not change the result.
 constexpr std::size_t kBlock = 64;
@@ -37,8 +39,7 @@ struct Corner {
   std::uint32_t index;
 };
 
-SATCHECK_INLINE Corner support(const PosedBody& body, const PosedPlace& at, Vec3 direction) {
-  const VertexLanes& corners = body.corners();
+SATCHECK_INLINE Corner support(const VertexLanes& corners, const PosedPlace& at, Vec3 direction) {
   const std::uint32_t i = support_index(corners, transpose_times(at.linear, direction));
   return {at.linear * Vec3{corners.x[i], corners.y[i], corners.z[i]} + at.offset, i};
 }
@@ -57,7 +58,7 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
   double nearest = INFINITY;
   axis = axis * (1 / norm(axis));
   for (int step = 0; step < kMostSteps; ++step) {
-    const Corner on_a = support(a, at_a, -axis), on_b = support(b, at_b, axis);
+    const Corner on_a = support(a.corners(), at_a, -axis), on_b = support(b.corners(), at_b, axis);
     const Vec3 w = on_a.point - on_b.point;
     const double height = dot(axis, w);
     if (height > enough) return {true, axis};
@@ -84,6 +85,26 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
   return {false, axis};
 }
 
+Vec3 column(const Mat3& m, int i) { return {m.row[0][i], m.row[1][i], m.row[2][i]}; }
+
+// Whether a point of A is farther out than all of B by more than `margin`: along the line of their centres, or along an
+// axis of either file.
+bool sticks_out(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double margin) {
+  const double enough = margin + b.margin() * at_b.stretch.most + rounding_between(at_a, at_b);
+  const auto is_farther_along = [&](Vec3 axis) {
+    const double length = norm(axis);
+    if (!(length > 0)) return false;
+    const Vec3 way = axis * (1 / length);
+    return dot(way, support(a.own_corners(), at_a, way).point - support(b.corners(), at_b, way).point) > enough;
+  };
+  if (is_farther_along(at_a.around.centre - at_b.around.centre)) return true;
+  for (int i = 0; i < 6; ++i) {
+    const Vec3 axis = column(i < 3 ? at_b.linear : at_a.linear, i % 3);
+    if (is_farther_along(axis) || is_farther_along(-axis)) return true;
+  }
+  return false;
+}
+
 class PoseSifter {
  public:
   PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs)
@@ -105,7 +126,7 @@ class PoseSifter {
     PosedBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
     Place &place_a = places_[pair.a], &place_b = places_[pair.b];
     const PosedPlace &at_a = place_a.at, &at_b = place_b.at;
-    const double rounding = kPosedRounding * (at_a.reach + at_b.reach);
+    const double rounding = rounding_between(at_a, at_b);
     const double limit = gap_limit * (1 + 4 * kUnitRoundoff) + rounding;
     const Vec3 between = at_a.around.centre - at_b.around.centre;
     const double centres = norm(between);
@@ -150,6 +171,16 @@ class PoseSifter {
 };
 
 }  // namespace
+
+bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin) {
+  const PosedPlace at_a = place_at(a, matrix_a), at_b = place_at(b, matrix_b);
+  return sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin);
+}
+
+std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b) {
+  const PosedPlace at_a = place_at(a, matrix_a), at_b = place_at(b, matrix_b);
+  return open_hole(a, at_a, b, at_b, rounding_between(at_a, at_b));
+}
 
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
                          const double* matrices, const double* margins, std::size_t poses, unsigned threads) {

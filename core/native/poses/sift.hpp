@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "mesh_pair/mesh_pair.hpp"
 #include "poses/posed_body.hpp"
 
 namespace satcheck {
@@ -32,5 +34,11 @@ struct SiftedPair {
 // each pose, pose by pose, the same for any number of threads (0: one a core).
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
                          const double* matrices, const double* margins, std::size_t poses, unsigned threads);
+
+// Of a pair that is deep in this pose: whether each body reaches out of the other one by more than `margin`.
+bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin);
+
+// Of a pair that is undecided in this pose: the hole that a climb names. Empty if only the climb can tell.
+std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b);
 
 }  // namespace satcheck

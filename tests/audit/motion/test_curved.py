@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.motion.limits import SHORTEST_STEP
+from satcheck.audit.motion.moving_pair import SHORTEST_STEP
 from tests.audit.shapes import bracket, write
 
 

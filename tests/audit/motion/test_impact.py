@@ -15,8 +15,7 @@ from msgspec.structs import replace
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact
-from satcheck.audit.motion.limits import SHORTEST_STEP
-from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.motion.moving_pair import SHORTEST_STEP, overlaps
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import hull_of, moving
 from tests.audit.shapes import box, bracket, moved, unit_box

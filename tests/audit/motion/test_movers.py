@@ -188,7 +188,7 @@ def test_a_clearance_that_is_not_decided_is_no_hit(tmp_path: Path, monkeypatch) 
     """The search may look at one interval: its upper end is 1.5 - sqrt 2, at the corner. The
     clearance is so close below it that the scan does not prove it either."""
     clearance = 1.5 - math.sqrt(2.0) - 1e-13
-    monkeypatch.setattr(worst, "WORST_INTERVALS", 1)
+    monkeypatch.setattr(worst, "INTERVALS", 1)
     turn = Motion(("a",), Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 90.0))
     meshes = {"a": box((-1, -1, 0), (1, 1, 1)), "b": box((1.5, -5, 0), (9, 5, 1))}
     report = checked(tmp_path, [turn], settings=Settings(clearance=clearance), **meshes)

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from satcheck.audit.motion import moving_pair, sweep, worst
-from satcheck.audit.motion.limits import STEPS
+from satcheck.audit.motion.moving_pair import STEPS
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import pair_of
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box
@@ -124,7 +124,7 @@ def test_motions_beyond_float64_are_open(path):
 
 def test_a_spent_search_for_the_nearest_pose_is_no_clearance_that_was_not_kept(monkeypatch):
     """A gap that stays the same all the way: its lower bound gets no better than 1 %."""
-    monkeypatch.setattr(worst, "WORST_INTERVALS", 1)
+    monkeypatch.setattr(worst, "INTERVALS", 1)
     square, wall = box((-1, -1, 0), (1, 1, 1)), box((1.5, -5, 0), (9, 5, 1))
     found = swept(square, Rotation(ORIGIN, Z, 90.0), wall, clearance=0.4)
     assert (found.relation, found.contact) == ("near", None)

@@ -8,13 +8,29 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.movers import EVERYWHERE, Movers, SweptBoxes, may_meet, swept_box
+from satcheck.audit.motion.movers import Movers, SweptBoxes, part_times, parts_of
 from satcheck.audit.motion.track import track_of
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
 ORIGIN = (0.0, 0.0, 0.0)
 BOUNDS = ((1.0, -0.5, 0.0), (3.0, 0.5, 1.0))
+
+
+def swept(*moving):
+    """moving: (box as placed, path) of each body; None: it stands."""
+    tracks = [None if path is None else track_of(path) for _, path in moving]
+    times = part_times([track for track in tracks if track is not None])
+    return [
+        SweptBoxes(placed, None if track is None else parts_of(track, times))
+        for (placed, _), track in zip(moving, tracks, strict=True)
+    ]
+
+
+def meet(a, b, limit):
+    one, other = swept(a, b)
+    assert one.may_meet(other, limit) == other.may_meet(one, limit)
+    return one.may_meet(other, limit)
 
 
 def samples(path, start=0.0, end=1.0, count=2000):
@@ -47,7 +63,8 @@ def path_of(rng):
     ],
 )
 def test_the_body_is_always_inside(path):
-    low, high = swept_box(BOUNDS, track_of(path))
+    (boxes,) = swept((BOUNDS, path))
+    low, high = boxes.low.min(axis=0), boxes.high.max(axis=0)
     points = samples(path)
     assert (points >= low).all()
     assert (points <= high).all()
@@ -57,13 +74,13 @@ def test_the_body_is_always_inside(path):
 def test_a_motion_beyond_float64_may_meet_everything():
     """The velocity of the first leg is infinite, so that its centre is not a number."""
     back = (Waypoint(5e-324, (5.0, 0.0, 0.0)), Waypoint(1.0, ORIGIN))
-    boxes = SweptBoxes(BOUNDS, track_of(PosePath((Waypoint(0.0, ORIGIN), *back))))
-    assert boxes.over(0.0, 1.0) == EVERYWHERE
-    assert may_meet(boxes, SweptBoxes(((4.0, 0.0, 0.0), (4.5, 1.0, 1.0))), 0.0)
+    path = PosePath((Waypoint(0.0, ORIGIN), *back))
+    assert swept((BOUNDS, path))[0].whole == ((-math.inf,) * 3, (math.inf,) * 3)
+    assert meet((BOUNDS, path), (((4.0, 0.0, 0.0), (4.5, 1.0, 1.0)), None), 0.0)
 
 
 def test_a_translation_is_boxed_tightly():
-    low, high = swept_box(BOUNDS, track_of(Translation((3.0, -4.0, 0.0))))
+    low, high = swept((BOUNDS, Translation((3.0, -4.0, 0.0))))[0].whole
     assert low == pytest.approx((1.0, -4.5, 0.0), abs=1e-12)
     assert high == pytest.approx((6.0, 0.5, 1.0), abs=1e-12)
 
@@ -73,46 +90,45 @@ def test_where_it_was_placed_counts_too():
     low, high = Movers([Motion(("a",), far)]).bounds("a", BOUNDS)
     assert low == pytest.approx(BOUNDS[0], abs=1e-11)
     assert high == pytest.approx((63.0, *BOUNDS[1][1:]), abs=1e-11)
-    near_the_place = SweptBoxes(((0.0, 0.0, 0.0), (2.0, 1.0, 1.0)))
-    assert may_meet(SweptBoxes(BOUNDS, track_of(far)), near_the_place, 0.0)
+    near_the_place = ((0.0, 0.0, 0.0), (2.0, 1.0, 1.0))
+    assert meet((BOUNDS, far), (near_the_place, None), 0.0)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_over_a_part_the_body_is_inside(seed):
     rng = np.random.default_rng(seed)
     path = path_of(rng)
-    boxes = SweptBoxes(BOUNDS, track_of(path))
-    for _ in range(8):
-        start, end = sorted(map(float, rng.uniform(size=2)))
-        low, high = boxes.over(start, end)
-        points = samples(path, start, end, count=100)
-        assert (points >= low).all()
-        assert (points <= high).all()
+    (boxes,) = swept((BOUNDS, path))
+    times = part_times([track_of(path)])
+    for k in map(int, rng.integers(len(times) - 1, size=8)):
+        points = samples(path, times[k], times[k + 1], count=100)
+        assert (points >= boxes.low[k]).all()
+        assert (points <= boxes.high[k]).all()
 
 
 def test_bodies_that_pass_the_same_place_at_other_times_do_not_meet():
     """Both cross the origin."""
     corner = ((-20.5, -20.5, 0.0), (-19.5, -19.5, 1.0))
-    a = SweptBoxes(corner, track_of(Translation((40.0, 40.0, 0.0))))
+    a = (corner, Translation((40.0, 40.0, 0.0)))
     other = ((-20.5, 19.5, 0.0), (-19.5, 20.5, 1.0))
     there = Waypoint(1.0, (40.0, -40.0, 0.0))
     at_once = PosePath((Waypoint(0.0, ORIGIN), there))
     later = PosePath((Waypoint(0.0, ORIGIN), Waypoint(0.9, ORIGIN), there))
-    assert may_meet(a, SweptBoxes(other, track_of(at_once)), 0.0)
-    assert not may_meet(a, SweptBoxes(other, track_of(later)), 0.0)
+    assert meet(a, (other, at_once), 0.0)
+    assert not meet(a, (other, later), 0.0)
 
 
 def test_beside_the_path_boxes_are_apart():
     """The corners that are nearest pass each other at sqrt 2, along the diagonal."""
     corner = ((-20.5, -20.5, 0.0), (-19.5, -19.5, 1.0))
-    a = SweptBoxes(corner, track_of(Translation((40.0, 40.0, 0.0))))
-    aside = SweptBoxes(((5.0, 9.0, 0.0), (6.0, 10.0, 1.0)))
-    assert not may_meet(a, aside, 1.0)
-    assert may_meet(a, aside, 1.5)
+    a = (corner, Translation((40.0, 40.0, 0.0)))
+    aside = (((5.0, 9.0, 0.0), (6.0, 10.0, 1.0)), None)
+    assert not meet(a, aside, 1.0)
+    assert meet(a, aside, 1.5)
 
 
 def test_whole_turns_are_boxed_by_their_circle():
-    low, high = swept_box(BOUNDS, track_of(Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 720.0)))
+    low, high = swept((BOUNDS, Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 720.0)))[0].whole
     circle = math.hypot(3.0, 0.5)
     assert (
         max(abs(c) for c in (*low[:2], *high[:2])) <= circle * (1 + (math.pi / 12) ** 2 / 8) + 1e-11

@@ -82,7 +82,7 @@ def test_no_point_is_faster_than_the_bound(path) -> None:
         start, end = k / 64, (k + 1) / 64
         for corner in ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0)):
             step = math.dist(at(path, start, corner), at(path, end, corner))
-            assert step <= track.fastest(start, UNIT) / 64 + 2 * track.pad(UNIT)
+            assert step <= track.piece_at(start).fastest(UNIT) / 64 + 2 * track.pad(UNIT)
 
 
 def test_between_takes_the_shortest_arc() -> None:

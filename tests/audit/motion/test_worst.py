@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.limits import WORST_WIDTH
-from satcheck.audit.motion.worst import deepest_pose, least_distance
+from satcheck.audit.motion.worst import WIDTH, deepest_pose, least_distance
 from satcheck.scene.motion import Rotation, Translation
 from tests.audit.motion.pairs import hull_of, moving
 from tests.audit.shapes import box, bracket, unit_box
@@ -19,7 +18,7 @@ Z = (0.0, 0.0, 1.0)
 
 def assert_bounds(worst, truth, pad):
     assert worst.lower - pad <= truth <= worst.upper + pad
-    assert worst.upper - worst.lower <= WORST_WIDTH * abs(truth) * (1 + WORST_WIDTH) + 4 * pad
+    assert worst.upper - worst.lower <= WIDTH * abs(truth) * (1 + WIDTH) + 4 * pad
 
 
 @pytest.mark.parametrize("concave", [False, True])
@@ -42,7 +41,7 @@ def test_the_corner_of_a_turning_square():
     worst = least_distance(pair)
     assert_bounds(worst, 1.0, pair.pad)
     # Off by an angle, the corner falls short by 1 - cos of it: as much as the width allows.
-    assert abs(worst.time - 0.5) * math.radians(90.0) <= math.acos(1 - 2 * WORST_WIDTH / reach)
+    assert abs(worst.time - 0.5) * math.radians(90.0) <= math.acos(1 - 2 * WIDTH / reach)
 
 
 def test_the_depth_of_a_turning_square():

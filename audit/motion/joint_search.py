@@ -15,12 +15,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from satcheck.audit.draft import Draft
-from satcheck.audit.finding import examine
-from satcheck.audit.joint_path.travel import Interval, Middle, Numbers, Travel
 from satcheck.audit.motion.impact import Impact, impact_point
-from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS
-from satcheck.audit.motion.moving_pair import overlaps
+from satcheck.audit.motion.joint_travel import Interval, Middle, Numbers, Travel
+from satcheck.audit.motion.moving_pair import PADS_IN_BAND, STEPS, found, overlaps
 from satcheck.audit.motion.worst import Worst
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import ALWAYS
@@ -142,14 +139,14 @@ class Search:
         piece = max(int(np.searchsorted(self._path.times, hit)) - 1, 0)
         start, end = np.array([max(lower, self._path.times[piece])]), np.array([hit])
         at, way = (self._travel.middle(Interval(since, end)) for since in (end, start))
-        moved = 2.0 * float(self._travel.between(way, *self._pairs.places[k])[0])
+        moved = 2.0 * float(self._travel.between(way, *self._pairs.pairs[k].places)[0])
         return impact_point(self._pair(at, 0, k, self._pairs.tolerance(k), 0.0), moved)
 
     def _margins(self, active: Flags, at: Middle) -> Numbers:
         """Return how far each pair travels; NaN where it is not active."""
         margins = np.full(active.shape, np.nan)
         for k in np.flatnonzero(active.any(axis=0)).tolist():
-            travelled = self._travel.between(at, *self._pairs.places[k])
+            travelled = self._travel.between(at, *self._pairs.pairs[k].places)
             margins[:, k] = np.where(active[:, k], travelled, np.nan)
         return margins
 
@@ -169,7 +166,7 @@ class Search:
                 continue
             swept[k].climbs += 1
             pair = self._pair(at, row, k, swept[k].tolerance, float(margins[row, k]))
-            finding = examine(Draft(pair))
+            finding = found(pair)
             if overlaps(finding):
                 swept[k].hit, later[row, k] = float(middles[row]), False
             elif _is_clear(finding):
@@ -188,7 +185,7 @@ class Search:
         if travelled >= tolerance or tolerance > widest:
             return False
         pair = self._pair(at, row, k, tolerance - travelled, 0.0)
-        return examine(Draft(pair)).relation in FREE
+        return found(pair).relation in FREE
 
     def _compare(
         self, part: Interval, active: Flags, at: Middle, swept: list[SweptPair]
@@ -206,7 +203,7 @@ class Search:
             for row in rows[:: -(-len(rows) // MEASURED)].tolist():
                 enough = nearest.lower + float(travelled[row, k])
                 pair = self._pair(at, row, k, swept[k].tolerance, enough)
-                finding = examine(Draft(pair))
+                finding = found(pair)
                 unknown[row, k] = not _is_clear(finding)
                 if finding.distance is not None and finding.distance < nearest.upper:
                     lower = min(nearest.lower, NARROWED * finding.distance)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both
-from satcheck.audit.joint_path.search import Search, SweptPair
-from satcheck.audit.joint_path.travel import Interval, Travel
-from satcheck.audit.motion.sweep import swept
-from satcheck.audit.motion.worst import Worst
+from satcheck.audit.motion.joint_search import Search, SweptPair
+from satcheck.audit.motion.joint_travel import Interval, Travel
+from satcheck.audit.motion.sweep import relation_apart, swept, worst_pose
 from satcheck.audit.pair import Paths
 from satcheck.audit.planner import IndexPair, Planner, close_pairs
 from satcheck.audit.posed_pairs import PosedPairs
@@ -21,7 +21,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.motions import JointPath as StatedPath
 from satcheck.report.motions import JointWaypoint, StatedMotion
 from satcheck.report.report import Issue
-from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
+from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
 from satcheck.scene.robot import JointPath
 from satcheck.scene.robot.kinematics import Numbers
@@ -39,33 +39,27 @@ class JointMovers:
         _require_answers(scene, planner.settings)
         usable = {bodies.ids[k] for k in bodies.placed}
         scene = replace(scene, bodies=tuple(body for body in scene.bodies if body.id in usable))
-        self._path, self._ids = path, bodies.ids
+        self._path = path
         self._pairs = PosedPairs(scene, bodies, planner)
         self._travel = Travel(scene, path, self._pairs.around())
         self._search = Search(path, self._travel, self._pairs)
         self._moving = self._travel.moving()
-        self._number = {body.id: k for k, body in enumerate(scene.bodies)}
-        self._boxes = self._swept_boxes()
+        self._boxes = self._swept_boxes(scene)
         self._sweeps: dict[tuple[str, str], Sweep] = {}
 
     def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
         """The pairs whose boxes over the whole path are close, swept; `paths` has the results."""
         close = close_pairs(bodies, planner, self._bounds)
-        wanted = set(close)
-        places = self._pairs.places
-        moves = np.array(
-            [
-                (pair.i, pair.j) in wanted and self._travel.moves(*place)
-                for pair, place in zip(self._pairs.pairs, places, strict=True)
-            ],
-            dtype=bool,
-        )
+        wanted = {(bodies.ids[i], bodies.ids[j]) for i, j in close}
+        pairs = self._pairs.pairs
+        moves = np.array([p.ids in wanted and self._travel.moves(*p.places) for p in pairs], bool)
         found = self._search.first_overlaps(moves)
-        near = moves & np.array([self._asks_for_distance(k, f) for k, f in enumerate(found)], bool)
+        clearances = np.array([bool(pair.request.clearance) for pair in pairs], bool)
+        near = moves & clearances & np.array([pair.impact.free for pair in found], bool)
         if near.any():
             self._search.narrow(near, found)
         for k in np.flatnonzero(moves).tolist():
-            self._sweeps[self._pairs.names[k]] = self._swept(k, found[k])
+            self._sweeps[pairs[k].ids] = self._swept(k, found[k])
         return close
 
     def _bounds(self, body: str, placed: Box) -> Box:
@@ -86,9 +80,6 @@ class JointMovers:
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
 
-    def _asks_for_distance(self, k: int, pair: SweptPair) -> bool:
-        return bool(self._pairs.pairs[k].request.clearance) and pair.impact.free
-
     def _swept(self, k: int, pair: SweptPair) -> Sweep:
         impact, nearest = pair.impact, pair.nearest
         if impact.upper is not None:
@@ -105,36 +96,28 @@ class JointMovers:
         if impact.reason is not None:
             return swept(impact, pair.tolerance, pair.steps)
         clearance = self._pairs.pairs[k].request.clearance or 0.0
-        is_near = nearest is not None and nearest.upper < clearance
-        apart: SweptRelation = "near" if is_near else "separated"
+        worst = nearest if nearest is not None and nearest.upper < clearance else None
+        joints = None if worst is None else self._path.pose(worst.time)
         return swept(
             impact,
             pair.tolerance,
             pair.steps,
-            apart if impact.contact is None else "touching",
-            worst=self._worst(k, nearest) if nearest is not None and is_near else None,
-            distance_at_least=None if nearest is None or is_near else nearest.lower,
-        )
-
-    def _worst(self, k: int, nearest: Worst) -> WorstPose:
-        return WorstPose(
-            nearest.time,
-            self._places(k, nearest.time),
-            joints=self._path.pose(nearest.time),
-            distance=(nearest.lower, nearest.upper),
+            relation_apart(impact, worst, pair.tolerance, clearance),
+            worst=worst_pose(worst, partial(self._places, k), joints),
+            distance_at_least=None if nearest is None or worst is not None else nearest.lower,
         )
 
     def _places(self, k: int, time: float) -> tuple[Place, ...]:
-        mover = next(id_ for id_ in self._pairs.names[k] if id_ in self._moving)
+        mover = next(id_ for id_ in self._pairs.pairs[k].ids if id_ in self._moving)
         return (Place(mover, "t", time),)
 
-    def _swept_boxes(self) -> dict[str, Box]:
-        intervals = _parts(self._path.times)
-        at = self._travel.middle(intervals)
+    def _swept_boxes(self, scene: Scene) -> dict[str, Box]:
+        at = self._travel.middle(_parts(self._path.times))
         boxes: dict[str, Box] = {}
-        for id_ in self._moving:
-            low, high = self._travel.in_world(at, self._number[id_])
-            boxes[id_] = (tuple(low.tolist()), tuple(high.tolist()))
+        for number, body in enumerate(scene.bodies):
+            if body.id in self._moving:
+                low, high = self._travel.in_world(at, number)
+                boxes[body.id] = (tuple(low.tolist()), tuple(high.tolist()))
         return boxes
 
 
