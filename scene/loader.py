@@ -216,8 +216,12 @@ def load_scene(
     known: KnownMeshes | None = None,
     **options: Any,
 ) -> Scene:
-    """Return the scene of these files. options: of `LoadOptions`; its `load` says what each kind of
-    file gives, and what is raised. hashed, known: as there."""
+    """Return the scene of these files.
+
+    paths: mesh files, robots and scene files in any mix. options: of `LoadOptions`, such as
+    `units="mm"` or `split="nodes"`; its `load` says what each kind of file gives, and what is
+    raised. hashed, known: as there.
+    """
     return LoadOptions(**options).load(paths, hashed=hashed, known=known)
 
 

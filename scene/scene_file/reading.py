@@ -117,13 +117,14 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     known = bodies if text.is_right else None
     rules = text.each("rules", rule)
     motions = text.each("motion", motion)
-    terms, reading = None, document.Reading()
+    terms, reading = None, None
     with text.at("statics"):
         if "statics" in inner:
             terms = converted(values["statics"], StaticsTerms, units)
     with text.at("reading"):
         if "reading" in inner:
-            reading = converted(values["reading"], document.Reading)
+            stated = values["reading"]
+            reading = converted(stated, document.reading_table_for(stated))
     text.raise_any()
     scene = top if isinstance(top, document.Scene) else None
     return scene_file(
@@ -136,7 +137,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
         body_rules=tuple(rule for rule in rules if isinstance(rule, BodyRule)),
         statics=terms,
         motions=tuple(filter(None, motions)),
-        reading=reading.stated(),
+        reading={} if reading is None else reading.stated(),
         accept=top.accept,
     )
 
