@@ -26,10 +26,12 @@ from satcheck.audit.summary import (
     exempt_of,
     issues_of,
     stated_reading,
+    stopped_early,
     tool,
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import (
+    ENOUGH_FAILURES,
     OUTSIDE_REGION,
     REGION_OPEN,
     BodyAnswer,
@@ -38,7 +40,7 @@ from satcheck.report.report import (
     Report,
     all_allowed,
 )
-from satcheck.report.verdict import summarise, truncated_of
+from satcheck.report.verdict import fails, summarise, truncated_of
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.joint_movers import JointMovers
@@ -50,6 +52,9 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
+
+# The most close pairs that are examined together.
+BLOCK = 100_000
 
 
 def check(
@@ -87,8 +92,9 @@ def check(
     movers = _movers(scene, bodies, planner)
     close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
     examined = _examined(bodies, close, planner, movers, progress, keep=cache is not None)
+    close, unexamined = close[: len(examined)], len(close) - len(examined)
     findings = _findings(bodies, close, examined, planner)
-    counts = count(bodies, [pair.finding for pair in examined], findings)
+    counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)
     pose = scene.posture.pose() if scene.posture else None
     allowed = all_allowed(counts, bodies.book.rules, pose)
     statics, support_issues = _support(scene, bodies, settings)
@@ -99,6 +105,7 @@ def check(
         *support_issues,
         *region_issues,
         *(issue for pair in examined for issue in pair.issues),
+        *stopped_early(unexamined),
     ]
     issues = issues_of(scene, bodies, counts, allowed, of_pairs, settings.accept)
     answers: tuple[BodyAnswer, ...] = (
@@ -205,7 +212,38 @@ def _examined(
     *,
     keep: bool,
 ) -> list[CheckedPair]:
-    """Return what is found of the close pairs. keep: later checks need the data of the bodies."""
+    """Return what is found of the close pairs, in their order, up to the block in which
+    ENOUGH_FAILURES are reached. keep: later checks need the data of the bodies."""
+    examined: list[CheckedPair] = []
+    failures = 0
+    for start in range(0, len(close), BLOCK):
+        block = close[start : start + BLOCK]
+        after = close[start + BLOCK : start + BLOCK + 1]
+
+        def told(done: int, _: int, before: int = start) -> None:
+            if progress is not None:
+                progress(before + done, len(close))
+
+        found = _examined_together(bodies, block, planner, movers, told, keep=keep or bool(after))
+        examined += found
+        failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
+        if failures >= ENOUGH_FAILURES:
+            break
+        if after and not keep:
+            for i in {i for i, _ in block} - {after[0][0]}:
+                bodies.placed[i].release()
+    return examined
+
+
+def _examined_together(
+    bodies: PlacedBodies,
+    close: list[tuple[int, int]],
+    planner: Planner,
+    movers: Movers | JointMovers | None,
+    progress: Progress,
+    *,
+    keep: bool,
+) -> list[CheckedPair]:
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
     with ExitStack() as stack:

@@ -14,9 +14,11 @@ from satcheck.core.conventions import Plane, axes_of
 from satcheck.core.errors import SatcheckError
 from satcheck.report.bodies import Outline, StatedShape
 from satcheck.report.report import (
+    ENOUGH_FAILURES,
     NOTHING_TO_CHECK,
     NOTHING_TO_COMPARE,
     SIZES_DIFFER,
+    STOPPED_EARLY,
     TOLERANCE_LARGE,
     BodyReport,
     Exempt,
@@ -43,10 +45,11 @@ def tool() -> Tool:
 
 
 def count(
-    bodies: PlacedBodies, close: Sequence[Finding], findings: Sequence[Finding]
+    bodies: PlacedBodies, close: Sequence[Finding], findings: Sequence[Finding], unexamined: int = 0
 ) -> PairCounts:
-    """close: of the pairs that the broad phase kept. Raises RuntimeError if a pair is missing."""
-    undecidable = bodies.undecidable_count
+    """close: of the pairs that the broad phase kept and that were examined. unexamined: the number
+    of those that were not. Raises RuntimeError if a pair is missing."""
+    undecidable = bodies.undecidable_count + unexamined
     left_open = sum(finding.relation == "indeterminate" for finding in close)
     total, allowed = bodies.book.count()
     number = len(bodies.ids)
@@ -166,6 +169,16 @@ def _nothing_to_check(
     said = ", ".join(f"{count:,} {what}" for what, count in why.items() if count)
     message = f"no pair was checked: {said}"
     return Issue(NOTHING_TO_CHECK, "note" if allowed else "warning", None, None, message)
+
+
+def stopped_early(unexamined: int) -> Iterator[Issue]:
+    """Say how many close pairs were not examined."""
+    if unexamined:
+        message = (
+            f"{unexamined:,} close pairs were not examined and count as indeterminate: "
+            f"more than {ENOUGH_FAILURES:,} others fail"
+        )
+        yield Issue(STOPPED_EARLY, "note", None, None, message)
 
 
 # Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.

@@ -72,6 +72,10 @@ ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-c
 INTERNAL_ERROR = "internal-error"
 # No pair is checked: all are within one link, allowed, or exempt.
 NOTHING_TO_CHECK = "nothing-to-check"
+# After so many findings that fail, the other close pairs are not examined: a kilobyte of instances
+# at one place has millions of them. An issue with this code says so.
+ENOUGH_FAILURES = 100_000
+STOPPED_EARLY = "stopped-early"
 # The scene has no body that can collide.
 NOTHING_TO_COMPARE = "nothing-to-compare"
 # The codes of issues about bodies that nothing holds, and of which that is open.

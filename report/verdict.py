@@ -105,8 +105,10 @@ def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated |
     if not left_out:
         return None
     unlisted_open = unlisted_indeterminate(counts, findings)
-    why = ", or nothing decides them, as a body cannot be used or compared" if unlisted_open else ""
-    return Truncated(left_out, f"their boxes are apart{why}")
+    why = "their boxes are apart"
+    if unlisted_open:
+        why += ", or nothing decides them: a body cannot be used or compared, or so many pairs fail"
+    return Truncated(left_out, why)
 
 
 def exempt_by(counts: PairCounts, static_bodies: int) -> tuple[int, int]:

@@ -11,6 +11,7 @@ from msgspec import UNSET
 
 from satcheck._version import __version__
 from satcheck.report.report import (
+    ENOUGH_FAILURES,
     SUPPORT_OPEN,
     UNSUPPORTED,
     Exempt,
@@ -20,6 +21,7 @@ from satcheck.report.report import (
 )
 from satcheck.report.request import Request, request_of
 from satcheck.report.rule_book import RuleBook
+from satcheck.report.verdict import fails
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.rules import Members
 from satcheck.verify.bodies import Bodies, Placed
@@ -197,8 +199,11 @@ class _Report:
 
     def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
-        nothing decides, because a body cannot be used or compared."""
+        nothing decides: a body cannot be used or compared, or so many findings fail that the check
+        has stopped."""
         pruned = exempted = left_open = 0
+        fail_on = self.report.settings.fail_on
+        failures = sum(fails(f, fail_on) for f in self.findings if isinstance(f, Finding))
         for a, b in combinations(self.bodies.values(), 2):
             if frozenset((a.id, b.id)) in self.listed:
                 continue
@@ -208,6 +213,8 @@ class _Report:
                 left_open += 1
             elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
+            elif failures >= ENOUGH_FAILURES:
+                left_open += 1
             else:
                 fault = f"{a.id} and {b.id} are not apart by their boxes, and not listed"
                 self.faults.append(fault)

@@ -10,7 +10,9 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.audit import Settings, check
+from satcheck.audit.baseline import beside_baseline, known_findings
 from satcheck.core.errors import SatcheckError
+from satcheck.report.baseline import Baseline
 from satcheck.report.report import Report, Truncated
 from satcheck.report.schema import schema_of
 from satcheck.scene import load_scene
@@ -82,6 +84,56 @@ def test_of_many_pairs_with_an_unreadable_body_most_are_counted_alone(tmp_path, 
     assert report.truncated is not None
     assert report.truncated.pairs == 78 - 3 - 9 - 4
     assert "cannot be used" in report.truncated.reason
+
+
+def one_place(tmp_path, count, **extra):
+    write(tmp_path, box=unit_box())
+    return placed_scene(tmp_path, [(f"b{k}", "box.obj", pose()) for k in range(count)], **extra)
+
+
+def stop_after(monkeypatch, failures, block):
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "BLOCK", block)
+    for room in ("audit.check", "verify.document"):
+        monkeypatch.setattr(import_module(f"satcheck.{room}"), "ENOUGH_FAILURES", failures)
+
+
+def test_after_enough_failures_the_other_pairs_are_counted_as_undecided(tmp_path, monkeypatch):
+    """12 * 11 / 2 pairs of boxes at one place; 20 failures end the check within the third block of
+    nine."""
+    stop_after(monkeypatch, failures=20, block=9)
+    told = []
+    report = check(one_place(tmp_path, 12), Settings(certificate=True), lambda *n: told.append(n))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.decided, pairs.indeterminate, pairs.pruned) == (66, 27, 39, 0)
+    assert [(f.a, f.b) for f in report.findings[9:13]] == [
+        ("b0", "b10"),
+        ("b0", "b11"),
+        ("b1", "b2"),
+        ("b1", "b3"),
+    ]
+    assert (report.summary.verdict, len(report.findings)) == ("fail", 27)
+    assert report.truncated is not None
+    assert report.truncated.pairs == 39
+    (stopped,) = (issue for issue in report.issues if issue.code == "stopped-early")
+    assert stopped.message.startswith("39 close pairs were not examined")
+    assert told[-1] == (27, 66)
+    verified = verify(report.to_dict(), tmp_path)
+    assert verified.accepted, verified
+
+
+def test_a_baseline_of_all_findings_passes_no_check_that_has_stopped(tmp_path, monkeypatch):
+    stop_after(monkeypatch, failures=20, block=9)
+    report = check(one_place(tmp_path, 12))
+    known = Baseline(findings=tuple(known_findings(report)))
+    assert beside_baseline(report, known, "b.json").summary.verdict == "incomplete"
+
+
+def test_blocks_of_pairs_give_the_findings_of_all_at_once(tmp_path, monkeypatch):
+    scene = row(tmp_path, 9, 0.3)
+    settings = Settings(timings=False)
+    whole = check(scene, settings)
+    stop_after(monkeypatch, failures=1000, block=4)
+    assert check(scene, settings).findings == whole.findings
 
 
 def test_an_unreadable_body_that_no_finding_names_is_no_pass(tmp_path, monkeypatch):
