@@ -130,10 +130,9 @@ def test_a_baseline_of_all_findings_passes_no_check_that_has_stopped(tmp_path, m
 
 def test_blocks_of_pairs_give_the_findings_of_all_at_once(tmp_path, monkeypatch):
     scene = row(tmp_path, 9, 0.3)
-    settings = Settings(timings=False)
-    whole = check(scene, settings)
+    whole = check(scene).to_dict(timings=False)
     stop_after(monkeypatch, failures=1000, block=4)
-    assert check(scene, settings).findings == whole.findings
+    assert check(scene).to_dict(timings=False) == whole
 
 
 def test_an_unreadable_body_that_no_finding_names_is_no_pass(tmp_path, monkeypatch):
