@@ -8,11 +8,14 @@ such a tuple by an entry point of the group `satcheck.readers`, `satcheck.format
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from msgspec import Struct
 
@@ -50,6 +53,34 @@ def function_at(place: str) -> Any:
     """The function at "module:name"."""
     module, _, name = place.partition(":")
     return getattr(import_module(module), name)
+
+
+@cache
+def versions() -> tuple[str, ...]:
+    """Return what answers depend on beside satcheck: the installed packages that it names, with
+    their versions, and those that register plug-ins. The modules of these also have a size and a
+    time: who writes a plug-in changes it more often than its version."""
+    from importlib.metadata import PackageNotFoundError, entry_points, requires, version
+
+    found = set()
+    with suppress(PackageNotFoundError):  # a working tree
+        for need in requires("satcheck") or ():
+            name = re.split(r"[^\w.-]", need)[0]
+            with suppress(PackageNotFoundError):
+                found.add(f"{name} {version(name)}")
+    for group in get_args(Group):
+        for point in entry_points(group=f"satcheck.{group}"):
+            found.add(f"{point.value} {point.dist and point.dist.version} {_state(point.module)}")
+    return tuple(sorted(found))
+
+
+def _state(module: str) -> str:
+    with suppress(ImportError, OSError, ValueError):  # it is said where it is loaded
+        spec = find_spec(module)
+        if spec is not None and spec.origin is not None:
+            status = Path(spec.origin).stat()
+            return f"{status.st_size} {status.st_mtime_ns}"
+    return ""
 
 
 @cache

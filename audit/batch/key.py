@@ -1,4 +1,4 @@
-"""What the answer for a world depends on: the contents of files, the options, the version."""
+"""What the answer for a world depends on: the contents of files, the options, the versions."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from satcheck._version import __version__
 from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
+from satcheck.core.plugins import versions
 from satcheck.report.assets import InputFile
 from satcheck.scene.opening import FilesRead, Permitted, Signature, search_path
 
@@ -102,12 +103,14 @@ def _place(name: str, places: dict[str, str]) -> str:
 
 def terms_of(options: CheckOptions, limits: Limits | None = None) -> str:
     """A digest of what else the answers depend on, the same for all worlds of a batch, without the
-    folders. limits: of
-    answers without the steps that ended a process, as such a step may need more than these."""
+    folders. limits: of answers without the steps that ended a process, as such a step may need more
+    than these."""
     settings = {k: v for k, v in options.settings.items() if k not in _WITHOUT_EFFECT}
     stated = to_builtins(replace(options, settings=settings, folders=()))
     return _sha256(
-        json.dumps([__version__, stated, search_path(), to_builtins(limits)], sort_keys=True)
+        json.dumps(
+            [__version__, versions(), stated, search_path(), to_builtins(limits)], sort_keys=True
+        )
     )
 
 

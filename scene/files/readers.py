@@ -72,6 +72,10 @@ class Option(Struct, frozen=True):
     default: OptionValue | None = None
     is_length: bool = False
 
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier():
+            raise ValueError(f"an option of a reader is named {self.name!r}: letters, digits and _")
+
     @property
     def spelling(self) -> str:
         """Return its name on the command line."""

@@ -33,7 +33,6 @@ _SHAPES = {shape.__struct_config__.tag: shape for shape in get_args(Shape)}
 _CHOICES: dict[Key, tuple[str, ...]] = {
     "severity": SEVERITIES,
     "type": (*_SHAPES,),
-    **{name: option.choices for name, (option, _) in options().items()},
 }
 _INNER: dict[Key, type[Struct]] = {"rotation": Rotation, "path": Waypoint}  # tables in tables
 
@@ -105,9 +104,15 @@ def _explained(error: ValidationError, value: Any, kind: Any) -> Wrong:
         return Wrong(message, *keys, code="non-finite")
     if keys[-1:] and keys[-1] in getattr(kind, "lengths", ()):
         what = what.replace("| null", "| str")
-    choices = _CHOICES.get(name, ())
+    choices = _CHOICES.get(name, ()) or _choices_of_option(name)
     hint = meant(value, choices) if isinstance(value, str) else ""
     return Wrong(f"{_wanted(what, choices)} expected, not {shown(value)}{hint}", *keys)
+
+
+def _choices_of_option(name: Key) -> tuple[str, ...]:
+    """The words that an option of a reader takes; other packages may have brought it by now."""
+    known = options()
+    return known[name][0].choices if isinstance(name, str) and name in known else ()
 
 
 def _keys_of(kind: type[Struct], table: Any, *, of_shape: bool) -> set[str]:

@@ -147,6 +147,38 @@ def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[st
         assert run("batch", "scene.toml", "-o", "r.jsonl", *words).code == code
 
 
+def test_results_of_another_state_of_it_are_not_kept(tmp_path: Path, env: dict[str, str]) -> None:
+    """Its version stays the same, as it does while somebody writes it."""
+    bodies = "".join(f'[[bodies]]\nid = "{k}"\nmesh = "{k}.tetra"\n' for k in ("a", "far"))
+    (tmp_path / "scene.toml").write_text(f'schema = "satcheck.scene/1"\n{bodies}')
+    words = ("batch", "scene.toml", "-o", "r.jsonl")
+    assert satcheck(*words, cwd=tmp_path, env=env).code == 0
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    same = "b'0 0 0 1 0 0 0 1 0 0 0 1'"  # whatever the file says
+    module.write_text(module.read_text().replace("bytes(file.data)", same))
+    assert satcheck(*words, "--resume", cwd=tmp_path, env=env).code == 1
+
+
+def test_a_choice_of_its_option_is_said_in_a_scene(tmp_path: Path, env: dict[str, str]) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    choice = 'Option("tetra_surface", Literal["fine", "coarse"], "the surface", "fine")'
+    changed = module.read_text().replace("options=(SCALE,)", f"options=(SCALE, {choice})")
+    module.write_text(changed.replace("import Annotated", "import Annotated, Literal"))
+    scene = 'schema = "satcheck.scene/1"\nreading.tetra_surface = "corse"\nbodies = []\n'
+    (tmp_path / "scene.toml").write_text(scene)
+    ran = satcheck("scene.toml", cwd=tmp_path, env=env)
+    assert (ran.code, "one of fine, coarse expected" in ran.err) == (2, True)
+
+
+def test_an_option_with_a_name_that_is_none_fails_as_the_package_does(tmp_path: Path) -> None:
+    env = install(tmp_path / "odd", "[satcheck.readers]\nodd = tetra:READER\n")
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace('"tetra_scale"', '"tetra-scale"'))
+    (tmp_path / "a.tetra").write_text(UNIT)
+    ran = satcheck("a.tetra", "a.tetra", cwd=tmp_path, env=env)
+    assert (ran.code, "named 'tetra-scale': letters" in ran.err) == (2, True)
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
