@@ -22,6 +22,7 @@ from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopePro
 from satcheck.report.certificate import Indices as Numbers
 from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.pairs import index
+from satcheck.verify.patches import lengths
 from satcheck.verify.planes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices, is_flat
@@ -73,7 +74,7 @@ MOST_SETS = 5_000
 HALVED, FAR = -1, -2
 # The root has so few digits, and is halved so rarely along each axis, that all middles are exact.
 ROOT_DIGITS, MOST_HALVINGS = 20, 30
-MOST_BITS = 400  # of lengths, whose squares are floats then
+MOST_BITS = 400  # no part is so small then that a float rounds its middle
 Box = tuple[float, float, float, float, float, float]  # its middle, and half its edges
 
 
@@ -133,8 +134,7 @@ def _halves(part: Box) -> tuple[Box, Box]:
 def _are_far(parts: Floats, depth: float) -> None:
     """Rejects parts with a translation that is shorter than the depth."""
     steps = np.maximum(np.abs(parts[:, :3]) - parts[:, 3:], 0.0)  # exact
-    squared = np.einsum("nk,nk->n", steps, steps)
-    close = squared < depth * depth * (1 + 8 * ROUNDOFF)
+    close = lengths(steps) < depth * (1 + 8 * ROUNDOFF)
     for step in steps[close].tolist():
         if sum(Fraction(c) ** 2 for c in step) < Fraction(depth) ** 2:
             raise Rejected("the cover leaves out a part of the ball")
@@ -215,9 +215,8 @@ class _Facets(Planes):
 
     def nearer(self, depth: float) -> Indices:
         """The facets that may be nearer to the origin than the depth."""
-        lengths = np.sqrt(np.einsum("nk,nk->n", self.normals, self.normals))
         margins = self.off * np.abs(self.normals).sum(axis=1) + self.error
-        is_far = self.heights - depth * lengths * (1 + 8 * ROUNDOFF) > margins
+        is_far = self.heights - depth * lengths(self.normals) * (1 + 8 * ROUNDOFF) > margins
         return np.flatnonzero(~is_far)
 
     def hold(self, near: Indices, parts: Floats) -> Mask:

@@ -234,7 +234,8 @@ def slack(spokes: Floats) -> Floats:
 
 
 def lengths(p: Floats) -> Floats:
-    lengths: Floats = np.sqrt(_dots(p, p))
+    """The lengths of vectors (..., 3), a few roundoffs off. Their squares may be no floats."""
+    lengths: Floats = np.hypot(np.hypot(p[..., 0], p[..., 1]), p[..., 2])
     return lengths
 
 

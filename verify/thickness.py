@@ -26,6 +26,7 @@ from satcheck.verify.partition import (
 )
 from satcheck.verify.patches import (
     SUM_ERROR,
+    TINY,
     Piece,
     Side,
     comes_within,
@@ -137,6 +138,8 @@ class _Sums:
         rows = width[cell_of]
         point_of = np.repeat(np.arange(len(points)), rows)
         first = np.cumsum(width) - width
+        # Rounded weights are weights too. The largest is 1, so no sum of them is 0 or infinite.
+        weight /= np.repeat(np.maximum.reduceat(weight, first), width)
         within = np.arange(rows.sum()) - np.repeat(np.cumsum(rows) - rows, rows)
         term_of = first[cell_of[point_of]] + within
         value = np.empty(len(term_of))
@@ -150,7 +153,8 @@ class _Sums:
         total = np.bincount(point_of, terms, len(points))
         size = np.bincount(point_of, np.abs(terms), len(points))
         share = np.bincount(point_of, weight[term_of], len(points))
-        holds = total + SUM_ERROR * size <= float(most) * (1 - SUM_ERROR) * share
+        error = SUM_ERROR * (1 + rows / 32)  # two roundoffs for each term
+        holds = total + error * size + TINY <= float(most) * (1 - error) * share
         return np.unique(cell_of[~holds]).tolist()  # type: ignore[no-any-return]
 
     def _corners(self, cells: list[Cell]) -> tuple[Floats, Floats, Indices]:

@@ -76,16 +76,28 @@ class World:
 
 def stick_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
     """Return whether each body sticks out of the box of the other by more than a length. across: an
-    axis along which that does not count."""
+    axis along which that does not count.
+
+    A triangle that sticks out bounds material there or is a part of a sheet, if it has an area.
+    """
     return _sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)
 
 
 def _sticks_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
-    (low, high), (least, most) = a.bounds, b.bounds
-    steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
-    return any(
-        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer for p, q, r, s in steps
-    )
+    axes = [k for k in range(3) if k != across]
+    least, most = b.bounds
+    is_out = ((a.low < least) | (a.high > most))[:, axes].any(axis=1)
+    for t in np.flatnonzero(is_out).tolist():
+        low, high = a.low[t], a.high[t]
+        steps = ((least[k], low[k], high[k], most[k]) for k in axes)
+        if any(
+            max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer
+            for p, q, r, s in steps
+        ):
+            corners = a.vertices[a.triangles[t]]
+            if any(normal_of(integers(corners, lattice(corners)))):
+                return True
+    return False
 
 
 def placed(

@@ -218,6 +218,32 @@ def test_what_overflows_shows_nothing() -> None:
         depth_is_at_least(large, pair.a, pair.b, 2.0**800)
 
 
+@pytest.mark.parametrize("exponent", [-350, -300, -270, 0, 300])
+def test_facets_bound_a_set_at_every_scale(exponent: int) -> None:
+    """Squares of their areas are no floats."""
+    a, b, depth = DEEP["a box in an arm"]
+    scale = 2.0**exponent
+    scaled = [([[scale * c for c in p] for p in points], faces) for points, faces in (a, b)]
+    pair, made = pair_of(*scaled), cover_of(a, b, depth / 2)
+    assert made is not None
+
+    def region(of_one: Region) -> Region:
+        return replace(of_one, vertices=tuple(tuple(scale * c for c in p) for p in of_one.vertices))
+
+    sets = tuple(replace(one, a=region(one.a), b=region(one.b)) for one in made.sets)
+    made = replace(made, half=scale * made.half, sets=sets)
+    depth_is_at_least(made, pair.a, pair.b, scale * depth / 2)
+    with pytest.raises(Rejected):
+        depth_is_at_least(replace(made, half=16 * scale, parts=(0,)), pair.a, pair.b, 8 * scale)
+
+
+@pytest.mark.parametrize("depth", [0.5, 2.0**-500, 2.0**-540, 2.0**-1000, 5e-324])
+def test_no_part_at_the_origin_is_far(depth: float) -> None:
+    pair, far = pair_of(unit_box(), unit_box(1.0)), Cover((0.0, 0.0, 0.0), 1.0, (), (FAR,))
+    with pytest.raises(Rejected, match="leaves out"):
+        depth_is_at_least(far, pair.a, pair.b, depth)
+
+
 def test_a_pinched_body_is_free_where_its_surfaces_only_cross() -> None:
     """Two boxes that share an edge, put into the two corners that two others leave free."""
     a = pieces(unit_box(0.0, 0.0, 0.0, edge=2.0), unit_box(-2.0, -2.0, 0.0, edge=2.0))

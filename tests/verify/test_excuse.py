@@ -161,3 +161,35 @@ def forged_excuse(made: Json, certified: bool, off: float, paths: list[Path]) ->
         "excuse": {"a": balls[0], "b": balls[1], "cells": json.loads(json.dumps(shown))}
     }
     return forged
+
+
+@pytest.mark.parametrize("weight", [5e-324, 1.0, 1e308])
+def test_weights_of_any_size_excuse_no_deep_overlap(tmp_path: Path, weight: float) -> None:
+    """A box reaches 1/4 into another one, 25 times as deep as the touch band is wide."""
+    made = made_of(tmp_path, unit_box(), box((0.75, 0.25, 0.25), (1.25, 0.75, 0.75)), tolerance=0.01)
+    (finding,) = made["findings"]
+    assert finding["relation"] == "penetrating"
+    cells = {
+        "origin": [0.0, 0.0, 0.0],
+        "low": [0.75, 0.25, 0.25],
+        "high": [1.0, 0.75, 0.75],
+        "patches": [
+            {"kind": "face", "body": "a", "triangles": [10, 11]},
+            {"kind": "face", "body": "b", "triangles": [8, 9]},
+        ],
+        "cells": [6],
+        "at": [],
+        "cuts": [],
+        "sums": [[[0, weight], [1, weight]]],
+    }
+    balls = {
+        "a": {"centre": [0.5, 0.5, 0.5], "radius": 0.4},
+        "b": {"centre": [1.0, 0.5, 0.5], "radius": 0.2},
+    }
+    finding.update(relation="touching", severity="note")
+    finding["certificate"]["band"] = {"excuse": {**balls, "cells": cells}}
+    found = verified(made).findings[0]
+    assert (found.outcome, found.reason) == (
+        "rejected",
+        "a cell is not shown to be as thin as that",
+    )

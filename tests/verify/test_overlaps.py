@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ from satcheck.report.certificate import SurfacesProof
 from satcheck.verify.exact import lattice
 from satcheck.verify.pairs import Pair
 from satcheck.verify.relations import prove
-from satcheck.verify.world import Exact, World
-from tests.audit.shapes import Mesh, bracket, unit_box
+from satcheck.verify.world import Exact, World, stick_out
+from tests.audit.shapes import Mesh, bracket, unit_box, write
+from tests.verify.honest import document
+from tests.verify.reports import verified
 
 
 def sheared(mesh: Mesh, by: int) -> World:
@@ -37,3 +40,30 @@ def test_an_overlap_of_thin_bodies_is_shown(box: Mesh, by: int) -> None:
     k = max(lattice(a.vertices), lattice(b.vertices))
     pair = Pair(Exact(a, k), Exact(b, k))
     prove("penetrating", SurfacesProof(), pair, Fraction(0), Fraction(0))
+
+
+def spiked(mesh: Mesh, tip: tuple[float, float, float]) -> Mesh:
+    """With two triangles of no area from its first point."""
+    points, faces = mesh
+    n = len(points)
+    middle = tuple((x + y) / 2 for x, y in zip(points[0], tip, strict=True))
+    return [*points, middle, tip], [*faces, (0, n, n + 1), (n, 0, n + 1)]
+
+
+def test_a_line_does_not_stick_out(tmp_path: Path) -> None:
+    """A bracket lies in a box, but for triangles without an area, which bound no material."""
+    a, b = spiked(bracket(), (1.0, 1.0, 100.0)), unit_box(-1.0, -1.0, -1.0, edge=10.0)
+    made = document(write(tmp_path, a=a, b=b))
+    assert verified(made).accepted
+    finding = made["findings"][0]
+    assert finding["exact_relation"] == "inside"
+    assert finding["ball"] is not None
+    finding.update(relation="penetrating", exact_relation="penetrating")
+    assert verified(made).findings[0].outcome == "rejected"
+
+
+def test_what_has_an_area_sticks_out() -> None:
+    a, b = sheared(bracket(), 1), sheared(unit_box(0.0, 0.0, -1.0), 1)
+    assert stick_out(a, b, Fraction(0), None)
+    assert not stick_out(a, a, Fraction(0), None)
+    assert not stick_out(a, b, Fraction(100), None)

@@ -24,8 +24,8 @@ from satcheck.verify.pairs import Pair
 from satcheck.verify.partition import BOUNDED, CUT, OUTSIDE_A, Partition
 from satcheck.verify.thickness import _Sums, at_most, holds_ball
 from satcheck.verify.world import Exact
-from tests.audit.shapes import bracket, moved, unit_box
-from tests.verify.reports import Json, turned
+from tests.audit.shapes import Mesh, bracket, moved, unit_box
+from tests.verify.reports import Json, pieces, turned
 from tests.verify.test_cover import pair_of
 
 ZEROS = (0.0, 0.0, 0.0)
@@ -224,6 +224,38 @@ def test_far_from_the_origin_float64_decides_less_and_rationals_the_rest() -> No
     cells = replace(slab(), low=(away + 0.75, 0.0, 0.0), high=(away + 1.0, 1.0, 1.0))
     holds(pair, cells, THICK)
     assert not is_shown(pair, cells, THICK - LESS)
+
+
+@pytest.mark.parametrize("weight", [5e-324, 1e-300, 1e300, 1e308])
+def test_the_size_of_all_weights_means_nothing(weight: float) -> None:
+    cells = replace(slab(), sums=(((0, weight), (1, weight)),))
+    holds(boxes(), cells, THICK)
+    assert not is_shown(boxes(), cells, THICK - LESS)
+    assert not is_shown(boxes(), cells, THICK / 1024)
+
+
+def test_many_small_weights_are_not_lost_beside_a_large_one() -> None:
+    small, count = 2.0**-55, 1 << 14
+    patches = Face("b", LEFT), Face("b", RIGHT)
+    cells = replace(slab(), patches=patches, sums=(((0, 1.0), *[(1, small)] * count),))
+    share = count * Fraction(small)
+    at_end = (Fraction(1, 4) + share * Fraction(3, 4)) / (1 + share)
+    holds(boxes(), cells, at_end)
+    assert not is_shown(boxes(), cells, Fraction(1, 4) * (1 + Fraction(1, 1 << 41)))
+
+
+def test_a_ball_is_too_large_however_near_or_far_the_surface_is() -> None:
+    """Squares of these lengths are no floats."""
+    tip = [(0.0, 0.0, 0.0), (0.5, 0.5, 0.125), (0.5, 0.125, 0.5), (0.125, 0.5, 0.5)]
+    cavity: Mesh = tip, [(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)]
+    hollow = pair_of(pieces(unit_box(-1.0, -1.0, -1.0, edge=2.0), cavity), unit_box()).a
+    for off in (2.0**-500, 2.0**-600, 2.0**-1000):
+        assert is_held(hollow, (-off, -off, -off), Fraction(off))
+        assert not is_held(hollow, (-off, -off, -off), Fraction(2 * off))
+        assert not is_held(hollow, (-off, -off, -off), Fraction(1, 4))
+    large = pair_of(unit_box(-1e200, -1e200, -1e200, edge=2e200), unit_box()).a
+    assert is_held(large, ZEROS, Fraction(1e200))
+    assert not is_held(large, ZEROS, Fraction(1e201))
 
 
 def with_entry(values: list[Any], place: int, entry: Any) -> list[Any]:
