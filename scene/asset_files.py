@@ -163,8 +163,8 @@ def _is_asset(path: Path) -> bool:
     if ending in SCENE_SUFFIXES:
         return _holds(path, _SCENE_MARKS) or _lacks_schema(path)
     if robots := robots_of(ending):
-        marks = [each.marks for each in robots]
-        return None in marks or is_robot(path) or any(_holds(path, each) for each in marks if each)
+        texts = [each.texts for each in robots]
+        return None in texts or is_robot(path) or any(_holds(path, each) for each in texts if each)
     return mesh_reader(ending) is not None
 
 

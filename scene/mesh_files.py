@@ -28,7 +28,6 @@ from satcheck.scene.files.readers import (
     GeometryKind,
     NeedsChild,
     ReadLimits,
-    RobotFile,
     read,
     reader_named,
     reader_of,
@@ -206,13 +205,29 @@ class MeshFiles:
     ) -> Document:
         """Return the robot that a file describes, and the bodies of its links. No mesh is read.
         Raises Refused, also if reading it has ended the process before."""
-        from satcheck.scene.robot import FilePlaces, document_of_robot, read_robot
+        from satcheck.scene.robot.assembly import document_of_robot
+        from satcheck.scene.robot.model import RobotDocument
+        from satcheck.scene.robot.reading import reader_of_any_robot
 
-        places = FilePlaces(path, packages, self.allowed.permitted)
         with _reading(path, location):
-            file = RobotFile(places, packages, geometry, self.allowed, self._children)
-            robot, issues = read_robot(path, location, file)
-        return document_of_robot(robot, places, issues)
+            reader = reader_of_any_robot(path, location)
+            folder, name = os.path.split(location)
+            file = File(
+                reader.name,
+                folder or os.curdir,
+                name,
+                b"",
+                0,
+                {**reader.values(self.allowed.options), GEOMETRY.name: geometry},
+                permitted=self.allowed.permitted,
+                path=path,
+                packages=packages,
+            )
+            if reader.here:
+                return document_of_robot(reader.scene(file), file)
+            children, place = self._children, reader.read
+            made = read_in_child(file, place, RobotDocument, children, self.allowed)
+            return document_of_robot(made, file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | Refused:
         """path: the file that states it."""

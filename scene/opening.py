@@ -241,8 +241,8 @@ class Context:
         if self.permitted.anywhere:
             return True
         real = followed(place)
-        folders = (self.own, *self.permitted.folders)
-        return any(real.is_relative_to(folder) for folder in folders)
+        folders = (str(self.own), *self.permitted.folders)
+        return any(map(real.is_relative_to, folders))
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"
@@ -286,7 +286,7 @@ class File(Struct, frozen=True):
     isolated: bool = False
     path: str = ""
     sha256: str | None = None
-    packages: Mapping[str, str] = {}
+    packages: Mapping[str, str | Path] = {}
 
     @property
     def location(self) -> Path:

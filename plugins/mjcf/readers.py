@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import Option, Reader, RobotReader
+from satcheck.scene.files.readers import Option, Reader
 
 ENDING = ".xml"
 MESH_HULLS = Option("mesh_hulls", bool, "true: hulls of meshes, as in MuJoCo", False)
 
 READERS = (
-    RobotReader(
+    Reader(
         "mjcf",
         "MJCF",
         (ENDING,),
-        ("mujoco",),
         "satcheck.plugins.mjcf.child:read_mjcf",
-        marks=(),
+        kind="robot",
         options=(MESH_HULLS,),
+        roots=("mujoco",),
+        texts=(),
     ),
     Reader(
         "mjcf",

@@ -16,7 +16,6 @@ from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.poses import Pose, RandomPoses, read_path, read_poses
 from satcheck.scene.robot.postures import Posture, pose_of_states, posed, settle
-from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 
 __all__ = [
@@ -36,7 +35,6 @@ __all__ = [
     "posed",
     "read_path",
     "read_poses",
-    "read_robot",
     "read_srdf",
     "settle",
     "with_joint_path",

@@ -174,8 +174,9 @@ def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:
 
 
 ROBOT = """
-from satcheck.scene.files.readers import RobotReader
-ROBOT = RobotReader("rbx", "RBX", (".rbx",), ("rbx",), "satcheck.scene.robot.urdf:robot_of")
+from satcheck.scene.files.readers import Reader
+READ = "satcheck.scene.robot.urdf:read_urdf"
+ROBOT = Reader("rbx", "RBX", (".rbx",), READ, kind="robot", roots=("rbx",))
 """
 
 
