@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from satcheck.plugins.mjcf.readers import ENDING
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import File, imported, is_robot
+from satcheck.scene.files.readers import File, imported, reader_of_robot
 from satcheck.scene.robot.model import RobotDocument
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def read_mjcf(file: File) -> RobotDocument:
 
 def own_meshes(file: File) -> Document:
     """Return the meshes that only MuJoCo reads, in the child process. Raises SatcheckError."""
-    if not is_robot(file.location):
+    if reader_of_robot(file.location) is None:
         message = f"unsupported format {ENDING!r}: the outermost element is that of no robot"
         raise Refused("unsupported-format", message)
     read = _compiled(replace(file, path=str(file.location)))

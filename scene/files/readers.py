@@ -186,17 +186,21 @@ class Reader(Struct, frozen=True):
             for option in self.options
         }
 
-    def scene(self, file: File) -> Document:
-        """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
-        scene = cast("Document", function_at(self.read)(file))
-        scene.check()
+    def made_here(self, file: File) -> Document:
+        """Return what it makes of a file in this process. Raises Refused and NeedsChild."""
+        return cast("Document", function_at(self.read)(file))
+
+    def checked(self, made: Document) -> Document:
+        """Return a document that it has made, and what has to be said of all its documents. Raises
+        Refused."""
+        made.check()
         if self.complete:
-            return scene
+            return made
         message = (
             "the library that reads it may leave out what it does not know: overlaps count as it "
             "places the bodies, and no pair is proven apart"
         )
-        return replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
+        return replace(made, warnings=(*made.warnings, ("incomplete", message)))
 
 
 def _native(name: str, *more: str, marks: tuple[bytes, ...] = ()) -> Reader:
@@ -316,14 +320,6 @@ def reader_named(name: str) -> Reader | None:
     return _registry().by_name.get(name)
 
 
-def read(file: File) -> Document:
-    """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
-    # A child process has not looked for the readers of other packages.
-    reader = reader_named(file.format) or reader_of(suffix_of(file.name))
-    assert reader is not None  # it has been opened for its reader
-    return reader.scene(file)
-
-
 def robot_reader(root: str) -> Reader | None:
     """Return the reader of robots whose outermost element has this tag; None: there is none."""
     return _found(_registry().robots, root)
@@ -415,14 +411,8 @@ def kind_of(path: str) -> InputKind:
 
 
 def robot_endings() -> frozenset[str]:
-    """Return the endings of files that are robots, whatever they hold: of no other format."""
-    endings = {ending for reader in robots().values() for ending in reader.endings}
-    return frozenset(endings - readers().keys())
-
-
-def is_robot(location: StrPath) -> bool:
-    """Return whether the outermost element is that of a robot."""
-    return reader_of_robot(location) is not None
+    """Return the endings of files that may be robots."""
+    return frozenset(ending for reader in robots().values() for ending in reader.endings)
 
 
 def reader_of_robot(location: StrPath) -> Reader | None:
