@@ -206,10 +206,10 @@ class MeshFiles:
         Raises Refused, also if reading it has ended the process before."""
         from satcheck.scene.robot.assembly import document_of_robot
         from satcheck.scene.robot.model import RobotDocument
-        from satcheck.scene.robot.reading import reader_of_any_robot
+        from satcheck.scene.robot.reading import required_robot_reader
 
         with _reading(path, location):
-            reader = reader_of_any_robot(path, location)
+            reader = required_robot_reader(path, location)
             folder, name = os.path.split(location)
             file = File(
                 reader.name,

@@ -7,7 +7,6 @@ again. `RandomPoses` draws random poses.
 from satcheck.scene.robot.assembly import (
     RobotBody,
     SceneRobot,
-    document_of_robot,
     permissions,
     with_srdfs,
 )
@@ -29,7 +28,6 @@ __all__ = [
     "RobotBody",
     "SceneRobot",
     "Srdf",
-    "document_of_robot",
     "permissions",
     "pose_of_states",
     "posed",

@@ -36,7 +36,7 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-def reader_of_any_robot(path: str, location: StrPath) -> Reader:
+def required_robot_reader(path: str, location: StrPath) -> Reader:
     """Return the reader of a robot, which its outermost element decides. path: of the file, for
     messages; location: where it lies. Raises Refused if there is none."""
     reader = reader_of_robot(location)

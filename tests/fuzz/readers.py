@@ -56,7 +56,7 @@ def read_in_this_process(path: Path) -> None:
     content = msgspec.msgpack.decode(reply, type=Reply[Document]).content
     if isinstance(content, Refusal):
         raise Refused(content.code, content.message)
-    flattened(content)
+    flattened(reader.checked(content))
 
 
 def read_scene(path: Path) -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene, load_scene
-from satcheck.scene.opening import Context, Permitted
+from satcheck.scene import Refused, Scene, load_scene
+from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted
 from tests.plugin_marks import needs
 from tests.scene import files
 from tests.scene.hostile import needs_links
@@ -151,3 +151,9 @@ def test_only_folders_around_the_files_count(tmp_path: Path) -> None:
     context = Context(mine / "sub", around)
     assert not context.permits(other / "a.usda")
     assert context.permits(mine / "b.usda")
+
+
+def test_a_name_that_no_system_takes_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Refused, match="NUL") as caught:
+        Context(tmp_path, NOTHING_ELSE).find("buffer file", "a\0.bin")
+    assert caught.value.code == "bad-record"
