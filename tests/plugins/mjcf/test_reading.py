@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
-from satcheck.plugins.mjcf.child import read_mjcf
+from satcheck.plugins.mjcf.readers import read_mjcf
 from satcheck.scene import MeshFile, Refused, load_scene
 from satcheck.scene.document import FilePart
 from satcheck.scene.files import readers
