@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import SCENE_SUFFIXES, is_robot, mesh_reader, robots_of
+from satcheck.scene.files.readers import SCENE_SUFFIXES, mesh_reader, reader_of_robot, robots_of
 from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.opening import exists, is_folder, size_of
 
@@ -163,8 +163,10 @@ def _is_asset(path: Path) -> bool:
     if ending in SCENE_SUFFIXES:
         return _holds(path, _SCENE_MARKS) or _lacks_schema(path)
     if robots := robots_of(ending):
-        marks = [each.marks for each in robots]
-        return None in marks or is_robot(path) or any(_holds(path, each) for each in marks if each)
+        texts = [each.texts for each in robots]
+        if None in texts or reader_of_robot(path) is not None:
+            return True
+        return any(_holds(path, each) for each in texts if each)
     return mesh_reader(ending) is not None
 
 

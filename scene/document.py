@@ -179,6 +179,8 @@ class Document(Struct, frozen=True, tag=True):
     def check(self) -> None:
         """Refuse what no reader may return, as a reader of another package may. Raises Refused.
         Coordinates and corners are checked where meshes are inspected."""
+        if self.robot is not None:
+            return  # items follow from its links
         if not self.items:
             raise Refused("empty-mesh", "empty mesh: the file has no body")
         if len(self.items) > 1 and len({item.path for item in self.items}) < len(self.items):

@@ -198,7 +198,7 @@ def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> di
         return {}
     counting = files.options()
     for path in robots:
-        reader = reader_of_robot(Path(path))
+        reader = reader_of_robot(path)
         counting |= {GEOMETRY.name, *(each.name for each in (reader.options if reader else ()))}
     spelled = sorted(name.replace("_", "-") for name in counting)
     theirs = f"they have {', '.join(spelled)}" if spelled else "they have none"

@@ -27,10 +27,8 @@ from satcheck.scene.files.readers import (
     File,
     GeometryKind,
     NeedsChild,
+    Reader,
     ReadLimits,
-    RobotFile,
-    read,
-    reader_named,
     reader_of,
     required_reader,
 )
@@ -103,18 +101,18 @@ class MeshFiles:
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), errors_of(path):
             file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
-            return document_of(file, self._read(file), split)
+            reader = required_reader(suffix_of(location))
+            return document_of(file, self._read(reader, file, Document), split)
 
-    def _read(self, file: File) -> Document:
-        """In this process, or in the child process, as its reader says."""
-        reader = reader_named(file.format)
-        if reader is not None and file.size <= reader.here:
+    def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
+        """In this process, or in the child process, as its reader says. kind: of its documents."""
+        if file.size <= reader.here:
             with suppress(NeedsChild):
-                return read(file)
-        if reader is not None and reader.by_name:
+                return reader.checked(reader.made_here(file))
+        if reader.by_name:
             file = replace(file, data=b"")
-        place = f"{read.__module__}:{read.__name__}"
-        return read_in_child(file, place, Document, self._children, self.allowed)
+        made = read_in_child(file, reader.read, kind, self._children, self.allowed)
+        return reader.checked(made)
 
     def item(self, named: FilePart) -> Item:
         """Return one body of a file. A part may end in "#" and the number of a component, or in the
@@ -206,13 +204,25 @@ class MeshFiles:
     ) -> Document:
         """Return the robot that a file describes, and the bodies of its links. No mesh is read.
         Raises Refused, also if reading it has ended the process before."""
-        from satcheck.scene.robot import FilePlaces, document_of_robot, read_robot
+        from satcheck.scene.robot.assembly import document_of_robot
+        from satcheck.scene.robot.model import RobotDocument
+        from satcheck.scene.robot.reading import required_robot_reader
 
-        places = FilePlaces(path, packages, self.allowed.permitted)
         with _reading(path, location):
-            file = RobotFile(places, packages, geometry, self.allowed, self._children)
-            robot, issues = read_robot(path, location, file)
-        return document_of_robot(robot, places, issues)
+            reader = required_robot_reader(path, location)
+            folder, name = os.path.split(location)
+            file = File(
+                reader.name,
+                folder or os.curdir,
+                name,
+                b"",
+                size_of(location),
+                {**reader.values(self.allowed.options), GEOMETRY.name: geometry},
+                permitted=self.allowed.permitted,
+                path=path,
+                packages=packages,
+            )
+            return document_of_robot(self._read(reader, file, RobotDocument), file)
 
     def shape(self, shape: Shape, path: str) -> MeshFile | Refused:
         """path: the file that states it."""

@@ -18,6 +18,7 @@ import stat
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from io import BufferedReader, FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -111,18 +112,6 @@ class Permitted(Struct, frozen=True):
         folders = dict.fromkeys(followed(Path(folder)) for folder in given)
         around = [each for each in folders if any(place.is_relative_to(each) for place in places)]
         return cls(tuple(sorted(map(str, around))))
-
-    def has(self, place: Path, own: Path) -> bool:
-        """own: the folder of the file that names it, without links."""
-        if self.anywhere:
-            return True
-        real = followed(place)
-        return real.is_relative_to(own) or any(map(real.is_relative_to, self.folders))
-
-    def beyond(self, own: str) -> str:
-        """Return where a file lies that is not permitted. own: the folder in words."""
-        given = " and ".join(self.folders)
-        return f"outside {own}, and of {given}" if given else f"outside {own}"
 
 
 NOTHING_ELSE = Permitted()
@@ -224,6 +213,57 @@ def signature(name: str) -> Signature:
     )
 
 
+class Context:
+    """The files that one file may name.
+
+    folder: that their names are relative to. package: a folder all of whose files it may name;
+    None: its own. words: which folder that is.
+    """
+
+    def __init__(
+        self,
+        folder: StrPath,
+        permitted: Permitted,
+        package: Path | None = None,
+        words: str = "the file's folder",
+    ) -> None:
+        self.folder = Path(folder)
+        self.permitted = permitted
+        self._package = package
+        self._words = words
+
+    @cached_property
+    def own(self) -> Path:
+        """The folder all of whose files it may name, without links."""
+        return followed(self._package or self.folder)
+
+    def permits(self, place: Path) -> bool:
+        if self.permitted.anywhere:
+            return True
+        real = followed(place)
+        folders = (str(self.own), *self.permitted.folders)
+        return any(map(real.is_relative_to, folders))
+
+    def refusal(
+        self, what: str, advice: str = "refused (allow it with --allow-outside)"
+    ) -> Refused:
+        """Return the error for a file that is not permitted. what: it is, with its name."""
+        where = " and of ".join((self._words, *self.permitted.folders))
+        return Refused("outside-path", f"{what} lies outside of {where}: {advice}")
+
+    def find(self, what: str, name: str) -> Path:
+        """Return where a file lies that is named. what: as above. Raises Refused."""
+        if "\0" in name:
+            raise Refused("bad-record", f"the path of {what} holds a NUL character")
+        place = self.folder / name
+        note(place)
+        if not self.permits(place):
+            raise self.refusal(what)
+        if not is_file(place):
+            raise Refused("missing-resource", f"{what} is missing")
+        return place
+
+
 class File(Struct, frozen=True):
     """A file that is open for a reader. It can be sent to a child process.
 
@@ -246,11 +286,16 @@ class File(Struct, frozen=True):
     isolated: bool = False
     path: str = ""
     sha256: str | None = None
-    packages: Mapping[str, str] = {}
+    packages: Mapping[str, str | Path] = {}
 
     @property
     def location(self) -> Path:
         return Path(self.directory, self.name)
+
+    @property
+    def context(self) -> Context:
+        """Return what it may name."""
+        return Context(self.directory, self.permitted)
 
     @property
     def in_pieces(self) -> bool:

@@ -25,7 +25,7 @@ from msgspec.structs import replace
 from satcheck.audit.batch.options import World
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import InputFile
-from satcheck.scene.files.readers import robots
+from satcheck.scene.files.readers import robot_endings
 
 # The slashes of `file:///` belong to the head, so that what follows is never an absolute path.
 _URL = re.compile(r"([A-Za-z][A-Za-z0-9+.-]*:///?)(.*)", re.DOTALL)
@@ -188,9 +188,8 @@ def _root(url: str, anywhere: bool) -> str:
     same bucket. A robot in XML of another ending is known as such only when it is here."""
     head, path = _split(url)
     folders = path.split("/")[:-1]
-    endings = {ending for reader in robots().values() for ending in reader.endings}
     if anywhere:
         folders = folders[:1]
-    elif posixpath.splitext(path)[1].lower() in endings and len(folders) > 1:
+    elif posixpath.splitext(path)[1].lower() in robot_endings() and len(folders) > 1:
         folders = folders[:-1]
     return head + "".join(f"{folder}/" for folder in folders)

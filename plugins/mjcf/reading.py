@@ -18,7 +18,6 @@ from msgspec.structs import replace
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import compose
-from satcheck.plugins.mjcf.child import Answer
 from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, pose_of
 from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
@@ -26,20 +25,28 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal, UniqueNames
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Collision, Geometry, Link, MeshReference, Robot, State
+from satcheck.scene.robot.model import (
+    Collision,
+    Geometry,
+    Link,
+    MeshReference,
+    Robot,
+    RobotDocument,
+    State,
+)
 
 _GEOM = mujoco.mjtGeom
 _FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
-def robot_of(read: Compiled, path: str, options: Mapping[str, Any]) -> Answer:
+def robot_of(read: Compiled, path: str, options: Mapping[str, Any]) -> RobotDocument:
     """The robot, and issues. Raises Refused if a number is not finite.
 
     path: of the file. options: geometry: "collision": geoms whose contype or conaffinity is not 0,
     or that a <pair> names; "visual": the others.
     """
     reader = _Reader(read, path, options)
-    return Answer(reader.robot(), tuple(reader.issues()))
+    return RobotDocument(robot=reader.robot(), issues=tuple(reader.issues()))
 
 
 class _Reader:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from satcheck.scene.files.readers import RobotReader
+import math
+
+from satcheck.scene.files.readers import Reader
 
 ROOTS = ("sdf", "gazebo")  # the second until SDFormat 1.2
 
 READERS = (
-    RobotReader(
+    Reader(
         "sdf",
         "SDF",
         (".sdf", ".world"),
-        ROOTS,
         "satcheck.plugins.sdf.reading:read_sdf",
-        marks=(b"<sdf", b"<gazebo"),
+        kind="robot",
+        here=math.inf,
+        roots=ROOTS,
+        texts=(b"<sdf", b"<gazebo"),
     ),
 )

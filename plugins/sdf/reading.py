@@ -17,23 +17,26 @@ from satcheck.plugins.sdf.includes import Includes
 from satcheck.plugins.sdf.joints import JointEntry, joint_of
 from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.readers import RobotFile
+from satcheck.scene.files.readers import File
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.issue import Issue
 from satcheck.scene.robot.elements import check_mimics
-from satcheck.scene.robot.model import Exemption, Joint, Link, Robot
+from satcheck.scene.robot.model import Exemption, Joint, Link, Robot, RobotDocument
+from satcheck.scene.robot.packages import FilePlaces
+from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.trees import trees_of
 
 
-def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
+def read_sdf(file: File) -> RobotDocument:
     """Return all links of the file and of the models that it includes as one robot, and warnings.
 
-    root: the outermost element. Links and joints have their paths as names. Raises Refused
-    with the file, the line and the element. No mesh is opened.
+    Links and joints have their paths as names. Raises Refused with the file, the line and the
+    element. No mesh is opened.
     """
-    slips = Slips(file.geometry)
-    contents = Contents(Includes(file.places), slips)
+    root = read_tree(file.path, file.location)
+    slips = Slips(file.options["geometry"])
+    places = FilePlaces(file.path, file.packages, file.permitted)
+    contents = Contents(Includes(places), slips)
     contents.read(root)
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
     elements = {joint.path: joint.element for joint in contents.joints}
@@ -65,7 +68,7 @@ def read_sdf(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
         joints=ordered,
         exempt=(*exempted, *_joined(joints, contents)),
     )
-    return robot, slips.issues()
+    return RobotDocument(robot=robot, issues=slips.issues())
 
 
 def _parts(path: str, contents: Contents) -> list[Part]:

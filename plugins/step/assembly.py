@@ -25,7 +25,7 @@ from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primit
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.files.readers import File, imported
-from satcheck.scene.opening import NOTHING_ELSE
+from satcheck.scene.opening import NOTHING_ELSE, Context
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF
@@ -92,7 +92,7 @@ class _Assembly:
         options: Mapping[str, Any],
     ) -> None:
         work = Work(isolated=True)
-        self._accessors = Accessors(document, chunk, "", work, NOTHING_ELSE)
+        self._accessors = Accessors(document, chunk, Context("", NOTHING_ELSE), work)
         self._meshes = Meshes(document, self._accessors, work)
         self._document = document
         self._nodes = document.nodes

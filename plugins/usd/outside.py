@@ -15,15 +15,14 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Permitted, followed
+from satcheck.scene.opening import Context
 
 
 class Closed:
-    """own: the folder of the file. Holds the layers that stand in for those outside."""
+    """context: of the file. Holds the layers that stand in for those outside."""
 
-    def __init__(self, permitted: Permitted, own: Path) -> None:
-        self._permitted = permitted
-        self._own = followed(own)
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._stand_ins: dict[str, Any] = {}
 
     def close(self, root: Any) -> None:
@@ -46,12 +45,10 @@ class Closed:
                     raise self.refusal(place)
 
     def permits(self, place: str) -> bool:
-        return self._permitted.has(Path(file_of(place)), self._own)
+        return self._context.permits(Path(file_of(place)))
 
     def refusal(self, place: str) -> Refused:
-        where = self._permitted.beyond("the file's directory")
-        message = f"layer {place!r} lies {where}: refused (allow it with --allow-outside)"
-        return Refused("outside-path", message)
+        return self._context.refusal(f"layer {place!r}")
 
     def _stand_in(self, place: str) -> None:
         if Path(file_of(place)).exists():

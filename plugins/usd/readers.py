@@ -30,7 +30,7 @@ def read_usd(file: File) -> Document:
     from satcheck.plugins.usd.stage import open_stage, said
 
     try:
-        return read_scene(open_stage(file.location, file.permitted), file.options)
+        return read_scene(open_stage(file), file.options)
     except tf.ErrorException as error:
         raise Refused("bad-record", f"not a valid USD file: {said(error)}") from None
 

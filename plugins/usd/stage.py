@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
@@ -17,7 +16,7 @@ from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed, clips_of, file_of
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Permitted, note
+from satcheck.scene.opening import File, note
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
@@ -74,13 +73,13 @@ class Remarks:
             yield code, f"{names[0]}{others}: {words}"
 
 
-def open_stage(location: Path, permitted: Permitted) -> Stage:
-    """permitted: where its layers may lie. Raises Refused, and what the library raises."""
-    closed = Closed(permitted, location.parent)
-    root = Sdf.Layer.FindOrOpen(str(location))
-    if root is not None and not permitted.anywhere:
+def open_stage(file: File) -> Stage:
+    """Return the stage of a file. Raises Refused, and what the library raises."""
+    closed, location = Closed(file.context), str(file.location)
+    root = Sdf.Layer.FindOrOpen(location)
+    if root is not None and not file.permitted.anywhere:
         closed.close(root)
-    stage = Usd.Stage.Open(root or str(location))
+    stage = Usd.Stage.Open(root or location)
     layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
     _note_files(layers)
     for layer in layers:

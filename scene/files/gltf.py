@@ -60,7 +60,7 @@ def read_gltf(file: File) -> Document:
     unknown = UnknownNames()
     document = read_document(text, unknown)
     work = Work(isolated=file.isolated)
-    accessors = Accessors(document, chunk, file.directory, work, file.permitted)
+    accessors = Accessors(document, chunk, file.context, work)
     reader = _Scene(document, accessors, work)
     colliders = Colliders(document, unknown)
     warnings: list[tuple[str, str]] = []

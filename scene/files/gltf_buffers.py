@@ -9,7 +9,6 @@ import math
 import struct
 from array import array
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
@@ -30,7 +29,7 @@ from satcheck.scene.files.gltf_document import (
     SparseValues,
 )
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.opening import Permitted, followed, is_file, note
+from satcheck.scene.opening import Context
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK_HEADER = struct.Struct("<II")  # length, type
@@ -105,25 +104,22 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
 class Accessors:
     """The accessors of a document as arrays. A buffer is read when it is first used.
 
-    chunk: the binary chunk of a GLB file. directory: that files with buffers are relative to.
-    Raises Refused.
+    chunk: the binary chunk of a GLB file. context: finds files with buffers. Raises Refused.
     """
 
     def __init__(
         self,
         document: GltfDocument,
         chunk: memoryview | None,
-        directory: str,
+        context: Context,
         work: Work,
-        permitted: Permitted,
     ) -> None:
         self._accessors = document.accessors
         self._views = document.buffer_views
         self._infos = document.buffers
         self._chunk = chunk
-        self._directory = directory
+        self._context = context
         self._work = work
-        self._permitted = permitted
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._unpacked_bytes = 0
@@ -344,17 +340,9 @@ class Accessors:
         from urllib.parse import unquote
 
         name = unquote(uri)
-        root = followed(Path(self._directory))
-        if ":" in uri or "\\" in name or "\0" in name:
+        if ":" in uri or "\\" in name:
             raise Refused("outside-path", f"buffer {name!r} is not a relative path: refused")
-        note(Path(self._directory) / name)
-        path = followed(root / name)
-        if not self._permitted.has(path, root):
-            where = self._permitted.beyond("the file's directory")
-            message = f"buffer {name!r} lies {where}: refused (allow it with --allow-outside)"
-            raise Refused("outside-path", message)
-        if not is_file(path):
-            raise Refused("missing-resource", f"missing buffer file {name!r}")
+        path = self._context.find(f"buffer file {name!r}", name)
         try:
             size = min(size, path.stat().st_size)
             self._work.spend(size)

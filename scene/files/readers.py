@@ -11,12 +11,12 @@ The ending of an input decides its kind; for an unknown ending, the root of its 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from sys import float_info
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
 from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import replace
@@ -28,14 +28,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.opening import File as File
 from satcheck.scene.opening import ReadLimits as ReadLimits
-from satcheck.scene.opening import size_of, suffix_of
-
-if TYPE_CHECKING:
-    from satcheck.scene.files.reading_children import ReadingChildren
-    from satcheck.scene.files.xml_tree import Element
-    from satcheck.scene.issue import Issue
-    from satcheck.scene.robot.model import Robot
-    from satcheck.scene.robot.packages import FilePlaces
+from satcheck.scene.opening import StrPath, size_of, suffix_of
 
 T = TypeVar("T")
 _ZIP = b"PK\x03\x04"
@@ -156,19 +149,21 @@ class NeedsChild(Exception):
 
 
 class Reader(Struct, frozen=True):
-    """A format of files with meshes.
+    """A format of files with meshes, or of robots in XML.
 
     name: in reports. title: for people. endings: of the names of its files, in small letters.
     read: "module:function". The function takes a `File` and returns a `Document`; it raises
     Refused without a file name. kind: "mesh": the meshes of a file are one body, or a body
-    each; "document": each node is a body, with rules; "robot": the meshes of a robot that only the
-    reader of the robot reads. options: what the user may choose; `File.options` has their values.
+    each; "document": each node is a body, with rules; "robot": links and joints, without items, as
+    a `RobotDocument`, or without `roots` the meshes that only the reader of the robot reads.
+    options: what the user may choose; `File.options` has their values.
     marks: with which its content may begin, of those in `opening.py`. text: "plain": the reader is
     shown UTF-8 without a byte order mark; "own": its parser decodes the text. here: files up to
     this size, in bytes, are read in this process, all others, and all of other packages, in a child
     process. by_name: it opens the file itself. up: the axis that points up, if the format says so.
     complete: False: the reader may leave something out without a word, so that no pair is proven
-    apart.
+    apart. roots: of a robot, the tags of the outermost element. texts: files of its endings in a
+    folder are robots if they hold one of these, or one of the roots; None: all of them are.
     """
 
     name: str
@@ -183,62 +178,33 @@ class Reader(Struct, frozen=True):
     by_name: bool = False
     up: Literal["y", "z"] | None = None
     complete: bool = True
+    roots: tuple[str, ...] = ()
+    texts: tuple[bytes, ...] | None = None
 
     def values(self, given: ReadOptions) -> dict[str, OptionValue | None]:
         """Return the values of its options, for `File.options`. Raises SatcheckError."""
-        return values_of(self, given)
+        return {
+            option.name: option.converted(given[option.name])
+            if option.name in given
+            else option.default
+            for option in self.options
+        }
 
-    def scene(self, file: File) -> Document:
-        """Return the meshes of a file and their placements. Raises Refused and NeedsChild."""
-        scene = cast("Document", function_at(self.read)(file))
-        scene.check()
+    def made_here(self, file: File) -> Document:
+        """Return what it makes of a file in this process. Raises Refused and NeedsChild."""
+        return cast("Document", function_at(self.read)(file))
+
+    def checked(self, made: Document) -> Document:
+        """Return a document that it has made, and what has to be said of all its documents. Raises
+        Refused."""
+        made.check()
         if self.complete:
-            return scene
+            return made
         message = (
             "the library that reads it may leave out what it does not know: overlaps count as it "
             "places the bodies, and no pair is proven apart"
         )
-        return replace(scene, warnings=(*scene.warnings, ("incomplete", message)))
-
-
-class RobotFile(Struct, frozen=True):
-    """An XML file of a robot, and what its reader may ask for.
-
-    places: where the files that it names are looked for. packages: as given. geometry: which
-    elements of links become bodies. options: as of a `File`. allowed, children: for readers that
-    need a child process.
-    """
-
-    places: FilePlaces
-    packages: Mapping[str, str | Path]
-    geometry: GeometryKind
-    allowed: ReadLimits
-    children: ReadingChildren
-    options: Mapping[str, Any] = {}
-
-
-class RobotReader(Struct, frozen=True):
-    """A format of robots in XML.
-
-    name, title, endings, options: as of a `Reader`. roots: tags of the outermost element. read:
-    "module:function". The function takes this element and a `RobotFile`, and returns the robot and
-    issues; it raises Refused. marks: files of its endings in a folder are robots if they hold one
-    of these, or one of the roots; None: all of them are.
-    """
-
-    name: str
-    title: str
-    endings: tuple[str, ...]
-    roots: tuple[str, ...]
-    read: str
-    marks: tuple[bytes, ...] | None = None
-    options: tuple[Option, ...] = ()
-
-    def function(self) -> Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]:
-        return cast(
-            "Callable[[Element, RobotFile], tuple[Robot, tuple[Issue, ...]]]",
-            function_at(self.read),
-        )
+        return replace(made, warnings=(*made.warnings, ("incomplete", message)))
 
 
 def _native(name: str, *more: str, marks: tuple[bytes, ...] = ()) -> Reader:
@@ -262,7 +228,7 @@ def _gltf(name: str, title: str, marks: tuple[bytes, ...] = ()) -> Reader:
     )
 
 
-_BUILT_IN: tuple[Reader | RobotReader, ...] = (
+_BUILT_IN = (
     _native("obj"),
     _native("stl", ".stla", ".stlb"),
     _native("ply", marks=(b"ply\n", b"ply\r\n")),
@@ -271,11 +237,17 @@ _BUILT_IN: tuple[Reader | RobotReader, ...] = (
     _gltf("gltf", "glTF"),
     Reader("3mf", "3MF", (".3mf",), "satcheck.scene.files.threemf:read_3mf", marks=(_ZIP,)),
     Reader("dae", "DAE", (".dae",), "satcheck.scene.files.collada:read_collada", text="own"),
-    RobotReader("urdf", "URDF", (".urdf",), ("robot",), "satcheck.scene.robot.urdf:robot_of"),
+    Reader(
+        "urdf",
+        "URDF",
+        (".urdf",),
+        "satcheck.scene.robot.urdf:read_urdf",
+        kind="robot",
+        here=math.inf,
+        roots=("robot",),
+    ),
 )
-
-
-KINDS = (Reader, RobotReader)
+KINDS = (Reader,)
 
 
 class _Registry(Struct):
@@ -283,14 +255,14 @@ class _Registry(Struct):
 
     by_ending: dict[str, Reader] = {}
     by_name: dict[str, Reader] = {}
-    robots: dict[str, RobotReader] = {}
+    robots: dict[str, Reader] = {}
 
-    def add(self, readers: Iterable[Reader | RobotReader]) -> None:
+    def add(self, readers: Iterable[Reader]) -> None:
         """A format that is there already stays."""
         for reader in readers:
-            if isinstance(reader, RobotReader):
-                for root in reader.roots:
-                    self.robots.setdefault(root, reader)
+            for root in reader.roots:
+                self.robots.setdefault(root, reader)
+            if reader.roots:
                 continue
             self.by_name.setdefault(reader.name, reader)
             for ending in reader.endings:
@@ -310,12 +282,12 @@ def readers() -> Mapping[str, Reader]:
     return _registry().by_ending
 
 
-def robots() -> Mapping[str, RobotReader]:
+def robots() -> Mapping[str, Reader]:
     """Return the readers of robots, by the tags of outermost elements."""
     return _registry().robots
 
 
-def robots_of(ending: str) -> tuple[RobotReader, ...]:
+def robots_of(ending: str) -> tuple[Reader, ...]:
     """Return the readers of robots whose names end so."""
     registry, ending = _registry(), ending.lower()
     if not any(ending in robot.endings for robot in registry.robots.values()):
@@ -352,15 +324,7 @@ def reader_named(name: str) -> Reader | None:
     return _registry().by_name.get(name)
 
 
-def read(file: File) -> Document:
-    """Return the meshes of a file, in this process. Raises Refused and NeedsChild."""
-    # A child process has not looked for the readers of other packages.
-    reader = reader_named(file.format) or reader_of(suffix_of(file.name))
-    assert reader is not None  # it has been opened for its reader
-    return reader.scene(file)
-
-
-def robot_reader(root: str) -> RobotReader | None:
+def robot_reader(root: str) -> Reader | None:
     """Return the reader of robots whose outermost element has this tag; None: there is none."""
     return _found(_registry().robots, root)
 
@@ -375,16 +339,6 @@ def options_of(formats: Iterable[str]) -> set[str]:
     """Return the names of the options that count for files of these formats."""
     known = filter(None, map(reader_named, formats))
     return {option.name for reader in known for option in reader.options}
-
-
-def values_of(reader: Reader | RobotReader, given: ReadOptions) -> dict[str, OptionValue | None]:
-    """Return the values of all options of a reader. Raises SatcheckError."""
-    return {
-        option.name: option.converted(given[option.name])
-        if option.name in given
-        else option.default
-        for option in reader.options
-    }
 
 
 def stated_options(given: ReadOptions, formats: Iterable[str]) -> dict[str, OptionValue] | None:
@@ -422,9 +376,7 @@ def options() -> dict[str, tuple[Option, list[str]]]:
     """Return all options by name, each with the titles of the formats that have it."""
     found: dict[str, tuple[Option, list[str]]] = {}
     registry = _registry()
-    readers: list[Reader | RobotReader] = [*registry.by_name.values()]
-    readers += dict.fromkeys(registry.robots.values())
-    for reader in readers:
+    for reader in (*registry.by_name.values(), *registry.robots.values()):
         for option in reader.options:
             titles = found.setdefault(option.name, (option, []))[1]
             if reader.title not in titles:
@@ -439,9 +391,9 @@ def _found(among: Mapping[str, T], key: str) -> T | None:
     return among.get(key)
 
 
-def _isolated(reader: Reader | RobotReader) -> Reader | RobotReader:
+def _isolated(reader: Reader) -> Reader:
     """Return the reader of another package, which runs in a child process: it may fail."""
-    return replace(reader, here=0) if isinstance(reader, Reader) else reader
+    return replace(reader, here=0)
 
 
 def kind_of(path: str) -> InputKind:
@@ -456,33 +408,27 @@ def kind_of(path: str) -> InputKind:
         return "document" if reader.kind == "document" else "mesh"
     if robots_of(suffix) and suffix not in readers():
         return "robot"
-    root, *below = _first_elements(Path(path))
+    root, *below = _first_elements(path)
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
     return "robot" if suffix == _XACRO or robot_reader(root) is not None else "mesh"
 
 
 def robot_endings() -> frozenset[str]:
-    """Return the endings of files that are robots, whatever they hold: of no other format."""
-    endings = {ending for reader in robots().values() for ending in reader.endings}
-    return frozenset(endings - readers().keys())
+    """Return the endings of files that may be robots."""
+    return frozenset(ending for reader in robots().values() for ending in reader.endings)
 
 
-def is_robot(location: Path) -> bool:
-    """Return whether the outermost element is that of a robot."""
-    return reader_of_robot(location) is not None
-
-
-def reader_of_robot(location: Path) -> RobotReader | None:
+def reader_of_robot(location: StrPath) -> Reader | None:
     """Return the reader of robots with this outermost element; None: it is none of a robot."""
     return robot_reader(_first_elements(location)[0])
 
 
-def _first_elements(location: Path) -> list[str]:
+def _first_elements(location: StrPath) -> list[str]:
     """The names of the root and of its first element; [""] if the file is not XML."""
     try:
         size_of(location)
-        with location.open("rb") as file:
+        with Path(location).open("rb") as file:
             head = file.read(_HEAD_BYTES)
     except (SatcheckError, OSError):  # reported when the file is read
         return [""]

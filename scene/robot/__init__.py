@@ -7,7 +7,6 @@ again. `RandomPoses` draws random poses.
 from satcheck.scene.robot.assembly import (
     RobotBody,
     SceneRobot,
-    document_of_robot,
     permissions,
     with_srdfs,
 )
@@ -16,7 +15,6 @@ from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.poses import Pose, RandomPoses, read_path, read_poses
 from satcheck.scene.robot.postures import Posture, pose_of_states, posed, settle
-from satcheck.scene.robot.reading import read_robot
 from satcheck.scene.robot.srdf import Srdf, read_srdf
 
 __all__ = [
@@ -30,13 +28,11 @@ __all__ = [
     "RobotBody",
     "SceneRobot",
     "Srdf",
-    "document_of_robot",
     "permissions",
     "pose_of_states",
     "posed",
     "read_path",
     "read_poses",
-    "read_robot",
     "read_srdf",
     "settle",
     "with_joint_path",

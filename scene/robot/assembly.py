@@ -14,6 +14,7 @@ from satcheck.core.transform import Transform, compose
 from satcheck.scene.bodies import IDENTITY, Entry
 from satcheck.scene.document import HULL_MARK, Document, FilePart, Item, Refusal
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.readers import GEOMETRY, File, GeometryKind
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import scaled
 from satcheck.scene.robot.model import Collision, MeshReference, Robot, State
@@ -79,12 +80,15 @@ class SceneRobot(Struct, frozen=True):
         return pairs
 
 
-def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue]) -> Document:
-    """Return a document with an item for each <collision>, and with these issues.
+def document_of_robot(read: Document, file: File) -> Document:
+    """Return what the reader of a file has read, with an item for each <collision>.
 
     The id of an item is the name of the link; if the link has several, "link/name" or
     "link/number". Items that fail for the same cause share one message, which states their number.
     """
+    robot = read.robot
+    assert robot is not None
+    places = FilePlaces(file.path, file.packages, file.permitted)
     items: list[Item] = []
     lost: dict[tuple[str, str], list[Collision]] = {}
     for link in robot.links.values():
@@ -104,7 +108,8 @@ def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue])
             )
             items.append(item)
     causes = {key: _placed(*key, alike) for key, alike in lost.items()}
-    return Document(
+    return replace(
+        read,
         path=robot.file,
         name=robot.name,
         kind="robot",
@@ -115,9 +120,24 @@ def document_of_robot(robot: Robot, places: FilePlaces, issues: Sequence[Issue])
             else item
             for item in items
         ),
-        issues=tuple(issues),
-        robot=robot,
+        issues=(*read.issues, *_about_geometry(robot, file.options[GEOMETRY.name])),
     )
+
+
+def _about_geometry(robot: Robot, checked: GeometryKind) -> Iterator[Issue]:
+    """Yield issues about what is not checked: the other kind of geometry."""
+    if checked == "visual":
+        message = "visual geometry is checked, not collision geometry"
+        yield issue("visual-geometry", message, file=robot.file)
+    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
+    if bare:
+        have = "link has" if len(bare) == 1 else "links have"
+        others = "visual" if checked == "collision" else "collision"
+        message = (
+            f"{len(bare)} {have} {others} geometry and no {checked} geometry, so no body is "
+            f"checked: {listed(bare)}"
+        )
+        yield issue("no-collision-geometry", message, file=robot.file)
 
 
 def _shape(collision: Collision, places: FilePlaces) -> FilePart | Primitive | Refused:

@@ -15,7 +15,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.document import Refusal
+from satcheck.scene.document import Document, Refusal
 
 JointKind = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "free"
@@ -166,3 +166,10 @@ class Robot(Struct, frozen=True):
     joints: tuple[Joint, ...]
     exempt: tuple[Exemption, ...] | None = None
     states: tuple[State, ...] = ()
+
+
+class RobotDocument(Document, frozen=True, kw_only=True):
+    """A robot and issues, as its reader returns them, also from a child process. Its items follow
+    from the links (`assembly.document_of_robot`)."""
+
+    robot: Robot

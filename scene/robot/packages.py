@@ -23,6 +23,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.opening import (
     NOTHING_ELSE,
+    Context,
     Permitted,
     folders_of_environment,
     followed,
@@ -60,16 +61,16 @@ class FilePlaces:
     ) -> None:
         self._folder = Path(file).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
-        self._permitted = permitted
         self._root = self._package()
-        self._own = followed(self._root)
+        words = f"{followed(self._root)}, where the package of the file is"
+        self._context = Context(self._folder, permitted, self._root, words)
         self._places = {file: self}
 
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            folders = (*self._permitted.folders, str(self._own))
-            permitted = replace(self._permitted, folders=folders)
+            permitted, own = self._context.permitted, str(self._context.own)
+            permitted = replace(permitted, folders=(*permitted.folders, own))
             self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
 
@@ -100,7 +101,7 @@ class FilePlaces:
         if isinstance(place, Path):
             if not self._may_open(place):
                 hint = "--allow-outside, or with a package.xml in the folder that holds both"
-                raise Refused("outside-path", f"it lies {self._outside()}: allow it with {hint}")
+                raise self._context.refusal("it", f"allow it with {hint}")
             return place
         if may_be_model and "/" not in rest:
             return self._in_package(rest, models)
@@ -133,12 +134,12 @@ class FilePlaces:
                 outside.append(folder)
         option = f"--package {name}"
         if outside:
-            message = f"package {name!r} lies {self._outside()}: allow it: {option}={outside[0]}"
-            raise Refused("outside-path", message)
+            advice = f"allow it: {option}={outside[0]}"
+            raise self._context.refusal(f"package {name!r}", advice)
         if missing:
             message = f"{missing[0].message}: {option}=DIR names another package"
             raise Refused(missing[0].code, message)
-        likely = self._own if _is_file(self._root / inner) else "DIR"
+        likely = self._context.own if _is_file(self._root / inner) else "DIR"
         message = f"package {name!r} is not found: {option}={likely} says where it lies"
         raise Refused("missing-resource", message)
 
@@ -149,7 +150,7 @@ class FilePlaces:
             folder = self._packages.get("/".join(parts[:length]))
             if folder is not None:
                 inside = "/".join(parts[length:])
-                if not self._permitted.has(folder / inside, followed(folder)):
+                if not Context(folder, self._context.permitted).permits(folder / inside):
                     raise Refused("outside-path", f"the path leaves {folder}: refused")
                 place = _existing(folder, inside, models, quoted=True)
                 if isinstance(place, Refused):
@@ -187,10 +188,7 @@ class FilePlaces:
         return [_tidy(self._folder.joinpath(*[".."] * steps)) for steps in range(count + 1)]
 
     def _may_open(self, place: Path) -> bool:
-        return self._permitted.has(place, self._own) or _is_from_environment(place)
-
-    def _outside(self) -> str:
-        return self._permitted.beyond(f"of {self._own}, where the package of the file is")
+        return self._context.permits(place) or _is_from_environment(place)
 
 
 def _name_in_manifest(folder: Path) -> str | None:

@@ -11,10 +11,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import NoReturn
 
-from msgspec.structs import replace
-
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import GeometryKind, RobotFile, robot_reader, robots, values_of
+from satcheck.scene.files.readers import Reader, reader_of_robot, robot_reader, robots
 from satcheck.scene.files.xml_tree import (
     EXPAND,
     Element,
@@ -22,10 +20,7 @@ from satcheck.scene.files.xml_tree import (
     parse_xml,
     read_elements,
 )
-from satcheck.scene.issue import Issue, issue
 from satcheck.scene.opening import StrPath, read_whole
-from satcheck.scene.robot.model import Robot
-from satcheck.scene.words import listed
 
 _MAX_BYTES = 64 << 20
 _ERB = b"<%"
@@ -41,34 +36,14 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-def read_robot(path: str, location: StrPath, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and issues. Raises Refused with the file, the line and the element.
-
-    path: of the file, for messages; location: where it lies. No mesh is opened.
-    """
-    root = read_tree(path, location)
-    reader = robot_reader(root.tag)
-    if reader is None:
-        _refuse_root(root, robots())
-    options = values_of(reader, file.allowed.options)
-    robot, issues = reader.function()(root, replace(file, options=options))
-    return robot, (*issues, *_about_geometry(robot, file.geometry))
-
-
-def _about_geometry(robot: Robot, checked: GeometryKind) -> Iterator[Issue]:
-    """Yield issues about what is not checked: the other kind of geometry."""
-    if checked == "visual":
-        message = "visual geometry is checked, not collision geometry"
-        yield issue("visual-geometry", message, file=robot.file)
-    bare = [link.name for link in robot.links.values() if link.unused and not link.collisions]
-    if bare:
-        have = "link has" if len(bare) == 1 else "links have"
-        others = "visual" if checked == "collision" else "collision"
-        message = (
-            f"{len(bare)} {have} {others} geometry and no {checked} geometry, so no body is "
-            f"checked: {listed(bare)}"
-        )
-        yield issue("no-collision-geometry", message, file=robot.file)
+def required_robot_reader(path: str, location: StrPath) -> Reader:
+    """Return the reader of a robot, which its outermost element decides. path: of the file, for
+    messages; location: where it lies. Raises Refused if there is none."""
+    reader = reader_of_robot(location)
+    if reader is not None:
+        return reader
+    root = read_tree(path, location)  # a slip may stand before the element
+    return robot_reader(root.tag) or _refuse_root(root, robots())
 
 
 def read_tree(path: str, location: StrPath, *roots: str) -> Element:
@@ -117,10 +92,16 @@ def first_tags(head: bytes, count: int) -> list[str]:
     or is not XML."""
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
-    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+
+    def add(tag: str, _: object) -> None:
+        tags.append(tag)
+        if len(tags) == count:
+            parser.StartElementHandler = None
+
+    parser.StartElementHandler = add
     with suppress(Refused):  # the reader reports the error
         parse_xml(parser, _with_declaration_first(head), whole=False)
-    return tags[:count]
+    return tags
 
 
 def _with_declaration_first(data: bytes) -> bytes:

@@ -14,9 +14,8 @@ from typing import get_args
 from satcheck.core.conventions import Vector
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.files.readers import RobotFile
+from satcheck.scene.files.readers import File
 from satcheck.scene.files.xml_tree import Element, RefusedElement
-from satcheck.scene.issue import Issue
 from satcheck.scene.robot.elements import (
     MESH,
     SHAPES,
@@ -38,7 +37,9 @@ from satcheck.scene.robot.model import (
     MeshReference,
     Mimic,
     Robot,
+    RobotDocument,
 )
+from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.urdf_places import JOINT, LINK, ROBOT, SHAPE
 from satcheck.scene.words import listed, meant
@@ -57,10 +58,11 @@ _SHAPES = ShapeForm(
 _Joints = Sequence[tuple[Joint, Element]]
 
 
-def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
-    """Return the robot, and warnings. Raises Refused with the file, the line and the
-    element. root: the outermost element. No mesh is opened."""
-    slips = Slips(file.geometry)
+def read_urdf(file: File) -> RobotDocument:
+    """Return the robot, and warnings. Raises Refused with the file, the line and the element. No
+    mesh is opened."""
+    root = read_tree(file.path, file.location)
+    slips = Slips(file.options["geometry"])
     slips.look(root, ROBOT)
     links: dict[str, Link] = {}
     for element in root.all("link"):
@@ -84,7 +86,7 @@ def robot_of(root: Element, file: RobotFile) -> tuple[Robot, tuple[Issue, ...]]:
     base, ordered = _in_order(root, links, list(joints.values()))
     name = root.attributes.get("name") or Path(root.file).stem
     robot = Robot(name, root.file, {base: IDENTITY}, links, ordered)
-    return robot, slips.issues()
+    return RobotDocument(robot=robot, issues=slips.issues())
 
 
 def _look_for_folders(root: Element, links: Iterable[Link], slips: Slips) -> None:

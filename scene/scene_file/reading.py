@@ -22,7 +22,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_reader, readers
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.opening import NOTHING_ELSE, Permitted, followed, is_file, note
+from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
@@ -211,29 +211,20 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
     path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
     its folder.
     """
-    folder = location.parent
-    own = followed(folder)
+    context = Context(location.parent, permitted)
 
     @cache
     def found(mesh: str, part: str | None) -> FilePart:
         if part is not None:
             return replace(found(mesh, None), part=part)
-        if "\0" in mesh:
-            raise Wrong(f"mesh path {shown(mesh)} holds a NUL character", "mesh")
-        place = folder / mesh
-        if mesh_reader(place.suffix) is None:
+        if mesh_reader(Path(mesh).suffix) is None:
             known = ", ".join(sorted(filter(mesh_reader, readers())))
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
-        note(place)
-        if not permitted.has(place, own):
-            where = permitted.beyond("of the scene's folder")
-            message = (
-                f"mesh file {shown(mesh)} lies {where}: refused (allow it with --allow-outside)"
-            )
-            raise Wrong(message, "mesh", code="outside-path")
-        if not is_file(place):
-            raise Wrong(f"mesh file {shown(mesh)} is missing", "mesh", code="missing-resource")
+        try:
+            place = context.find(f"mesh file {shown(mesh)}", mesh)
+        except Refused as error:
+            raise Wrong(error.message, "mesh", code=error.code) from None
         name = os.path.normpath(Path(path).parent / mesh).replace(os.sep, "/")
         return FilePart(name, str(place))
 

@@ -52,11 +52,11 @@ def read_in_this_process(path: Path) -> None:
     reader = required_reader(path.suffix)
     options = reader.values({})
     file = File(reader.name, str(path.parent), path.name, data, len(data), options)
-    reply = serve(pickle.dumps(("satcheck.scene.files.readers:read", file)))
+    reply = serve(pickle.dumps((reader.read, file)))
     content = msgspec.msgpack.decode(reply, type=Reply[Document]).content
     if isinstance(content, Refusal):
         raise Refused(content.code, content.message)
-    flattened(content)
+    flattened(reader.checked(content))
 
 
 def read_scene(path: Path) -> None:

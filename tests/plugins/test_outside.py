@@ -206,8 +206,9 @@ def test_an_entry_point_of_another_kind_is_a_failure(tmp_path: Path) -> None:
 
 
 ROBOT = """
-from satcheck.scene.files.readers import RobotReader
-ROBOT = RobotReader("rbx", "RBX", (".rbx",), ("rbx",), "satcheck.scene.robot.urdf:robot_of")
+from satcheck.scene.files.readers import Reader
+READ = "satcheck.scene.robot.urdf:read_urdf"
+ROBOT = Reader("rbx", "RBX", (".rbx",), READ, kind="robot", roots=("rbx",))
 """
 
 
@@ -222,3 +223,15 @@ def test_its_robots_are_assets_of_a_folder(tmp_path: Path) -> None:
         (tmp_path / f"{name}.rbx").write_text(f'<rbx name="r">{links}{joint}</rbx>')
     ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
     assert [asset["verdict"] for asset in ran.document["assets"]] == ["fail", "fail"]
+
+
+def test_a_reader_of_robots_that_fails_loses_its_file_alone(tmp_path: Path) -> None:
+    env = install(tmp_path / "robots", "[satcheck.readers]\nrbx = robots:ROBOT\n")
+    failing = ROBOT.replace("satcheck.scene.robot.urdf:read_urdf", "robots:fail")
+    (tmp_path / "robots" / "robots.py").write_text(f"{failing}def fail(file):\n    {{}}[1]\n")
+    (tmp_path / "a.rbx").write_text('<rbx name="r"><link name="a"/></rbx>')
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    verdicts = {asset["file"]: asset["verdict"] for asset in ran.document["assets"]}
+    assert verdicts == {"a.rbx": "error", "box.obj": "pass"}
+    assert "the RBX reader failed: KeyError" in ran.out

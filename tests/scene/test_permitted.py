@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene, load_scene
-from satcheck.scene.opening import Permitted
+from satcheck.scene import Refused, Scene, load_scene
+from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted
 from tests.plugin_marks import needs
 from tests.scene import files
 from tests.scene.hostile import needs_links
@@ -148,5 +148,12 @@ def test_only_folders_around_the_files_count(tmp_path: Path) -> None:
     mine, other = tmp_path / "mine", tmp_path / "other"
     around = Permitted.around([mine / "sub" / "a.usda"], [mine, other])
     assert around == Permitted((str(mine),))
-    assert not around.has(other / "a.usda", mine / "sub")
-    assert around.has(mine / "b.usda", mine / "sub")
+    context = Context(mine / "sub", around)
+    assert not context.permits(other / "a.usda")
+    assert context.permits(mine / "b.usda")
+
+
+def test_a_name_that_no_system_takes_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Refused, match="NUL") as caught:
+        Context(tmp_path, NOTHING_ELSE).find("buffer file", "a\0.bin")
+    assert caught.value.code == "bad-record"

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
-from satcheck.plugins.mjcf.child import model as read_model
+from satcheck.plugins.mjcf.readers import read_mjcf
 from satcheck.scene import MeshFile, Refused, load_scene
 from satcheck.scene.document import FilePart
 from satcheck.scene.files import readers
@@ -298,5 +298,5 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(readers, "import_module", missing)
     with pytest.raises(Refused, match=r"pip install 'satcheck\[mjcf\]'") as caught:
-        read_model(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
+        read_mjcf(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
     assert caught.value.code == "missing-extra"
