@@ -166,8 +166,9 @@ def forged_excuse(made: Json, certified: bool, off: float, paths: list[Path]) ->
 @pytest.mark.parametrize("weight", [5e-324, 1.0, 1e308])
 def test_weights_of_any_size_excuse_no_deep_overlap(tmp_path: Path, weight: float) -> None:
     """A box reaches 1/4 into another one, 25 times as deep as the touch band is wide."""
-    inserted = box((0.75, 0.25, 0.25), (1.25, 0.75, 0.75))
-    made = made_of(tmp_path, unit_box(), inserted, tolerance=0.01)
+    made = made_of(
+        tmp_path, unit_box(), box((0.75, 0.25, 0.25), (1.25, 0.75, 0.75)), tolerance=0.01
+    )
     (finding,) = made["findings"]
     assert finding["relation"] == "penetrating"
     cells = {
