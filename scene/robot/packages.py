@@ -63,12 +63,14 @@ class FilePlaces:
         self._permitted = permitted
         self._root = self._package()
         self._own = followed(self._root)
+        # The folder of the file, where a link leads to it, lies in none of those above the link.
+        self._beside = followed(self._folder)
         self._places = {file: self}
 
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            folders = (*self._permitted.folders, str(self._own))
+            folders = (*self._permitted.folders, str(self._own), str(self._beside))
             permitted = replace(self._permitted, folders=folders)
             self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
@@ -187,7 +189,8 @@ class FilePlaces:
         return [_tidy(self._folder.joinpath(*[".."] * steps)) for steps in range(count + 1)]
 
     def _may_open(self, place: Path) -> bool:
-        return self._permitted.has(place, self._own) or _is_from_environment(place)
+        own = self._own, self._beside
+        return any(self._permitted.has(place, each) for each in own) or _is_from_environment(place)
 
     def _outside(self) -> str:
         return self._permitted.beyond(f"of {self._own}, where the package of the file is")
