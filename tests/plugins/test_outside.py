@@ -150,7 +150,7 @@ def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[st
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--read", "tetra-scale=0"), "tetra-scale: not '0', but the factor of all corners"),
+        (("--read", "tetra-scale=0"), "should be a number (the factor of all corners"),
         (("--read", "tetra-skale=2"), "there are"),
         (("box.obj", "--read", "tetra-scale=2"), "has the option tetra-scale: they have none"),
     ],
