@@ -41,6 +41,7 @@ from satcheck.report.report import (
     all_allowed,
 )
 from satcheck.report.verdict import fails, summarise, truncated_of
+from satcheck.scene import Scene
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.joint_movers import JointMovers
@@ -49,7 +50,6 @@ if TYPE_CHECKING:
     from satcheck.core.peers import Peers
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
-    from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
 
@@ -85,7 +85,9 @@ def check(
         least = 1
     if len(scene.bodies) + len(scene.unreadable) < least:
         few = "one body" if least == 1 else "two bodies"
-        raise SatcheckError("too-few-bodies", f"a check needs {few} at least")
+        errors = [each for each in scene.issues if each.severity == "error"]
+        why = f"; {errors[0].message}" if errors else ""
+        raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
     bodies = place(scene, settings, cache)
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
@@ -155,6 +157,9 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
             seconds_per_file=settings.seconds_per_file,
             megabytes_per_file=settings.megabytes_per_file,
         )
+    if not isinstance(scene, Scene):
+        kind = type(scene).__name__
+        raise SatcheckError("bad-argument", f"scene: a Scene, or a list of paths, got {kind}")
     scene = scene.reaching()
     if settings.planar is None:
         scene.require_in_space("add --planar xy")

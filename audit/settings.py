@@ -65,7 +65,7 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
             try:
                 convert(plain, kind)
             except ValidationError as error:
-                raise _refused(f"{name}: {str(error).removesuffix('.')}, not {value!r}") from None
+                raise _refused(f"{name}: {_reason(error, kind)}, not {value!r}") from None
         for name in ("contacts", "components", "volume", "cross_check"):
             if not getattr(self, name):
                 continue
@@ -122,6 +122,14 @@ def documentation(name: str) -> str:
 def _kinds() -> dict[str, Any]:
     """The type of each setting, with its limits."""
     return get_type_hints(Settings, include_extras=True)
+
+
+def _reason(error: ValidationError, kind: Any) -> str:
+    """What a setting of this type should be."""
+    choices = [word for inner in (kind, *get_args(kind)) for word in get_args(inner)]
+    if str(error).startswith("Invalid enum value"):
+        return f"one of {', '.join(filter(lambda word: isinstance(word, str), choices))} expected"
+    return str(error).removesuffix(".")
 
 
 def _refused(message: str) -> SatcheckError:

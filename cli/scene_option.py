@@ -28,7 +28,7 @@ def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict
     read: dict[str, OptionValue] = {}
     for text in texts:
         spelling, equals, value = text.partition("=")
-        if not equals:
+        if not (equals and spelling):
             raise click.BadParameter(f"{text!r} should be NAME=VALUE")
         try:
             option = option_named(spelling)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from satcheck.cli.commands import COMMANDS, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
-from satcheck.scene.files.readers import mesh_reader
+from satcheck.scene.files.readers import mesh_reader, options
 from satcheck.scene.opening import exists, is_file, is_folder
 
 if TYPE_CHECKING:
@@ -30,7 +30,10 @@ MOST_FILES = 8
 MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
 # Options about the document, not about the answer, and about many assets.
-_DELIVERY = ("form", "output", "quiet", "top", "changed_since", "exclude", "color", "exit_zero")
+_DELIVERY = (
+    *("form", "output", "quiet", "top", "changed_since", "exclude", "color", "exit_zero"),
+    *("scene_seconds", "scene_megabytes"),
+)
 # What other programs call our options: a name without dashes, and what it is here.
 _ALIASES: Mapping[str, tuple[str, ...]] = {
     "html": ("-o", "report.html"),
@@ -75,11 +78,21 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
     """Of an option that the command does not have."""
     words, wrong = sys.argv[1:], error.option_name
     known = [] if error.ctx is None else _options(error.ctx.command)
-    right = _meant(wrong.lstrip("-"), known)
     place = next((k for k, word in enumerate(words) if word.partition("=")[0] == wrong), None)
-    if right is None or place is None:
+    if place is None:
         return None
     _, equals, value = words[place].partition("=")
+    name = wrong.lstrip("-")
+    if "--read" in known and (option := options().get(name.replace("-", "_"))) is not None:
+        after = words[place + 1 :]
+        if option[0].type is bool and not equals:
+            value = "true"
+        elif not equals:
+            value, after = "".join(after[:1]), after[1:]
+        return Advice("did you mean", _line([*words[:place], "--read", f"{name}={value}", *after]))
+    right = _meant(name, known)
+    if right is None:
+        return None
     words[place : place + 1] = [*right, *([value] if equals else [])]
     return Advice("did you mean", _line(words))
 
@@ -132,8 +145,19 @@ def check_of(file: str, ctx: click.Context) -> str:
     kept: list[str] = []
     for option in dict.fromkeys(order):
         if option.param_type_name == "option" and option.name not in _DELIVERY:
-            kept += _as_given(option, values[option.name])
+            value = values[option.name]
+            kept += _as_given(option, _counting(value, file) if option.name == "read" else value)
     return _line([file, *kept])
+
+
+def _counting(texts: Sequence[str], file: str) -> list[str]:
+    """Of the options of readers, those that this mesh has: a plain check refuses others. A scene or
+    a robot may place any mesh."""
+    reader = mesh_reader(Path(file).suffix)
+    if reader is None:
+        return list(texts)
+    named = {option.name for option in reader.options}
+    return [text for text in texts if text.partition("=")[0].replace("-", "_") in named]
 
 
 def _as_given(option: click.Parameter, value: Any) -> list[str]:
@@ -241,7 +265,7 @@ def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
     alias = _ALIASES.get(wrong)
     if alias is not None and alias[0] in known:
         return alias
-    near = get_close_matches(f"--{wrong}", known, n=1)
+    near = get_close_matches(f"--{wrong}", known, n=1, cutoff=0.75)
     return tuple(near) if near else None
 
 

@@ -241,7 +241,8 @@ class Context:
         if self.permitted.anywhere:
             return True
         real = followed(place)
-        folders = (str(self.own), *self.permitted.folders)
+        # The folder of the file, where a link leads to it, may lie outside of its package.
+        folders = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
         return any(map(real.is_relative_to, folders))
 
     def refusal(

@@ -47,7 +47,7 @@ def counts_line(report: Report) -> str:
     if pairs.asked:
         counts = _counts(report)
         if pairs.allowed:
-            counts.append(f"{pairs.allowed:,} allowed by the scene")
+            counts.append(f"{pairs.allowed:,} allowed")
         line += f": {', '.join(counts)}{_exempt(report)}"
     more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
     return " ".join([f"{line}.", *more, *doubts(report.issues)])

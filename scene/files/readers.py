@@ -29,6 +29,7 @@ from satcheck.scene.files import limits
 from satcheck.scene.opening import File as File
 from satcheck.scene.opening import ReadLimits as ReadLimits
 from satcheck.scene.opening import StrPath, size_of, suffix_of
+from satcheck.scene.words import meant
 
 T = TypeVar("T")
 _ZIP = b"PK\x03\x04"
@@ -100,11 +101,26 @@ class Option(Struct, frozen=True):
             from satcheck.scene.units import parse_length
 
             return parse_length(text).in_units_of("mm")
-        kind = get_args(self.type)[0] if get_origin(self.type) is Annotated else self.type
-        return text.split(",") if get_origin(kind) is tuple else text
+        return text.split(",") if self._takes_several else text
+
+    @property
+    def _plain_type(self) -> Any:
+        return get_args(self.type)[0] if get_origin(self.type) is Annotated else self.type
+
+    @property
+    def _takes_several(self) -> bool:
+        return get_origin(self._plain_type) is tuple
 
     def _refused(self, value: object) -> SatcheckError:
-        return SatcheckError("bad-argument", f"{self.spelling}: not {value!r}, but {self.help}")
+        if self._plain_type is bool:
+            fit = "true or false"
+        elif self.choices:
+            several = ", or several with commas" if self._takes_several else ""
+            fit = f"one of {', '.join(self.choices)}{several}"
+        else:
+            what = "a number" if self._plain_type in (int, float) else "another value"
+            fit = f"{what} ({self.help})"
+        return SatcheckError("bad-argument", f"{self.spelling} should be {fit}, not {value!r}")
 
 
 # `--geometry` gives it.
@@ -367,7 +383,9 @@ def option_named(name: str) -> Option:
     if name not in known:
         named = [f"{option.spelling} ({', '.join(titles)})" for option, titles in known.values()]
         failed = failures("readers", KINDS)
-        message = f"no reader has the option {name}; there are {', '.join(sorted(named))}{failed}"
+        spelling, there = name.replace("_", "-"), ", ".join(sorted(named))
+        near = meant(spelling, [option.spelling for option, _ in known.values()])
+        message = f"no reader has the option {spelling}{near}; there are {there}{failed}"
         raise SatcheckError("bad-argument", message)
     return known[name][0]
 

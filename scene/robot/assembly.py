@@ -262,9 +262,9 @@ def _checked_neighbours(robot: SceneRobot) -> Iterator[Issue]:
     permitted = robot.srdf.permission if robot.srdf else lambda *_: None
     checked = [f"{a} and {b}" for a, b in robot.neighbours() if permitted(a, b) is None]
     if checked:
-        pairs = "pair" if len(checked) == 1 else "pairs"
+        pairs, are = ("pair", "is") if len(checked) == 1 else ("pairs", "are")
         message = (
-            f"{len(checked)} {pairs} of links with a joint between them are checked like any "
+            f"{len(checked)} {pairs} of links with a joint between them {are} checked like any "
             f"other, as no SRDF allows them to touch: {listed(checked)}"
         )
         yield issue("neighbours-checked", message, file=robot.robot.file)

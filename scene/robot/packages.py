@@ -69,8 +69,8 @@ class FilePlaces:
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            permitted, own = self._context.permitted, str(self._context.own)
-            permitted = replace(permitted, folders=(*permitted.folders, own))
+            permitted, own = self._context.permitted, (self._context.own, followed(self._folder))
+            permitted = replace(permitted, folders=(*permitted.folders, *map(str, own)))
             self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
 

@@ -91,13 +91,13 @@ def _pose(document: Any, what: str, file: str | None) -> Pose:
 def _values(name: str, value: Any, what: str, file: str | None) -> Values:
     numbers = value if isinstance(value, list) else [value]
     if not numbers or not all(type(number) in (int, float) for number in numbers):
-        raise _bad(f"{what}: joint {name!r}: should be a number or a list of numbers", file)
+        raise _bad(f"{what}: joint {name!r} should be a number or a list of numbers", file)
     try:
         values = tuple(float(number) for number in numbers)
     except OverflowError:
         values = (math.inf,)
     if not all(map(math.isfinite, values)):
-        raise _bad(f"{what}: joint {name!r}: is not finite", file)
+        raise _bad(f"{what}: joint {name!r} is not finite", file)
     return values
 
 

@@ -252,6 +252,14 @@ def test_one_body_is_refused(tmp_path):
     with pytest.raises(SatcheckError) as caught:
         check(write(tmp_path, a=unit_box()))
     assert caught.value.code == "too-few-bodies"
+    with pytest.raises(SatcheckError, match=r"two bodies at least; .*gone.obj: no such file"):
+        check([tmp_path / "gone.obj"])
+
+
+def test_one_path_is_no_list_of_paths(tmp_path):
+    with pytest.raises(SatcheckError, match=r"a list of paths, got .*Path") as caught:
+        check(write(tmp_path, a=unit_box())[0])
+    assert caught.value.code == "bad-argument"
 
 
 def test_a_check_of_nothing_never_passes(tmp_path):

@@ -28,6 +28,13 @@ def test_refused(given):
     assert caught.value.code == "bad-setting"
 
 
+def test_a_refusal_names_the_words_that_a_setting_takes():
+    with pytest.raises(SatcheckError, match=r"accuracy: one of aabb, .*exact expected, not 'best'"):
+        Settings(accuracy="best")
+    with pytest.raises(SatcheckError, match="planar: one of xy, yz, xz expected, not 'x'"):
+        Settings(planar="x")
+
+
 def test_what_changes_no_answer_is_not_in_the_report():
     stated = Settings().stated(depth=True, thickness=True)
     assert not {"jobs", "cache", "timings"} & set(stated.__struct_fields__)

@@ -444,6 +444,14 @@ def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Pat
     assert satcheck(*words, cwd=tmp_path).code == 1
 
 
+@needs("step")
+def test_the_proposed_check_leaves_out_what_it_would_refuse(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path)
+    options = ("--scene-seconds", "99", "--scene-megabytes", "3000", "--read", "chord-tolerance=1")
+    ran = satcheck("each", ".", *options, cwd=tmp_path)
+    assert ran.out.endswith("Next: satcheck gripper.glb lists its pairs.\n")
+
+
 @on_posix
 @pytest.mark.parametrize(
     ("word", "code", "how"),

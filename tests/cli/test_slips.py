@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.process import SAMPLES, satcheck
+from tests.plugin_marks import needs
 
 MESHES = ("box.obj", "box_flush.stl", "box_pushed.stl", "cube.off", "ring.glb")
 
@@ -52,6 +53,17 @@ def expanded(command: str, folder: Path) -> list[str]:
         (["level", "my parts"], ["each level 'my parts'"]),
         (["eac", "my parts"], ["each 'my parts'"]),
         (["box.obj", "cube.off", "--formt=json"], ["box.obj cube.off --format json"]),
+        pytest.param(
+            ["box.obj", "--time", "3", "cube.off"],
+            ["box.obj --read time=3 cube.off"],
+            marks=needs("usd"),
+        ),
+        pytest.param(
+            ["box.obj", "--mesh-hulls", "cube.off"],
+            ["box.obj --read mesh-hulls=true cube.off"],
+            marks=needs("mjcf"),
+        ),
+        (["each", "level", "--sample", "5"], []),
         (["*.glb"], ["ring.glb", "each '*.glb'"]),
         (["*.stl"], ["box_flush.stl box_pushed.stl", "each '*.stl'"]),
         (["*.dae"], ["*.stl"]),

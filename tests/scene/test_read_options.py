@@ -46,9 +46,9 @@ def test_a_length_is_in_millimetres_or_has_a_unit(text: str, value: float) -> No
 
 @pytest.mark.parametrize("text", ["0", "-1", "inf", "nan", "", "wide", "1 parsec"])
 def test_a_value_that_an_option_does_not_take_is_refused(text: str) -> None:
-    with pytest.raises(SatcheckError, match="chord-tolerance: not"):
+    with pytest.raises(SatcheckError, match="chord-tolerance should be a number"):
         CHORD.parsed(text)
-    with pytest.raises(SatcheckError, match="angular-tolerance: not"):
+    with pytest.raises(SatcheckError, match="angular-tolerance should be a number"):
         ANGLE.parsed(text)
 
 
@@ -113,8 +113,22 @@ def test_an_option_without_effect_is_told(tmp_path: Path) -> None:
         ),
         pytest.param(
             ["chord-tolerance=0"],
-            "chord-tolerance: not '0', but how far facets may be off",
+            "should be a number (how far facets may be off, in millimetres, above 0), not '0'",
             marks=needs("step"),
+        ),
+        (["=1"], "'=1' should be NAME=VALUE"),
+        pytest.param(
+            ["purpos=render"], "has the option purpos (did you mean 'purpose'?)", marks=needs("usd")
+        ),
+        pytest.param(
+            ["purpose=rend"],
+            "purpose should be one of render, proxy, guide, or several with commas, not 'rend'",
+            marks=needs("usd"),
+        ),
+        pytest.param(
+            ["mesh-hulls=maybe"],
+            "mesh-hulls should be true or false, not 'maybe'",
+            marks=needs("mjcf"),
         ),
     ],
 )

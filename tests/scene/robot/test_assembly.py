@@ -67,6 +67,12 @@ def test_without_an_srdf_neighbours_are_checked_and_a_note_says_so() -> None:
     assert note.message.startswith("5 pairs of links")
 
 
+def test_one_pair_of_neighbours_is_one(tmp_path: Path) -> None:
+    scene = load(tmp_path, link("a"), link("b"), joint("j", "a", "b"))
+    (note,) = [issue for issue in scene.issues if issue.code == "neighbours-checked"]
+    assert "1 pair of links with a joint between them is checked" in note.message
+
+
 def test_links_without_bodies_are_part_of_the_joint(tmp_path: Path) -> None:
     elements = [link("a"), link("frame", ""), link("b"), joint("j", "a", "frame")]
     scene = load(tmp_path, *elements, joint("k", "frame", "b"))

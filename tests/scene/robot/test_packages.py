@@ -9,6 +9,7 @@ import pytest
 from satcheck.scene import Refused
 from satcheck.scene.opening import ANYWHERE
 from satcheck.scene.robot import FilePlaces
+from tests.scene.hostile import needs_links
 
 
 @pytest.fixture(autouse=True)
@@ -72,6 +73,17 @@ def test_file_paths_may_start_in_a_folder_above(tmp_path: Path) -> None:
     other = file(tmp_path / "models" / "other.stl")
     assert refusal(places(folder), "file://models/other.stl")[0] == "outside-path"
     assert places(folder, permitted=ANYWHERE).locate("file://models/other.stl") == other
+
+
+@needs_links
+def test_a_link_to_the_folder_of_a_urdf_leads_to_its_meshes(tmp_path: Path) -> None:
+    file(tmp_path / "real" / "arm" / "a.stl")
+    file(tmp_path / "real" / "b.stl")
+    linked = tmp_path / "assets" / "arm"
+    linked.parent.mkdir()
+    linked.symlink_to(tmp_path / "real" / "arm")
+    assert places(linked).locate("a.stl") == linked / "a.stl"
+    assert refusal(places(linked), str(tmp_path / "real" / "b.stl"))[0] == "outside-path"
 
 
 def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
