@@ -58,7 +58,7 @@ def function_at(place: str) -> Any:
 @cache
 def versions() -> tuple[str, ...]:
     """Return what answers depend on beside satcheck: the installed packages that it names, with
-    their versions, and those that register plug-ins. The modules of these also have a size and a
+    their versions, and those that register plug-ins. Of these the modules count too, by size and
     time: who writes a plug-in changes it more often than its version."""
     from importlib.metadata import PackageNotFoundError, entry_points, requires, version
 
@@ -75,11 +75,15 @@ def versions() -> tuple[str, ...]:
 
 
 def _state(module: str) -> str:
+    """Return the names, sizes and times of the modules of the package that this one is in."""
     with suppress(ImportError, OSError, ValueError):  # it is said where it is loaded
-        spec = find_spec(module)
-        if spec is not None and spec.origin is not None:
-            status = Path(spec.origin).stat()
-            return f"{status.st_size} {status.st_mtime_ns}"
+        spec = find_spec(module.partition(".")[0])
+        folders = [] if spec is None else spec.submodule_search_locations or []
+        files = [file for folder in folders for file in sorted(Path(folder).rglob("*.py"))]
+        if not files and spec is not None and spec.origin is not None:
+            files = [Path(spec.origin)]
+        states = ((file, file.stat()) for file in files)
+        return " ".join(f"{file} {each.st_size} {each.st_mtime_ns}" for file, each in states)
     return ""
 
 

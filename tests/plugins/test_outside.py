@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.core import plugins
 from tests.cli.process import SAMPLES, Ran, satcheck
 
 PACKAGE = Path(__file__).parent / "outside" / "tetra.py"
@@ -157,6 +158,19 @@ def test_results_of_another_state_of_it_are_not_kept(tmp_path: Path, env: dict[s
     same = "b'0 0 0 1 0 0 0 1 0 0 0 1'"  # whatever the file says
     module.write_text(module.read_text().replace("bytes(file.data)", same))
     assert satcheck(*words, "--resume", cwd=tmp_path, env=env).code == 1
+
+
+def test_every_module_of_a_package_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its entry point names one module, and the reader may be in another."""
+    folder = tmp_path / "shapes_of_somebody"
+    folder.mkdir()
+    for name in ("__init__", "readers", "reading"):
+        (folder / f"{name}.py").write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    before = plugins._state("shapes_of_somebody.readers")
+    assert before == plugins._state("shapes_of_somebody.readers")
+    (folder / "reading.py").write_text("READ = 1\n")
+    assert plugins._state("shapes_of_somebody.readers") != before
 
 
 def test_a_choice_of_its_option_is_said_in_a_scene(tmp_path: Path, env: dict[str, str]) -> None:
