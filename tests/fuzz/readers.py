@@ -29,7 +29,7 @@ from tests.plugin_marks import has
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "sample_meshes"
-SEEDS = ROOT / "scene" / "native" / "fuzz" / "seeds"
+SEEDS = ROOT / "scene" / "native" / "tests" / "fuzz" / "seeds"
 
 # Reads the file at a path. Raises SatcheckError or Rejected for one that it refuses.
 Reader = Callable[[Path], object]
