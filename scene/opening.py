@@ -237,13 +237,14 @@ class Context:
         """The folder all of whose files it may name, without links."""
         return followed(self._package or self.folder)
 
-    def permits(self, place: Path) -> bool:
-        if self.permitted.anywhere:
-            return True
-        real = followed(place)
+    @cached_property
+    def _folders(self) -> tuple[str, ...]:
         # The folder of the file, where a link leads to it, may lie outside of its package.
-        folders = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
-        return any(map(real.is_relative_to, folders))
+        own = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
+        return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
+
+    def permits(self, place: Path) -> bool:
+        return self.permitted.anywhere or f"{followed(place)}{os.sep}".startswith(self._folders)
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"

@@ -208,7 +208,7 @@ void note_unread(const PlyElement& element, MeshData& mesh) {
     const bool is_list = property.is_list && !is_corner_list(property) && !is_harmless_list(property.name);
     const bool is_index = !known && !is_float(property.type) && property.name.starts_with("v");
     splats = splats || property.name == "scale_0";
-    if (is_list || is_index) unread += (unread.empty() ? "" : ", ") + property.name;
+    if (is_list || is_index) unread += (unread.empty() ? "" : ", ") + quoted(property.name);
   }
   if (!unread.empty()) {
     mesh.warnings.push_back({code::unread, "element " + quoted(element.name) + ": " + unread + " is not read; it may be faces"});

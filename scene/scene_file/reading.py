@@ -22,7 +22,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_reader, readers
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted
+from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted, suffix_of
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
@@ -217,7 +217,7 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
     def found(mesh: str, part: str | None) -> FilePart:
         if part is not None:
             return replace(found(mesh, None), part=part)
-        if mesh_reader(Path(mesh).suffix) is None:
+        if mesh_reader(suffix_of(mesh)) is None:
             known = ", ".join(sorted(filter(mesh_reader, readers())))
             message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
