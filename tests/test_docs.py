@@ -23,9 +23,10 @@ PAGES = (
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted((ROOT / "plugins").glob("*/README.md")),
 )
+_MORE = ("ARCHITECTURE.md", "CHANGELOG.md", "bench/README.md", "bench/accuracy-vs-time.md")
 LINKING = (
     *PAGES,
-    *(ROOT / name for name in ("ARCHITECTURE.md", "CHANGELOG.md", "bench/README.md")),
+    *(ROOT / name for name in _MORE),
 )
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TIME = re.compile(r" *\d+(\.\d+)? (us|ms|s)\b *")
