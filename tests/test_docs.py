@@ -101,7 +101,7 @@ def test_a_command_prints_what_the_page_shows(block: str, root: Path) -> None:
 
 
 def test_the_five_lines_of_the_squares_are_their_file() -> None:
-    (shown,) = blocks(ROOT / "docs" / "planar.md", "toml")
+    (shown,) = blocks(ROOT / "docs" / "bodies.md", "toml")
     assert shown == (ROOT / "docs" / "squares.toml").read_text("utf-8")
 
 
