@@ -31,7 +31,7 @@ def read() -> Iterator[str]:
     for title, reader in sorted(known.items(), key=lambda item: item[0].lower()):
         extra = _PLUGIN.match(reader.read)
         needs = extra is not None and extra[1] in extras["optional-dependencies"]
-        install = f"; `satcheck[{extra[1]}]`" if extra and needs else ""
+        install = f"; `[{extra[1]}]`" if extra and needs else ""
         yield f"- {title}: {_code(reader.endings)}{install}{_defaults(reader)}"
 
 
