@@ -1,6 +1,6 @@
 """What accuracy costs in time, over a corpus: every rung of the ladder on every pair, as a page.
 
-    python -m bench.accuracy_vs_time CORPUS... [--pair A B] [--page docs/accuracy-vs-time.md]
+    python -m bench.accuracy_vs_time CORPUS... [--pair A B] [--page bench/accuracy-vs-time.md]
 
 CORPUS: a pair file (as of depth_interval.py), the index of sample_meshes, a folder with one of
 them, or any other folder: every two of its meshes. --pair: two files besides. Linux, for the memory

@@ -211,7 +211,7 @@ def test_a_pair_of_a_scene_is_named(tmp_path: Path) -> None:
 
 
 def test_the_page_shows_how_the_axes_grow() -> None:
-    page = (growth_page.HERE / "axes.md").read_text(encoding="utf-8")
+    page = (growth_page.HERE / "laboratory.md").read_text(encoding="utf-8")
     assert growth_page.HEAD + "\n".join(growth_page.growth()) + "\n\n" in page
 
 
