@@ -5,7 +5,7 @@ While A moves along a line relative to B, it stays within the convex hull of its
 place. The overlap stays within the touch band:
 
 - if the hull, made a little smaller, has no common interior with the solid B. Then no ball thicker
-  than the band lies in both bodies at any time, as for bodies at rest (docs/thickness.md).
+  than the band lies in both bodies at any time, as for bodies at rest (docs/answers.md).
 - if the hull overlaps that of B by no more than the band. The translation that ends this overlap
   ends every one on the way. This is asked of convex bodies and of sheets, for example of a spike
   that passes the tip of another one: their faces show no way off.
