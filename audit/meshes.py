@@ -40,8 +40,8 @@ def check_meshes(
 
     - relation: "separated", "near", "touching", "penetrating", "contains" (b in a), "inside" (a in
       b), "coincident", or "indeterminate" with a `reason`.
-    - distance: the gap, >= 0, of bodies that do not overlap; None: larger than settings.clearance,
-      so not measured.
+    - distance: the gap, >= 0, of bodies that do not overlap, with Settings(distance=True), or up to
+      settings.clearance; else None.
     - depth and depth_bounds of bodies that overlap; mtv: the translation that frees a, verified.
     - quality: "exact", "bounded" (depth lies within depth_bounds) or "estimate" (not proven).
 

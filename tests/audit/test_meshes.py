@@ -226,3 +226,38 @@ def test_what_another_function_takes_is_refused_with_its_name(call: Any, functio
         call()
     assert raised.value.code == "bad-argument"
     assert function in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("x", "relation", "distance"),
+    [(1.5, "penetrating", None), (2.0, "touching", 0.0), (3.0, "separated", 1.0)],
+)
+def test_a_distance_needs_no_clearance(x: float, relation: str, distance: float | None) -> None:
+    """It changes no verdict."""
+    found = check_meshes(CUBE, CUBE, pose_b=moved(x), settings=Settings(distance=True))
+    plain = check_meshes(CUBE, CUBE, pose_b=moved(x))
+    assert (found.relation, found.distance) == (relation, distance)
+    assert (found.relation, found.severity, found.depth) == (
+        plain.relation, plain.severity, plain.depth
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("file", ["cell.toml", "arm.urdf", "yard.sdf", "crossed_edges.toml"])
+def test_a_distance_of_every_pair_of_a_scene(file: str) -> None:
+    """Also of those whose boxes are far apart, and beside rules with clearances."""
+    measured, plain = (check([SAMPLES / file], Settings(distance=d)) for d in (True, False))
+    assert measured.summary.verdict == plain.summary.verdict
+    assert [(f.relation, f.severity, f.depth) for f in measured.findings] == [
+        (f.relation, f.severity, f.depth) for f in plain.findings
+    ]
+    apart = [f for f in measured.findings if f.relation in ("separated", "near", "touching")]
+    assert apart
+    assert all(f.distance is not None for f in apart)
+    (effect,) = [each for each in measured.effects if each.effect == "distance"]
+    assert "distance" in effect.asked_by
+
+
+def test_a_distance_in_a_plane() -> None:
+    flat = Settings(planar="xy", thickness=False, distance=True)
+    found = check_meshes(CUBE, CUBE, pose_b=moved(5.0), settings=flat)
+    assert (found.relation, found.distance) == ("separated", 3.0)
