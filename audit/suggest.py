@@ -124,14 +124,17 @@ def suggestions_of(
         tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
         pairs = {*findings, *tallies, *robots.adjacent}
         issues |= dict.fromkeys(report.issues)
-        undecided |= _undecided(report, samples, asset)
         for a, b in sorted(pairs, key=lambda pair: (place[pair[1]], place[pair[0]])):
-            made = _suggestion(a, b, findings.get((a, b)), tallies.get((a, b)), robots, poses)
+            finding, tally = findings.get((a, b)), tallies.get((a, b))
+            made = _suggestion(a, b, finding, tally, robots, poses)
+            reason = _open_question(finding, tally)
             if isinstance(made, Unchecked):
                 unchecked.append(replace(made, asset=asset))
-                undecided.setdefault(_named(a, b, asset), made.reason)
+                reason = made.reason
             elif made is not None:
                 suggested.append(replace(made, asset=asset))
+            if reason is not None:
+                undecided[f"{asset}: {a} and {b}" if asset else f"{a} and {b}"] = reason
             links = robots.links_of(a, b)
             if links and not (isinstance(made, Suggestion) and made.why == "never"):
                 may_meet.add(frozenset(links))
@@ -206,19 +209,9 @@ def _may_hit(finding: Finding) -> bool:
     return bool(meets) or finding.undecided is not None
 
 
-def _named(a: str, b: str, asset: str | None) -> str:
-    return f"{a} and {b}" if asset is None else f"{asset}: {a} and {b}"
-
-
-def _undecided(report: Report, samples: SamplesReport | None, asset: str | None) -> dict[str, str]:
-    """As placed, then in the poses."""
-    first: dict[str, str] = {}
-    for finding in report.findings:
-        if finding.undecided is not None:
-            swept = finding.motion and finding.motion.reason
-            name = _named(finding.a, finding.b, asset)
-            first.setdefault(name, finding.reason or swept or "undecided")
-    undecided = [pair for pair in samples.pairs if pair.undecided] if samples else []
-    for pair in sorted(undecided, key=lambda pair: pair.first_undecided or 0):
-        first.setdefault(_named(pair.a, pair.b, asset), pair.reason or "undecided")
-    return first
+def _open_question(finding: Finding | None, tally: SampledPair | None) -> str | None:
+    """Return what is undecided, as placed or else in the poses."""
+    if finding and finding.undecided is not None:
+        swept = finding.motion and finding.motion.reason
+        return finding.reason or swept or "undecided"
+    return (tally.reason or "undecided") if tally and tally.undecided else None

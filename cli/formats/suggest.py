@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from itertools import islice, product
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
@@ -26,6 +27,8 @@ _NAMED = 5
 # Words of the MoveIt setup assistant, which takes any other for "User". Strongest first. An SRDF
 # has no limits.
 _SRDF_REASONS: dict[Why, str] = {"adjacent": "Adjacent", "always": "Default", "never": "Never"}
+# A pair of names in an asset.
+Key = tuple[str | None, frozenset[str]]
 _LAST_NUMBER = re.compile(r"\d+(?=\D*$)")
 
 
@@ -49,16 +52,14 @@ class Rule(Struct, frozen=True):
     def is_group(self) -> bool:
         """Return whether one rule stands for several pairs: they have the same limits, up to the
         margin, and no other pair has such names."""
-        return (
-            len(self.pairs) > 1
-            and not self.others
-            and all(
-                pair.why == "contact"
-                and _alike(pair.max_thickness, self.max_thickness)
-                and _alike(pair.max_depth, self.max_depth)
-                for pair in self.pairs
-            )
+        thickness, depth = self.max_thickness, self.max_depth
+        alike = (
+            pair.why == "contact"
+            and _alike(pair.max_thickness, thickness)
+            and _alike(pair.max_depth, depth)
+            for pair in self.pairs
         )
+        return len(self.pairs) > 1 and not self.others and all(alike)
 
 
 def _largest(values: Iterable[float | None]) -> float | None:
@@ -76,28 +77,39 @@ def rules_of(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> Iterator[
     for asset, ids in suggestions.ids.items():
         for id_ in ids:
             assets.setdefault(id_, {})[asset] = None
-    tried = set()
-    while left:
-        first = next(iter(left.values()))
+    refused = set()
+    choose = cache(lambda selector: Selector(selector).choose(assets))
+    for first in list(left.values()):
+        if (first.asset, frozenset((first.a, first.b))) not in left:
+            continue
         *groups, exact = product(_selectors(first.a), _selectors(first.b))
-        for a, b in (*(group for group in groups if group not in tried), exact):
-            tried.add((a, b))
-            some, others = Selector(a).choose(assets), Selector(b).choose(assets)
-            if len(some) * len(others) > 2 * len(left) + len(some) and (a, b) != exact:
-                continue  # more pairs than suggestions
-            covered = dict.fromkeys(
-                (asset, frozenset((x, y)))
-                for x, y in product(some, others)
-                for asset in assets[x]
-                if x != y and asset in assets[y]
-            )
-            found = [left[key] for key in covered if key in left]
-            rule = Rule(a, b, found, len(covered) - len(found))
+        for a, b in (*(group for group in groups if group not in refused), exact):
+            found: dict[Key, Suggestion] = {}
+            others = 0
+            for key in _covered(choose(a), choose(b), assets):
+                if key in left:
+                    found[key] = left[key]
+                    continue
+                others += 1
+                if (a, b) != exact:
+                    break
+            rule = Rule(a, b, list(found.values()), others)
             if rule.is_group:
                 break
+            refused.add((a, b))
         yield rule
-        for key in covered:
-            left.pop(key, None)
+        for key in found:
+            del left[key]
+
+
+def _covered(
+    some: Collection[str], others: Collection[str], assets: Mapping[str, Collection[str | None]]
+) -> Iterator[Key]:
+    """Yield the pairs of these bodies. assets: that have a body of this name."""
+    for x, y in product(some, others):
+        for asset in assets[x]:
+            if x != y and asset in assets[y]:
+                yield asset, frozenset((x, y))
 
 
 def _selectors(name: str) -> tuple[str, ...]:
