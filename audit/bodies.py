@@ -154,9 +154,9 @@ class BodyCache:
         if earlier is not None and earlier.body is body:
             return earlier
         meshes: dict[Any, SharedMesh] = self.meshes
-        key: Any = mesh_key(body.file)
-        if body.file.prepared is not None:
-            meshes, key = body.file.prepared, SharedMesh.terms(settings)
+        key: tuple[object, ...] = mesh_key(body.file)
+        if body.file.prepared is not None:  # of one mesh, whatever the body is called
+            meshes, key = body.file.prepared, (*key[2:], *SharedMesh.terms(settings))
         if key not in meshes:
             in_file = bounds if body.transform is None else None
             meshes[key] = SharedMesh(body.file, settings, in_file)

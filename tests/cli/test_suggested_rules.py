@@ -65,6 +65,14 @@ def nodes_of_two(folder: Path) -> tuple[str, ...]:
     return (*glb(folder), "gripper.glb", "--split", "nodes")
 
 
+def concave(folder: Path) -> tuple[str, ...]:
+    """Their depth is a wide interval."""
+    names = ("kettle.obj", "snowflake.obj")
+    for name in names:
+        shutil.copy(SAMPLES / name, folder)
+    return names
+
+
 def toml_scene(folder: Path) -> tuple[str, ...]:
     bodies = "".join(
         f"[[bodies]]\nid = {json.dumps(name, ensure_ascii=False)}\nposition = [{STEP * k}, 0, 0]\n"
@@ -121,7 +129,7 @@ def outlines(folder: Path) -> tuple[str, ...]:
 
 
 KINDS = (
-    *(meshes, glb, threemf, components, split_glb, nodes_of_two, toml_scene, json_scene),
+    *(meshes, concave, glb, threemf, components, split_glb, nodes_of_two, toml_scene, json_scene),
     *(simple_scene, robot, outlines),
 )
 
