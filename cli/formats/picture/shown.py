@@ -269,9 +269,10 @@ def _anchor(body: Body, view: Viewpoint, rows: Floats, away: Floats, *, closely:
     """A corner of the mesh within the picture, away from the other body; in coordinates of the
     file."""
     mesh, world = body.file.mesh, body.world_mesh()
-    own: Floats = np.asarray(mesh.vertices)
+    own = np.asarray(mesh.vertices)
     if not closely:
-        return own[0]
+        first: Floats = own[0]
+        return first
     every = slice(None, None, max(1, len(own) // _POINTS))
     own, seen = own[every], (np.asarray(world.vertices)[every] - view.target) @ rows.T
     off = np.abs(seen[:, :2]).max(axis=1)
