@@ -70,7 +70,8 @@ def command(
     .png, .glb and .bcf. The page shows where surfaces cross if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
-    an internal error; 3, a file is missing or has changed.
+    an internal error; 3, a file is missing or has changed, or the report does not say where bodies
+    stand.
     """
     form = form_of(None, output, ("picture",)) if output else "html"
     pictures, inputs = taken_pictures(options), Inputs((str(report),))

@@ -71,6 +71,8 @@ def picture_data(
             seen = shows.of(finding, closely=rank < CLOSELY)
             rims.append(seen.marks.rim.lines if seen.marks.rim else [])
             stated |= _drawn(seen, numbers, drawn.middle)
+            if moments.note:  # several poses
+                stated["measured"] += f", {moments.names[seen.moment]}" if moments.names else ""
         else:
             rims.append([])
             stated |= {"a": numbers.get(finding.a), "b": numbers.get(finding.b)}

@@ -1,6 +1,7 @@
 // What is selected, the panel, and what the mouse and the keys do.
 const camera = new Camera(report.up);
 const state = { selected: -1, component: -1, pending: false };
+const DOTS = " Dots are findings: red for errors, orange for warnings, blue for notes.";
 let picture = null;
 
 const finding = () => report.findings[state.selected];
@@ -58,7 +59,7 @@ function select(number) {
   Object.assign(state, { selected: now ? number : -1, component: -1 });
   mark(number);
   element("pair").hidden = !now;
-  element("detail").textContent = now ? now.text : "All bodies. Dots are findings: red for errors, orange for warnings, blue for notes.";
+  element("detail").textContent = now ? now.text : `All bodies.${report.findings.length ? DOTS : ""}`;
   element("view").setAttribute("aria-label", now ? `3-D view of ${now.names[0]} and ${now.names[1]}` : "3-D view of all bodies");
   listComponents(now, choose);
   if (!picture) return;
