@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import combinations, product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
@@ -153,11 +153,14 @@ class BodyCache:
         earlier = self.placed.get(body.id)
         if earlier is not None and earlier.body is body:
             return earlier
-        key = mesh_key(body.file)
-        if key not in self.meshes:
+        meshes: dict[Any, SharedMesh] = self.meshes
+        key: tuple[object, ...] = mesh_key(body.file)
+        if body.file.prepared is not None:  # of one mesh, whatever the body is called
+            meshes, key = body.file.prepared, (*key[2:], *SharedMesh.terms(settings))
+        if key not in meshes:
             in_file = bounds if body.transform is None else None
-            self.meshes[key] = SharedMesh(body.file, settings, in_file)
-        placed = PlacedBody(body, self.meshes[key], bounds)
+            meshes[key] = SharedMesh(body.file, settings, in_file)
+        placed = PlacedBody(body, meshes[key], bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
             far, most = told_apart(largest, LARGEST_PLACED)
             raise OverflowError(

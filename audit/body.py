@@ -144,6 +144,15 @@ class SharedMesh:
         self.shape = Once(lambda: self._shape(settings.allow_open))
         self._decompositions = 0
 
+    @staticmethod
+    def terms(settings: Settings) -> tuple[object, ...]:
+        """Return the settings that these data depend on."""
+        asked = settings
+        return (
+            *(asked.allow_open, asked.surface_tolerance, asked.part_threshold, asked.part_seed),
+            *(asked.part_seconds, asked.part_megabytes, asked.cache, asked.cache_directory),
+        )
+
     @property
     def work(self) -> Work:
         geometry = self.geometry

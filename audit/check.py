@@ -159,7 +159,9 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
         )
     if not isinstance(scene, Scene):
         kind = type(scene).__name__
-        raise SatcheckError("bad-argument", f"scene: a Scene, or a list of paths, got {kind}")
+        message = f"scene: a satcheck scene, or a list of paths, got {kind}"
+        hint = "satcheck.scene_of_meshes makes a scene of a trimesh.Scene, or of meshes by name"
+        raise SatcheckError("bad-argument", f"{message}: {hint}")
     scene = scene.reaching()
     if settings.planar is None:
         scene.require_in_space("add --planar xy")

@@ -189,7 +189,7 @@ class Draft(Struct, eq=False):
     def finding(self) -> Finding:
         """Return the finding, not yet judged."""
         pair, depth, thick = self.pair, self.depth, self.thickness
-        gap = self.gap if pair.request.clearance is not None else None
+        gap = self.gap if pair.request.wants("distance") else None
         if gap is not None and gap.distance is None:
             gap = None
         figure = gap if depth is None else depth  # a pair has at most one of them

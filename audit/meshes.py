@@ -28,8 +28,9 @@ def check_meshes(
     """How two meshes in memory relate, how deep they overlap, and the shortest way out.
 
     a, b: an object with `vertices` and `faces` (or `triangles`), such as a trimesh.Trimesh, or a
-    pair (vertices, faces). vertices: (n, 3), any integer or float type, one unit of length for
-    both meshes. faces: (m, 3), any integer type, counter-clockwise seen from outside.
+    pair (vertices, faces). A mesh that is checked often is prepared once as a `satcheck.Mesh`.
+    vertices: (n, 3), any integer or float type, one unit of length for both meshes. faces: (m, 3),
+    any integer type, counter-clockwise seen from outside.
     pose_a, pose_b: rigid 4x4 matrices for column vectors, world = pose * (x, y, z, 1); None: the
     vertices are world coordinates.
     settings: what to compute, as `satcheck.Settings` describes; None: the defaults of the command.
@@ -39,8 +40,8 @@ def check_meshes(
 
     - relation: "separated", "near", "touching", "penetrating", "contains" (b in a), "inside" (a in
       b), "coincident", or "indeterminate" with a `reason`.
-    - distance: the gap, >= 0, of bodies that do not overlap; None: larger than settings.clearance,
-      so not measured.
+    - distance: the gap, >= 0, of bodies that do not overlap, with Settings(distance=True), or up to
+      settings.clearance; else None.
     - depth and depth_bounds of bodies that overlap; mtv: the translation that frees a, verified.
     - quality: "exact", "bounded" (depth lies within depth_bounds) or "estimate" (not proven).
 

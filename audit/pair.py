@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -72,6 +73,8 @@ class Pair(Struct, eq=False):
         if self.settings.planar:
             self.closer = self.a.body.file.deviation + self.b.body.file.deviation
         self.gap_limit = max((self.request.clearance or 0.0) + self.closer, tolerance)
+        if self.settings.distance:
+            self.gap_limit = math.inf
 
     def _resolution(self) -> float:
         plane = self.settings.planar

@@ -6,6 +6,7 @@ It alone decides which stages run.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 from msgspec.structs import replace
@@ -13,7 +14,7 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.settings import Settings
-from satcheck.core.conventions import Bounds
+from satcheck.core.conventions import LARGEST_LENGTH, Bounds
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Effect, RuleReport
 from satcheck.report.request import Request, request_of
@@ -79,6 +80,8 @@ class Planner:
 
     def gap_limit(self, i: int, j: int, resolution: float) -> float:
         """A larger gap of this pair needs no figure. resolution: the sum of both bodies."""
+        if self.settings.distance:
+            return math.inf
         request = self.request(i, j)
         band = resolution if request.tolerance is None else request.tolerance
         of_curves = 0.0 if self.settings.planar is None else resolution
@@ -88,6 +91,8 @@ class Planner:
         """A length for each of these bodies. The sum of two lengths is at least the gap limit of
         the pair."""
         settings = self.settings
+        if settings.distance:
+            return [LARGEST_LENGTH] * len(resolutions)
         # In a plane, curves may be closer than their polygons by the resolution.
         flat = settings.planar is not None
         own = [self._book.longest(key) for key in ("clearance", "tolerance")]
@@ -124,8 +129,8 @@ def request_for(
         "depth": figure(settings.depth, "max_depth"),
         "thickness": thick,
         "distance": None
-        if request.clearance is None
-        else request.rule("clearance") or "--clearance",
+        if request.clearance is None and not settings.distance
+        else request.rule("clearance") or ("distance" if settings.distance else "--clearance"),
         "volume": "--volume" if settings.volume else request.rule("max_volume"),
         "contacts": "--contacts" if settings.contacts else None,
         "components": "--components" if settings.components else None,

@@ -22,10 +22,12 @@ from satcheck.report.samples import (
     SamplesTruncated,
     StatedPose,
 )
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.postures import PoseBatch
 
 if TYPE_CHECKING:
-    pass
+    from satcheck.core.transform import Transform
+    from satcheck.scene import Scene
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -68,7 +70,19 @@ class SampleResults:
         self.issues |= dict.fromkeys(others)
         findings = tuple(finding for finding in report.findings if not is_plain(finding))
         verdict = report.summary.verdict
-        return SampledPose(batch.first + row, posture.pose(), verdict, findings, tuple(of_pose))
+        moved = self.moved(scene) if findings else {}
+        number = batch.first + row
+        return SampledPose(number, posture.pose(), verdict, findings, tuple(of_pose), moved)
+
+    def moved(self, scene: Scene) -> dict[str, Transform]:
+        """Return the placement of each body that does not stand as in the first sample."""
+        assert self.first is not None
+        first = {body.id: body.transform for body in self.first.bodies}
+        return {
+            body.id: body.transform or IDENTITY
+            for body in scene.bodies
+            if body.transform != first[body.id]
+        }
 
     def add(self, batch: PoseBatch, row: int) -> None:
         """Adds what the check of a pose says."""
@@ -115,7 +129,11 @@ class SampleResults:
                 {verdict: self.by_verdict[verdict] for verdict in get_args(Verdict)},
                 SampledPairCounts(counts.total, counts.allowed, counts.exempt, settled),
             ),
-            bodies=tuple(SampledBody(b.id, b.file, b.sha256, b.shape) for b in first.bodies),
+            reading=first.reading,
+            bodies=tuple(
+                SampledBody(b.id, b.name, b.file, b.sha256, b.path, b.shape, b.transform)
+                for b in first.bodies
+            ),
             exempt=first.exempt,
             rules=first.rules,
             samples=tuple(_with_messages(sample, first) for sample in self.listed),

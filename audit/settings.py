@@ -43,6 +43,7 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
     """What is asked. `StatedSettings` has what can change an answer; the rest changes none.
 
     certificate: Add evidence to a JSON report, for satcheck verify.
+    distance: Measure the gap of every pair, however large.
     jobs: Threads; 0 is one per core. Changes no answer.
 
     cross_check_*: limits for one question to another library. jobs: over pairs, or within the only
@@ -53,6 +54,7 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
     cross_check_seconds: Size = 30.0
     cross_check_megabytes: Count = 4096
     certificate: bool = False
+    distance: bool = False
     jobs: Count = 0
     cache: bool = True
     cache_directory: str | None = None

@@ -135,7 +135,9 @@ class _SortedBatch:
         posture = self._batch.posture(row)
         issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
         number = self._batch.first + row
-        return SampledPose(number, posture.pose(), verdict, self._findings(row), issues)
+        findings = self._findings(row)
+        moved = self._results.moved(self._batch.posed(row)) if findings else {}
+        return SampledPose(number, posture.pose(), verdict, findings, issues, moved)
 
     def _verdicts(self) -> dict[int, Verdict]:
         """Return the verdict on each pose that needs no check of its own, all of them counted: by

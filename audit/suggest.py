@@ -1,4 +1,4 @@
-"""Suggests pairs that a scene may allow, with the evidence for each. A person must decide, because
+"""Suggests rules about pairs in contact, with the evidence for each. A person must decide, because
 an intended contact and a fault look the same.
 """
 
@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
+from math import ceil, floor, log10
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -13,24 +14,51 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.summary import tool
+from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.report.report import OVERLAPS, Finding, Issue, Report
 from satcheck.report.suggestions import Names, Suggestion, SuggestionsReport, Unchecked, Why
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import Settings
+    from satcheck.report.rule_book import RuleBook
     from satcheck.report.samples import SampledPair, SamplesReport
+    from satcheck.report.values import Interval
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
 
+# A limit is the upper end of a figure times this, rounded up to three digits.
+MARGIN = 1.1
+# What is asked of a check that measures every overlap.
+MEASURED = {"depth": True, "thickness": True, "list_pruned": False}
+NO_FIGURE = "they overlap, and neither their thickness nor their depth has a proven upper end"
+
 
 class Suggestions(Struct, frozen=True):
-    """A report, and what its other forms say beside it. undecided: undecided pairs, with the first
-    reason. may_meet: pairs of links with bodies that met in a pose, or may have met."""
+    """A report, and what its other forms say beside it. ids: of the bodies, by asset. undecided:
+    undecided pairs, with the first reason. may_meet: pairs of links with bodies that met in a pose,
+    or may have met."""
 
     report: SuggestionsReport
-    undecided: Mapping[Names, str]
+    ids: Mapping[str | None, Sequence[str]]
+    undecided: Mapping[str, str]
     may_meet: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
+
+
+class Robots(Struct, frozen=True):
+    """bodies: of all robots. links: body -> link, if there is one robot: two may use the same
+    names. adjacent: checked pairs of bodies, in their order, with a joint between the links."""
+
+    bodies: frozenset[str] = frozenset()
+    links: Mapping[str, str] = {}
+    adjacent: frozenset[Names] = frozenset()
+
+    def links_of(self, a: str, b: str) -> Names | None:
+        return (self.links[a], self.links[b]) if {a, b} <= self.links.keys() else None
+
+
+NO_ROBOTS = Robots()
 
 
 def suggest(
@@ -41,104 +69,149 @@ def suggest(
     progress: Callable[[int, int], None] | None = None,
     held: Sequence[str] = (),
 ) -> Suggestions:
-    """Suggest pairs in contact as placed, with their depth; links with a joint between them; and
-    pairs that always or never meet in these poses, which proves nothing about others. seed: of
-    random poses; None: not random. held: the joints that stand still. A pair that could not be
-    checked as placed is not suggested.
+    """Suggest limits for the pairs that overlap as placed: what was measured, and a margin. Suggest
+    to allow links with a joint between them, links that meet in all of these poses, and pairs that
+    meet in none, which proves nothing about others. A touch passes without a rule. seed: of random
+    poses; None: not random. held: the joints that stand still.
 
     Raises what `check` and `check_poses` raise.
     """
     cache = BodyCache()
-    measured = replace(settings, depth=True, thickness=False, list_pruned=False)
-    report = check(scene, measured, cache=cache)
-    samples, issues = None, report.issues
+    report = check(scene, replace(settings, **MEASURED), cache=cache)
+    samples = None
     if poses:
         from satcheck.audit.samples import check_poses
 
         samples = check_poses(scene, poses, replace(settings, depth=False), progress)
-        issues = tuple(dict.fromkeys((*report.issues, *samples.issues)))
-    undecided = _undecided(report, samples)
     assert cache.book is not None
-    ids = [body.id for body in report.bodies]
-    findings = {(finding.a, finding.b): finding for finding in report.findings}
-    tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
-    links, adjacent = _links(scene), _adjacent(scene)
-    suggested, unchecked, may_meet = [], [], set()
-    for a, b in ((ids[i], ids[j]) for i, j in cache.book.checked_pairs()):
-        finding, tally = findings.get((a, b)), tallies.get((a, b))
-        carriers = (links[a], links[b]) if a in links and b in links else None
-        is_adjacent = frozenset((a, b)) in adjacent
-        why = None
-        if finding is not None and finding.at_rest == "indeterminate":
-            reason = finding.reason or "indeterminate"
-            unchecked.append(Unchecked(a, b, is_adjacent, carriers, reason))
-        else:
-            why = "adjacent" if is_adjacent else _why(finding, tally, len(poses))
-        if carriers is not None and why != "never":
-            may_meet.add(frozenset(carriers))
-        if why is not None:
-            placed = "separated" if finding is None else finding.at_rest
-            pair = Suggestion(
-                a,
-                b,
-                why,
-                links=carriers,
-                relation=None if why == "never" else placed,
-                depth_bounds=None if finding is None else finding.depth_bounds,
-                contacts=None if tally is None else tally.contacts,
-            )
-            suggested.append(pair)
+    robots = _robots(scene, [body.id for body in report.bodies], cache.book)
+    found = suggestions_of({None: report}, robots, samples)
+    return replace(found, report=replace(found.report, seed=seed, held=tuple(held)))
+
+
+def _robots(scene: Scene, ids: Sequence[str], book: RuleBook) -> Robots:
+    place = {id_: number for number, id_ in enumerate(ids)}
+    adjacent = {
+        tuple(sorted((place[a], place[b])))
+        for robot in scene.robots
+        for parent, child in robot.neighbours()
+        for a, b in product(robot.bodies_of(parent), robot.bodies_of(child))
+    }
+    carried = {body.id: body.link for robot in scene.robots for body in robot.bodies}
+    return Robots(
+        frozenset(carried),
+        carried if len(scene.robots) == 1 else {},
+        frozenset((ids[i], ids[j]) for i, j in adjacent if book.is_checked(i, j)),
+    )
+
+
+def suggestions_of(
+    reports: Mapping[str | None, Report],
+    robots: Robots = NO_ROBOTS,
+    samples: SamplesReport | None = None,
+) -> Suggestions:
+    """reports: of checks with MEASURED, by asset; None: of the only scene, with these robots, in
+    these samples. At least one."""
+    suggested: list[Suggestion] = []
+    unchecked: list[Unchecked] = []
+    undecided: dict[str, str] = {}
+    may_meet = set()
+    issues = dict.fromkeys(samples.issues if samples else ())
+    poses = samples.summary.samples if samples else 0
+    for asset, report in reports.items():
+        place = {body.id: number for number, body in enumerate(report.bodies)}
+        findings = {(finding.a, finding.b): finding for finding in report.findings}
+        tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
+        pairs = {*findings, *tallies, *robots.adjacent}
+        issues |= dict.fromkeys(report.issues)
+        for a, b in sorted(pairs, key=lambda pair: (place[pair[1]], place[pair[0]])):
+            finding, tally = findings.get((a, b)), tallies.get((a, b))
+            made = _suggestion(a, b, finding, tally, robots, poses)
+            reason = _open_question(finding, tally)
+            if isinstance(made, Unchecked):
+                unchecked.append(replace(made, asset=asset))
+                reason = made.reason
+            elif made is not None:
+                suggested.append(replace(made, asset=asset))
+            if reason is not None:
+                undecided[f"{asset}: {a} and {b}" if asset else f"{a} and {b}"] = reason
+            links = robots.links_of(a, b)
+            if links and not (isinstance(made, Suggestion) and made.why == "never"):
+                may_meet.add(frozenset(links))
+    units = {report.units for report in reports.values() if report.bodies}
     document = SuggestionsReport(
-        tool=report.tool,
-        units=report.units,
-        poses=len(poses),
-        seed=seed if poses else None,
-        held=tuple(held) if poses else (),
+        tool=tool(),
+        units=units.pop() if len(units) == 1 else None,
+        poses=poses,
         suggestions=tuple(suggested),
         undecided=len(undecided),
         unchecked=tuple(unchecked),
     )
-    return Suggestions(document, undecided, frozenset(may_meet), issues)
+    ids = {asset: [body.id for body in report.bodies] for asset, report in reports.items()}
+    return Suggestions(document, ids, undecided, frozenset(may_meet), tuple(issues))
 
 
-def _undecided(report: Report, samples: SamplesReport | None) -> dict[Names, str]:
-    """As placed, then in the poses."""
-    first: dict[Names, str] = {}
-    for finding in report.findings:
-        if finding.undecided is not None:
-            swept = finding.motion and finding.motion.reason
-            first.setdefault((finding.a, finding.b), finding.reason or swept or "undecided")
-    undecided = [pair for pair in samples.pairs if pair.undecided] if samples else []
-    for pair in sorted(undecided, key=lambda pair: pair.first_undecided or 0):
-        first.setdefault((pair.a, pair.b), pair.reason or "undecided")
-    return first
-
-
-def _why(finding: Finding | None, tally: SampledPair | None, poses: int) -> Why | None:
-    """Rules that allow or limit an overlap do not make the bodies apart."""
-    if tally and tally.contacts == poses:
-        return "always"
-    if finding is not None:
-        overlaps, swept = finding.at_rest in OVERLAPS, finding.motion
-        if finding.at_rest == "touching" or (overlaps and finding.severity == "error"):
-            return "contact"
-        meets = swept is not None and swept.relation in ("penetrating", "touching")
-        if overlaps or meets or finding.undecided is not None:
+def _suggestion(
+    a: str,
+    b: str,
+    finding: Finding | None,
+    tally: SampledPair | None,
+    robots: Robots,
+    poses: int,
+) -> Suggestion | Unchecked | None:
+    """None: the pair needs no rule, or nothing speaks for one. finding: None: apart as placed.
+    tally: None: there are no poses."""
+    links, adjacent = robots.links_of(a, b), (a, b) in robots.adjacent
+    placed = finding.at_rest if finding else "separated"
+    thickness, depth = (finding.thickness_bounds, finding.depth_bounds) if finding else (None, None)
+    if finding and placed == "indeterminate":
+        return Unchecked(a, b, adjacent, links, finding.reason or placed)
+    why: Why
+    if adjacent:
+        why = "adjacent"
+    elif tally and tally.contacts == poses and {a, b} <= robots.bodies:
+        why = "always"
+    elif finding and placed in OVERLAPS:
+        if finding.severity != "error":
             return None
-    return "never" if tally and tally.settled else None
+        if thickness is None and depth is None:
+            return Unchecked(a, b, adjacent, links, NO_FIGURE)
+        why = "contact"
+    elif tally and tally.settled and placed != "touching" and not (finding and _may_hit(finding)):
+        why = "never"
+    else:
+        return None
+    return Suggestion(
+        a,
+        b,
+        why,
+        links=links,
+        relation=None if why == "never" else placed,
+        thickness_bounds=thickness,
+        depth_bounds=depth,
+        max_thickness=limit(thickness) if why == "contact" else None,
+        max_depth=limit(depth) if why == "contact" else None,
+        contacts=tally.contacts if tally else None,
+    )
 
 
-def _links(scene: Scene) -> dict[str, str]:
-    """body -> link, if the scene has one robot. Two robots may use the same names."""
-    if len(scene.robots) != 1:
-        return {}
-    return {body.id: body.link for body in scene.robots[0].bodies}
+def limit(bounds: Interval | None) -> float | None:
+    """Return the upper end and the margin, rounded up to three digits; None: no end is proven."""
+    if bounds is None or not bounds[1]:
+        return bounds and 0.0
+    most = bounds[1] * MARGIN
+    step = 10.0 ** (floor(log10(most)) - 2)
+    return min(float(f"{ceil(most / step) * step:.4g}"), LARGEST_LENGTH)
 
 
-def _adjacent(scene: Scene) -> set[frozenset[str]]:
-    return {
-        frozenset(pair)
-        for robot in scene.robots
-        for parent, child in robot.neighbours()
-        for pair in product(robot.bodies_of(parent), robot.bodies_of(child))
-    }
+def _may_hit(finding: Finding) -> bool:
+    meets = finding.motion and finding.motion.relation in ("penetrating", "touching")
+    return bool(meets) or finding.undecided is not None
+
+
+def _open_question(finding: Finding | None, tally: SampledPair | None) -> str | None:
+    """Return what is undecided, as placed or else in the poses."""
+    if finding and finding.undecided is not None:
+        swept = finding.motion and finding.motion.reason
+        return finding.reason or swept or "undecided"
+    return (tally.reason or "undecided") if tally and tally.undecided else None

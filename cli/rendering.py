@@ -49,6 +49,12 @@ def rendered(
     result: Report | SamplesReport, scene: Scene, to: Delivery, page: Page
 ) -> str | bytes | Iterable[str]:
     """Return the document. Formats are imported here, as they are needed: a table brings rich."""
+    kind = kind_of(to.form)
+    if kind == "picture":
+        from satcheck.cli.formats.picture import render as render_picture
+
+        parts = result.settings.accuracy == "parts"
+        return render_picture(to.form, result, scene, split=parts, cache=to.cache)
     if isinstance(result, SamplesReport):
         if to.form == "json":
             return json_document(result.to_dict(to.timings))
@@ -57,14 +63,8 @@ def rendered(
         return render_samples(result, page, top=to.top)
     if to.form == "json":
         return render_json(result, timings=to.timings)
-    kind = kind_of(to.form)
     if kind == "reports":
         return pieces({"satcheck": result}, to.form)
-    if kind == "picture":
-        from satcheck.cli.formats.picture import render as render_picture
-
-        parts = result.settings.accuracy == "parts"
-        return render_picture(to.form, result, scene, split=parts, cache=to.cache)
     from satcheck.cli.formats.table import render as render_table
 
     shown = in_one_line_each(with_titles(result))
@@ -136,12 +136,15 @@ def refuse_pictures(
         written[option] = path
 
 
-def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:
-    """Raises SatcheckError where there is no picture, or it cannot be written."""
+def write_pictures(
+    pictures: Pictures, report: Report | SamplesReport, scene: Scene, pose: int | None = None
+) -> None:
+    """Raises SatcheckError where there is no picture, or it cannot be written. pose: see
+    `picture.render`."""
     from satcheck.cli.formats.picture import render
 
     for form, path in pictures.items():
-        write_file(path, render(form, report, scene))
+        write_file(path, render(form, report, scene, pose=pose))
 
 
 def files_line(
@@ -150,16 +153,20 @@ def files_line(
     """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file."""
     named = [] if output is None or form in _OPTIONS else [f"Report: {output}"]
     files = pictures if output is None or form not in _OPTIONS else {form: output, **pictures}
-    if not isinstance(report, SamplesReport):
-        named += [f"{_what(kind, report, scene)}: {path}" for kind, path in files.items()]
+    named += [f"{_what(kind, report, scene)}: {path}" for kind, path in files.items()]
     return ". ".join(named)
 
 
-def _what(form: str, report: Report, scene: Scene) -> str:
+def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
     from satcheck.cli.formats.picture.data import drawn_finding
 
     if form == "glb":
         return "Model"
+    if isinstance(report, SamplesReport):
+        from satcheck.cli.formats.picture.poses import worst_pose
+
+        worst = worst_pose(report)
+        return f"Image of pose {worst.number}" if worst else "Image of all bodies"
     finding = drawn_finding(report, scene)
     return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"
 
@@ -173,9 +180,9 @@ def refuse_certificate(form: str, *, wanted: bool) -> None:
 
 def refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
-    if kind_of(form) != "plain":
+    if kind_of(form) == "reports":
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
-    for name in ("baseline", "certificate", "explain", "cross_check", "png", "glb"):
+    for name in ("baseline", "certificate", "explain", "cross_check"):
         if options.get(name):
             option = name.replace("_", "-")
             raise click.UsageError(f"--{option} takes one pose, and several are given")

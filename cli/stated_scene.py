@@ -2,37 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 from msgspec import to_builtins
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
+from satcheck.report.motions import JointPath
 from satcheck.report.report import Issue, Report
+from satcheck.report.samples import SampledBody, SamplesReport
 from satcheck.scene import Body, MeshFile, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.inspect import shape_file
+from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 from satcheck.scene.opening import Permitted, read_whole
 from satcheck.scene.planar.outline import shape_from
 
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
+    from satcheck.report.motions import StatedMotion
     from satcheck.report.report import Report
 
 CHANGED, GONE = "changed-file", "not-drawn"
 
 
 MOST_BYTES = 1 << 30
+_PATHS = {"translation": Translation, "rotation": Rotation, "path": PosePath}
+_NO_PATH = (
+    "the report does not say how the links of a robot move on its path, so they stand as at its "
+    "start: satcheck ROBOT --path FILE -o page.html shows the path"
+)
 
 
 def stated_scene(
-    report: Report, root: Path, *, allow_outside: bool = False
+    report: Report | SamplesReport, root: Path, *, allow_outside: bool = False
 ) -> tuple[Scene, list[Issue]]:
     """The bodies that can be read, and what is not as it was when the report was made: a body
     whose file has changed is there as it is now. root: where the paths in the report start."""
@@ -57,10 +66,20 @@ def stated_scene(
         if file.sha256 != entry.sha256:
             changed = f"{entry.file} has changed since the report was made"
             issues.append(_issue(CHANGED, entry, f"{changed}: the body is drawn as it is now"))
-    return Scene(name="", units=report.units, bodies=tuple(bodies)), list(_once(issues))
+    motions = () if isinstance(report, SamplesReport) else report.motions
+    if any(isinstance(motion, JointPath) for motion in motions):
+        issues.append(Issue(GONE, "warning", None, None, _NO_PATH))
+    moving = tuple(_motion(each) for each in motions if not isinstance(each, JointPath))
+    scene = Scene(name="", units=report.units, bodies=tuple(bodies), motions=moving)
+    return scene, list(_once(issues))
 
 
-def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Refused:
+def _motion(stated: StatedMotion) -> Motion:
+    values = to_builtins(stated)
+    return Motion(stated.bodies, msgspec.convert(values, _PATHS[values["kind"]]), stated.clear)
+
+
+def _mesh_file(entry: BodyReport | SampledBody, files: MeshFiles, root: Path) -> MeshFile | Refused:
     """Return the mesh file of a body. Of a shape the report has the sizes: the file that states it
     is not read again."""
     location = str(root / entry.file)
@@ -72,12 +91,12 @@ def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | Re
     return files.mesh(FilePart(entry.file, location, entry.path))
 
 
-def _placed(entry: BodyReport, file: MeshFile) -> Body:
+def _placed(entry: BodyReport | SampledBody, file: MeshFile) -> Body:
     shape = None if entry.shape is None else shape_from(to_builtins(entry.shape))
     return Body(entry.id, entry.name, file, entry.transform, shape=shape, path=entry.path)
 
 
-def _issue(code: str, entry: BodyReport, message: str) -> Issue:
+def _issue(code: str, entry: BodyReport | SampledBody, message: str) -> Issue:
     return Issue(code, "warning", entry.id, entry.file, message)
 
 
@@ -92,12 +111,25 @@ def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
 
 
 def read_report(path: Path) -> Report | AssetsReport:
+    """Raises what `read_stored` raises; also for a report of several poses."""
+    return cast("Report | AssetsReport", _read(path, {"assets": AssetsReport}))
+
+
+def read_stored(path: Path) -> Report | AssetsReport | SamplesReport:
     """Raises SatcheckError: `bad-report`, or a code about the file."""
+    return _read(path, {"assets": AssetsReport, "samples": SamplesReport})
+
+
+def _read(
+    path: Path, kinds: Mapping[str, type[AssetsReport | SamplesReport]]
+) -> Report | AssetsReport | SamplesReport:
+    """kinds: by the field that only they have."""
     try:
         data = read_whole(str(path), path, MOST_BYTES)
         head = msgspec.json.decode(data)
-        if isinstance(head, dict) and "assets" in head:
-            return msgspec.convert(head, AssetsReport)
+        for field, kind in kinds.items():
+            if isinstance(head, dict) and field in head:
+                return msgspec.convert(head, kind)
         return msgspec.convert(head, Report)
     except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
         reason = f"no JSON report of this version of satcheck: {error}"

@@ -41,13 +41,17 @@ def arrays_of(mesh: MeshLike) -> tuple[Array, Array]:
     form, for indices out of range, and for coordinates that are not finite."""
     vertices: ArrayLike | None
     faces: ArrayLike | None
-    if isinstance(mesh, tuple | list) and len(mesh) == 2:
+    if isinstance(mesh, tuple | list) and len(mesh) == 2 and not hasattr(mesh[0], "vertices"):
         vertices, faces = mesh
     else:
         vertices = getattr(mesh, "vertices", None)
         faces = getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
         hint = " (satcheck.check takes paths)" if isinstance(mesh, str | Path) else ""
+        if isinstance(mesh, tuple | list):
+            hint = " (satcheck.scene_of_meshes takes several meshes, by name)"
+        if hasattr(mesh, "geometry"):  # a trimesh.Scene
+            hint = " (satcheck.scene_of_meshes takes a scene; its to_mesh() is one mesh)"
         wanted = "an object with vertices and faces, or a pair (vertices, faces)"
         raise refused(f"{wanted}, got {type(mesh).__name__}{hint}")
     return _checked(numbers(vertices, "vertices"), _integers(faces, "faces"))

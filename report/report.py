@@ -12,7 +12,7 @@ import hashlib
 import json
 import math
 from collections.abc import Iterable, Mapping
-from typing import Annotated, Any, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
@@ -33,6 +33,9 @@ from satcheck.report.values import Relation as Relation
 from satcheck.report.values import Tool as Tool
 from satcheck.report.values import Vector as Vector
 from satcheck.report.values import Verdict as Verdict
+
+if TYPE_CHECKING:
+    import pandas
 
 # The answer to a question of a rule about a single body.
 BodyAnswer = SupportFinding | InsideFinding
@@ -248,6 +251,11 @@ class Finding(Value, frozen=True, kw_only=True):
         """The relation of the bodies as placed."""
         return self.placed_relation or self.relation
 
+    def to_dict(self, timings: bool = True) -> dict[str, Any]:
+        """JSON values, as a report has them; no `microseconds` without timings."""
+        values: dict[str, Any] = plain(self)
+        return values if timings else without_timings(values)
+
 
 def finding_id(a: str, b: str) -> str:
     """Return an id that depends on the two bodies only, and not on their order, poses or result."""
@@ -398,6 +406,18 @@ class Report(Value, frozen=True, kw_only=True):
         """JSON values in the order of the schema; no `microseconds` without timings."""
         values: dict[str, Any] = plain(self)
         return values if timings else without_timings(values)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return a pandas.DataFrame with a row for each finding, in their order, and a single value
+        in each cell; a number that is None is NaN. Its columns are those of `report.rows.COLUMNS`:
+        the fields of a finding by name; the lower ends of intervals (depth_lower), components
+        (mtv_x, witness_a_x); fails: the check fails by the finding; baseline: baseline_state.
+
+        Raises SatcheckError `missing-extra` without pandas.
+        """
+        from satcheck.report.rows import dataframe_of
+
+        return dataframe_of(self)
 
 
 def plain(value: object) -> Any:

@@ -18,32 +18,39 @@ from satcheck.report.report import (
     RuleReport,
     without_timings,
 )
-from satcheck.report.settings import FailOn, StatedConfig, StatedSettings
+from satcheck.report.settings import FailOn, StatedConfig, StatedReading, StatedSettings
 from satcheck.report.values import Count, Sha256, Tool, Value, Verdict
 from satcheck.report.verdict import fails
 
 # Numbers of samples start at 1.
 Number = Annotated[int, Meta(ge=1)]
+# Row-major 4x4.
+StatedTransform = Annotated[tuple[float, ...], Meta(min_length=16, max_length=16)]
 StatedPose = Mapping[str, float | JointValues]
 
 
 class SampledBody(Value, frozen=True):
-    """A body as in a report of one pose, without the fields that depend on the pose."""
+    """A body as in a report of one pose, placed as in the first of the poses."""
 
     id: str
+    name: str
     file: str
     sha256: Sha256 | None
+    path: str | None
     shape: StatedShape | None
+    transform: StatedTransform | None
 
 
 class SampledPose(Value, frozen=True):
-    """findings: the pairs that are not plainly separated. issues: about this pose."""
+    """findings: the pairs that are not plainly separated. issues: about this pose. moved: body ->
+    its transform, if it does not stand as in the first pose; left empty without a finding."""
 
     number: Number
     pose: StatedPose
     verdict: Verdict
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
+    moved: Mapping[str, StatedTransform] = {}
 
 
 class SampledPair(Struct, forbid_unknown_fields=True):
@@ -138,8 +145,8 @@ class SamplesReport(Value, frozen=True, kw_only=True):
     seed: of the random poses; None: they are not random. samples: all of them; of very many, the
     first ones with a finding, and `truncated` counts the others. Summary and pairs count all of
     them. pairs: every checked pair, in the order of the bodies; JSON leaves out those that are
-    separated in all samples. issues: those that are not about the pose of one sample. config: as in
-    a report.
+    separated in all samples. issues: those that are not about the pose of one sample. reading,
+    config: as in a report.
     """
 
     schema: Literal["satcheck.samples/1"] = "satcheck.samples/1"
@@ -148,6 +155,7 @@ class SamplesReport(Value, frozen=True, kw_only=True):
     settings: StatedSettings
     seed: Count | None
     summary: SamplesSummary
+    reading: StatedReading | None = None
     bodies: tuple[SampledBody, ...]
     exempt: Exempt
     rules: tuple[RuleReport, ...]

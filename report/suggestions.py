@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.report.values import Count, Interval, Relation, Tool, Value
+from satcheck.report.values import Count, Interval, Length, Relation, Tool, Value
 
 Why = Literal["adjacent", "always", "contact", "never"]
 Names = tuple[str, str]
@@ -13,12 +13,14 @@ Names = tuple[str, str]
 class Suggestion(Value, frozen=True):
     """A pair that no rule allows, ids in the order of the bodies.
 
-    why: adjacent: a joint connects their links. contact: they touch or overlap as placed. always:
-    in contact in all poses. never: in contact in no pose, and separated as placed; this proves
-    nothing about other poses. links: of the bodies; None: they do not belong to the only robot.
-    relation: as placed; None: separated in the poses too. depth_bounds: contain the depth of an
-    overlap as placed. contacts: the number of poses in which they overlap or touch; None: no other
-    poses.
+    why: contact: they overlap as placed, and a rule may limit that. The others are pairs of links
+    that a rule may allow. adjacent: a joint connects them. always: in contact in all poses. never:
+    in contact in no pose, and separated as placed; this proves nothing about other poses. links: of
+    the bodies; None: they do not belong to the only robot. relation: as placed; None: separated in
+    the poses too. thickness_bounds, depth_bounds: contain the figures of an overlap as placed.
+    max_thickness, max_depth: the limits of a rule: the upper ends and a margin; None: that figure
+    has no proven upper end. contacts: the number of poses in which they overlap or touch; None: no
+    other poses. asset: the file, of several that are worlds of their own.
     """
 
     a: str
@@ -26,19 +28,25 @@ class Suggestion(Value, frozen=True):
     why: Why
     links: Names | None = None
     relation: Relation | None = None
+    thickness_bounds: Interval | None = None
     depth_bounds: Interval | None = None
+    max_thickness: Length | None = None
+    max_depth: Length | None = None
     contacts: Count | None = None
+    asset: str | None = None
 
 
 class Unchecked(Value, frozen=True):
     """A pair that no rule allows and that is not suggested, because its relation as placed is
-    undecided. adjacent: a joint connects the links. reason: why it is undecided."""
+    undecided, or its overlap has no figure with a proven upper end. adjacent: a joint connects the
+    links. reason: why."""
 
     a: str
     b: str
     adjacent: bool
     links: Names | None
     reason: str
+    asset: str | None = None
 
 
 class SuggestionsReport(Value, frozen=True, kw_only=True):
@@ -52,9 +60,9 @@ class SuggestionsReport(Value, frozen=True, kw_only=True):
     schema: Literal["satcheck.suggestions/1"] = "satcheck.suggestions/1"
     tool: Tool
     units: str | None
-    poses: Count
-    seed: Count | None
-    held: tuple[str, ...]
+    poses: Count = 0
+    seed: Count | None = None
+    held: tuple[str, ...] = ()
     suggestions: tuple[Suggestion, ...]
     undecided: Count
     unchecked: tuple[Unchecked, ...]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import frexp
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
@@ -49,7 +49,8 @@ class MeshFile(Struct, frozen=True):
     a share of the world coordinates. deviation: in a check in a plane, the largest distance between
     a curve and the polygon within it that replaces it; the resolution includes it.
     surface_tolerance: how far its facets may be off the curved surfaces of the file, because the
-    reader made them; 0: the file has facets.
+    reader made them; 0: the file has facets. prepared: where checks keep what they derive from the
+    mesh, for later ones; None: they keep nothing.
     """
 
     path: str
@@ -66,6 +67,7 @@ class MeshFile(Struct, frozen=True):
     placement_step: float = FLOAT64_STEP
     deviation: float = 0.0
     surface_tolerance: float = 0.0
+    prepared: dict[Any, Any] | None = None
 
 
 class Body(Struct, frozen=True):

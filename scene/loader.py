@@ -239,6 +239,11 @@ def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
 def _as_texts(paths: Sequence[str | Path]) -> list[str]:
     if isinstance(paths, str | Path):
         raise SatcheckError("bad-argument", f"paths: a list of paths, not one: [{str(paths)!r}]")
+    for path in paths:
+        if not isinstance(path, str | Path):
+            hint = "check_meshes takes two meshes, scene_of_meshes any number, by name"
+            message = f"paths: a list of paths, got one of {type(path).__name__}: satcheck.{hint}"
+            raise SatcheckError("bad-argument", message)
     return [path.as_posix() if isinstance(path, Path) else path for path in paths]
 
 

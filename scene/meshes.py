@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
@@ -27,6 +28,58 @@ if TYPE_CHECKING:
 # rotations is off by less than this. The pose itself is applied as given.
 RIGID_TOLERANCE = 1e-5
 NUMBER_FORMATS: dict[int, NumberFormat] = {2: "float16", 4: "float32"}  # by size in bytes
+
+
+class Mesh:
+    """A mesh that is prepared once and checked often, anywhere. Checks keep what they derive from
+    it, such as its hull and its trees, for all later checks. It never changes.
+
+    `Mesh(vertices, faces)` takes arrays as `satcheck.check_meshes` does, `Mesh.of` an object with
+    vertices and faces, such as a trimesh.Trimesh, and `Mesh.read` a file. All functions that take
+    meshes take it. vertices and faces: as a check sees them, equal vertices merged, wound outward.
+
+    Raises SatcheckError as `satcheck.check_meshes` does.
+    """
+
+    __slots__ = ("_file",)
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
+        try:
+            self._file = replace(_mesh_file("mesh", *arrays_of((vertices, faces))), prepared={})
+        except Refused as error:
+            raise SatcheckError(error.code, error.message) from error.__cause__
+
+    @classmethod
+    def of(cls, mesh: MeshLike) -> Mesh:
+        return mesh if isinstance(mesh, Mesh) else cls(*arrays_of(mesh))
+
+    @classmethod
+    def read(cls, path: str | Path) -> Mesh:
+        """Return all meshes of a file as one, in the units of the file. Raises what reading a file
+        raises."""
+        from satcheck.scene.loader import load_scene
+
+        scene = load_scene([path], split="none", hashed=False)
+        for lost in scene.unreadable:
+            raise SatcheckError(lost.issue.code, lost.issue.message)
+        if len(scene.bodies) != 1 or scene.composed:
+            raise refused(f"path: a mesh file, got {path}: satcheck.load_scene reads scenes")
+        made = cls.__new__(cls)
+        made._file = replace(scene.bodies[0].file, prepared={})
+        return made
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        return self._file.mesh.vertices
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        return self._file.mesh.triangles
+
+    def named(self, id_: str) -> MeshFile:
+        """Return the mesh as the file of the body of this id."""
+        issues = tuple(replace(each, file=id_) for each in self._file.issues)
+        return replace(self._file, path=id_, issues=issues)
 
 
 def scene_of_meshes(
@@ -58,7 +111,9 @@ def scene_of_meshes(
 def _nodes_of(scene: trimesh.Scene) -> tuple[dict[str, MeshLike], dict[str, ArrayLike | None]]:
     """Return the meshes of the nodes of a scene, and their poses."""
     if not (hasattr(scene, "graph") and hasattr(scene, "geometry")):
-        raise refused(f"meshes: a mapping or a trimesh.Scene, got {type(scene).__name__}")
+        kind = type(scene).__name__
+        hint = "{'a': mesh, 'b': mesh}; satcheck.check_meshes takes two meshes alone"
+        raise refused(f"meshes: a mapping or a trimesh.Scene, got {kind}: give {hint}")
     placed = {str(node): scene.graph[node] for node in scene.graph.nodes_geometry}
     meshes: dict[str, MeshLike] = {id_: scene.geometry[name] for id_, (_, name) in placed.items()}
     return meshes, {id_: matrix for id_, (matrix, _) in placed.items()}
@@ -66,8 +121,7 @@ def _nodes_of(scene: trimesh.Scene) -> tuple[dict[str, MeshLike], dict[str, Arra
 
 def _body(id_: str, mesh: MeshLike, pose: ArrayLike | None) -> Body:
     try:
-        vertices, faces = arrays_of(mesh)
-        file = _mesh_file(id_, vertices, faces)
+        file = mesh.named(id_) if isinstance(mesh, Mesh) else _mesh_file(id_, *arrays_of(mesh))
         if pose is None:
             transform = None
         else:

@@ -1,6 +1,7 @@
 """Collision checker for meshes: relation, penetration depth and the shortest way out, with proofs.
 
-`check` takes files, `check_meshes` two meshes in memory. `satcheck.core` has the convex shapes.
+`check` takes files, `check_meshes` two meshes in memory, which `Mesh` prepares for many checks.
+`satcheck.core` has the convex shapes.
 Names are imported when they are first used, so that `import satcheck` alone costs nothing.
 """
 
@@ -16,10 +17,11 @@ if TYPE_CHECKING:
     from satcheck.audit.meshes import check_meshes
     from satcheck.core.errors import SatcheckError
     from satcheck.scene import load_scene
-    from satcheck.scene.meshes import scene_of_meshes
+    from satcheck.scene.meshes import Mesh, scene_of_meshes
 
 __all__ = [
     "Finding",
+    "Mesh",
     "Report",
     "SatcheckError",
     "Settings",
@@ -32,6 +34,7 @@ __all__ = [
 
 _MODULES = {
     "Finding": "satcheck.audit",
+    "Mesh": "satcheck.scene.meshes",
     "Report": "satcheck.audit",
     "SatcheckError": "satcheck.core.errors",
     "Settings": "satcheck.audit",

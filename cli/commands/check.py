@@ -224,9 +224,6 @@ def command(
     refuse_pictures(pictures, inputs, output, baseline)
     if kind_of(form) == "picture":
         function_of(form)  # a library that it lacks is told before the check
-    if pictures or kind_of(form) == "picture":
-        # Where the surfaces cross, in checks that can say so.
-        options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     ctx, config = click.get_current_context(), None
     if ctx.default_map:  # of a config file
         from satcheck.cli.config import stated_config
@@ -248,6 +245,9 @@ def command(
     if failed and len(scene.bodies) < 2 and form == "table":
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
+    if poses is None and (pictures or kind_of(form) == "picture"):
+        # Where the surfaces cross, in checks that can say so.
+        options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:
@@ -257,7 +257,7 @@ def command(
         if form != "table":
             result = with_stated_places(result, scene)
     else:
-        refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
+        refuse_of_poses(form, explain=explain, baseline=baseline, **options)
         result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
@@ -279,8 +279,7 @@ def _deliver(
             to.output,
             utf8=to.form != "table",
         )
-    if isinstance(result, Report):
-        write_pictures(pictures, result, scene)
+    write_pictures(pictures, result, scene)
     files = "" if to.quiet else files_line(result, scene, to.form, to.output, pictures)
     tell(result, scene, files, written=to.output is not None and not to.quiet)
 

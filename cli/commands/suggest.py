@@ -2,30 +2,41 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
-from satcheck.audit.suggest import suggest
+from satcheck.audit.batch.local import check_locally
+from satcheck.audit.batch.options import Limits
+from satcheck.audit.batch.slot_server import Wanted
+from satcheck.audit.settings import Settings
+from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.formats.suggest import chosen, remark, srdf, toml
+from satcheck.cli.formats.suggest import remark, srdf, toml
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
+from satcheck.cli.worlds import asset_names, check_options
+from satcheck.report.assets import Result
 from satcheck.report.json import document as json_document
+from satcheck.report.json import read_line
 from satcheck.scene import Scene
+from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
 
 FORMATS = ("toml", "json", "srdf")
 
 
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
-@option.paths("SCENE")
+@option.paths("SCENE|DIR")
 @click.option(
     "--never",
     is_flag=True,
@@ -57,10 +68,11 @@ def command(
 ) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
-    satcheck suggests the pairs that are in contact as placed, and the links of a robot that a joint
-    connects. With --sample, or several poses, it adds the pairs in contact in every pose; a single
-    pose places the robot. The reason of each rule states the evidence. Confirm each rule: an
-    intended contact and a fault look the same.
+    A rule limits an overlap to its thickness and its depth as placed, and 10 % more; one rule
+    stands for all bodies whose names differ in a number. A touch needs no rule. Of a folder, each
+    asset is a scene of its own. Links of a robot that a joint connects are allowed; with --sample,
+    or several poses, also those in contact in every pose. A single pose places the robot. Confirm
+    each rule: an intended contact and a fault look the same.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
@@ -71,25 +83,26 @@ def command(
         form = ending if ending in FORMATS else FORMATS[0]
     refuse_early(inputs, output)
     document = Document()
-    scene = load(inputs)
-    if form == "srdf" and len(scene.robots) != 1:
-        raise click.UsageError("SRDF is about one robot: give one URDF")
-    placed, poses = _poses(scene, inputs)
-    if placed:
-        scene = posed(scene, placed)
-    held = tuple(placed) if inputs.sample else ()
-    settings = settings_of({**options, **inputs.limits}, scene)
-    with Bar("poses") as bar:
-        result = suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
-    pairs = chosen(result.report, never=never)
+    told: set[str] = set()
+    if any(map(is_folder, inputs.paths)):
+        if form == "srdf" or inputs.has_poses:
+            raise click.UsageError("a robot in a folder stands as its file says: give it alone")
+        result, robot = _of_assets(inputs, options), ""
+    else:
+        scene = load(inputs)
+        if form == "srdf" and len(scene.robots) != 1:
+            raise click.UsageError("SRDF is about one robot: give one URDF")
+        robot = scene.robots[0].robot.name if scene.robots else ""
+        told = {issue.code for issue in scene.issues}
+        result = _of_scene(scene, inputs, settings_of({**options, **inputs.limits}, scene))
+    pairs = [pair for pair in result.report.suggestions if never or pair.why != "never"]
+    if form == "srdf":
+        pairs = [pair for pair in pairs if pair.why != "contact"]
     if form == "json":
         text = json_document(result.report)
-    elif form == "srdf":
-        text = srdf(result, pairs, scene.robots[0].robot.name)
     else:
-        text = toml(result.report, pairs)
+        text = srdf(result, pairs, robot) if form == "srdf" else toml(result, pairs)
     document.deliver(lambda _: text, output, utf8=True)
-    told = {issue.code for issue in scene.issues}
     errors = [issue for issue in result.issues if issue.severity == "error"]
     for issue in errors:
         if issue.code not in told:
@@ -102,14 +115,32 @@ def command(
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
 
 
-def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, Sequence[Pose]]:
-    """(as the robots are placed, the other poses to look at). The pose that --sample starts from
-    places them too; a list of poses does not."""
-    if not inputs.has_poses:
-        return {}, []
-    poses = poses_of(scene, inputs)
-    if isinstance(poses, Mapping):
-        return poses, []
-    if isinstance(poses, RandomPoses):
-        return poses.fixed, poses
-    return pose_of_states(scene, inputs.state), poses
+def _of_scene(scene: Scene, inputs: Inputs, settings: Settings) -> Suggestions:
+    """The pose that --sample starts from places the robots, too; a list of poses does not."""
+    given = poses_of(scene, inputs) if inputs.has_poses else {}
+    poses: Sequence[Pose] = () if isinstance(given, Mapping) else given
+    placed = given if isinstance(given, Mapping) else pose_of_states(scene, inputs.state)
+    if isinstance(given, RandomPoses):
+        placed = given.fixed
+    if placed:
+        scene = posed(scene, placed)
+    held = tuple(placed) if inputs.sample else ()
+    with Bar("poses") as bar:
+        return suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
+
+
+def _of_assets(inputs: Inputs, options: Mapping[str, Any]) -> Suggestions:
+    """Each asset of the folders is checked as a world of its own."""
+    assets = asset_names(inputs)
+    inputs = replace(inputs, folders=tuple(assets.folders))
+    terms = check_options(inputs, {**options, **MEASURED}, None, None)
+    worlds = [(file,) for file in assets.files]
+    reports = {}
+    with Bar("assets") as bar:
+        for answer in chain.from_iterable(
+            check_locally(worlds, terms, Limits(), os.cpu_count() or 1, Wanted(kept=False))
+        ):
+            reports[answer.world[0]] = read_line(answer.line, Result).report
+            if bar is not None:
+                bar(len(reports), len(worlds))
+    return suggestions_of({file: reports[file] for file in assets.files})

@@ -20,9 +20,10 @@ from satcheck.cli.formats.picture import render
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.rendering import files_line, refuse_pictures, taken_pictures, write_pictures
-from satcheck.cli.stated_scene import read_report, stated_scene
+from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
+from satcheck.report.samples import SamplesReport
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
@@ -33,6 +34,12 @@ from satcheck.report.report import Report
     "--asset",
     metavar="FILE",
     help="The asset to show, if a report of satcheck each has several.",
+)
+@click.option(
+    "--pose",
+    type=click.IntRange(1),
+    metavar="NUMBER",
+    help="The pose to show, if a report has several.  [default: all on a page, else the worst]",
 )
 @option.root
 @click.option(
@@ -49,6 +56,7 @@ def command(
     report: Path,
     output: Path | None,
     asset: str | None,
+    pose: int | None,
     root: Path,
     parts: bool,
     cache: bool,
@@ -62,13 +70,16 @@ def command(
     .png, .glb and .bcf. The page shows where surfaces cross if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
-    an internal error; 3, a file is missing or has changed.
+    an internal error; 3, a file is missing or has changed, or the report does not say where bodies
+    stand.
     """
     form = form_of(None, output, ("picture",)) if output else "html"
     pictures, inputs = taken_pictures(options), Inputs((str(report),))
     refuse_early(inputs, output)
     refuse_pictures(pictures, inputs, output)
     stated = _report_of(report, asset)
+    if pose is not None and not isinstance(stated, SamplesReport):
+        raise click.UsageError(f"--pose: {report} is about one pose")
     scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
     for issue in issues:
         talk(f"satcheck: {issue_line(issue)}")
@@ -77,20 +88,20 @@ def command(
     split = parts or stated.settings.accuracy == "parts"
     named = _is_named("output")
     if named or not pictures:
-        content = render(form, stated, scene, split=split, cache=cache)
+        content = render(form, stated, scene, split=split, cache=cache, pose=pose)
         if named:
             document.deliver(lambda _: content, output, utf8=True)
         else:
             _show(content, document)
-    write_pictures(pictures, stated, scene)
+    write_pictures(pictures, stated, scene, pose)
     if pictures:
         talk(files_line(stated, scene, form, None, pictures))
     return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
 
 
-def _report_of(path: Path, asset: str | None) -> Report:
-    document = read_report(path)
-    if isinstance(document, Report):
+def _report_of(path: Path, asset: str | None) -> Report | SamplesReport:
+    document = read_stored(path)
+    if not isinstance(document, AssetsReport):
         if asset is not None:
             raise click.UsageError(f"--asset: {path} is the report of one check")
         return document

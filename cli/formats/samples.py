@@ -177,7 +177,7 @@ def samples_verdict(result: SamplesReport) -> str:
     if result.summary.verdict == "pass":
         return "PASS: no collision in any pose."
     if result.summary.verdict == "fail":
-        return f"FAIL: {_failed(result)}. Next: --pose POSE -o report.html shows one pose in 3-D."
+        return f"FAIL: {_failed(result)}. Next: -o report.html shows them in 3-D."
     unchecked = nothing_checked(result.issues)
     failed = any(issue.severity == "error" for issue in result.issues)
     word = "ERROR" if failed else "INCOMPLETE"

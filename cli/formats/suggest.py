@@ -1,17 +1,20 @@
-"""Suggested permissions, ready to be pasted: rules in TOML, or lines of an SRDF."""
+"""Suggested rules, ready to be pasted: in TOML, or as lines of an SRDF."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
-from itertools import islice
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import islice, product
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
-from satcheck.audit.words import counted, number, with_unit
+from msgspec import Struct
+
+from satcheck.audit.suggest import MARGIN, NO_FIGURE
+from satcheck.audit.words import counted, with_unit
 from satcheck.report.json import escaped
-from satcheck.report.report import OVERLAPS
 from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
 
@@ -19,92 +22,175 @@ if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
     from satcheck.report.suggestions import Suggestion, SuggestionsReport, Unchecked, Why
 
-RULES_ALONE = """\
-# Give this file beside the scene, or move its rules into the scene.
-schema = "satcheck.scene/1"
-bodies = []
-"""
-# Of pairs that are not decided at most so many are named.
+# Of pairs that are not decided at most so many are named, and of assets.
 _NAMED = 5
-# As the MoveIt setup assistant calls them.
-_SRDF_REASONS: dict[Why, str] = {
-    "adjacent": "Adjacent",
-    "always": "Always",
-    "contact": "Default",
-    "never": "Never",
-}
+# Words of the MoveIt setup assistant, which takes any other for "User". Strongest first. An SRDF
+# has no limits.
+_SRDF_REASONS: dict[Why, str] = {"adjacent": "Adjacent", "always": "Default", "never": "Never"}
+# A pair of names in an asset.
+Key = tuple[str | None, frozenset[str]]
+_LAST_NUMBER = re.compile(r"\d+(?=\D*$)")
 
 
-def chosen(report: SuggestionsReport, *, never: bool) -> list[Suggestion]:
-    """never: also the pairs that did not meet in any pose, which proves nothing."""
-    return [pair for pair in report.suggestions if never or pair.why != "never"]
+class Rule(Struct, frozen=True):
+    """Two selectors, and the suggestions that they cover. others: other pairs that they cover."""
 
+    a: str
+    b: str
+    pairs: Sequence[Suggestion]
+    others: int = 0
 
-def toml(report: SuggestionsReport, pairs: Iterable[Suggestion]) -> str:
-    """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
-    blocks = [f"# {_left_out(pair)}" for pair in report.unchecked if pair.adjacent]
-    blocks += [
-        "\n".join(
-            (
-                "[[rules]]",
-                f"a = {quoted(Selector.writable(pair.a).text)}",
-                f"b = {quoted(Selector.writable(pair.b).text)}",
-                "allowed = true",
-                f"reason = {quoted(f'suggested: {evidence(pair, report)}; confirm')}",
-            )
+    @property
+    def max_thickness(self) -> float | None:
+        return _largest(pair.max_thickness for pair in self.pairs)
+
+    @property
+    def max_depth(self) -> float | None:
+        return _largest(pair.max_depth for pair in self.pairs)
+
+    @property
+    def is_group(self) -> bool:
+        """Return whether one rule stands for several pairs: they have the same limits, up to the
+        margin, and no other pair has such names."""
+        thickness, depth = self.max_thickness, self.max_depth
+        alike = (
+            pair.why == "contact"
+            and _alike(pair.max_thickness, thickness)
+            and _alike(pair.max_depth, depth)
+            for pair in self.pairs
         )
-        for pair in pairs
+        return len(self.pairs) > 1 and not self.others and all(alike)
+
+
+def _largest(values: Iterable[float | None]) -> float | None:
+    return max((value for value in values if value is not None), default=None)
+
+
+def _alike(limit: float | None, largest: float | None) -> bool:
+    return limit is largest if limit is None or largest is None else largest <= limit * MARGIN
+
+
+def rules_of(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> Iterator[Rule]:
+    """Yield a rule for two names, or one for all whose last numbers differ, if they are a group."""
+    left = {(pair.asset, frozenset((pair.a, pair.b))): pair for pair in pairs}
+    assets: dict[str, dict[str | None, None]] = {}
+    for asset, ids in suggestions.ids.items():
+        for id_ in ids:
+            assets.setdefault(id_, {})[asset] = None
+    refused = set()
+    choose = cache(lambda selector: Selector(selector).choose(assets))
+    for first in list(left.values()):
+        if (first.asset, frozenset((first.a, first.b))) not in left:
+            continue
+        *groups, exact = product(_selectors(first.a), _selectors(first.b))
+        for a, b in (*(group for group in groups if group not in refused), exact):
+            found: dict[Key, Suggestion] = {}
+            others = 0
+            for key in _covered(choose(a), choose(b), assets):
+                if key in left:
+                    found[key] = left[key]
+                    continue
+                others += 1
+                if (a, b) != exact:
+                    break
+            rule = Rule(a, b, list(found.values()), others)
+            if rule.is_group:
+                break
+            refused.add((a, b))
+        yield rule
+        for key in found:
+            del left[key]
+
+
+def _covered(
+    some: Collection[str], others: Collection[str], assets: Mapping[str, Collection[str | None]]
+) -> Iterator[Key]:
+    """Yield the pairs of these bodies. assets: that have a body of this name."""
+    for x, y in product(some, others):
+        for asset in assets[x]:
+            if x != y and asset in assets[y]:
+                yield asset, frozenset((x, y))
+
+
+def _selectors(name: str) -> tuple[str, ...]:
+    """`bolt.*` and `bolt.001`."""
+    exact = Selector.writable(name).text
+    if not _LAST_NUMBER.search(name):
+        return (exact,)
+    return Selector.writable(_LAST_NUMBER.sub("\0", name)).text.replace("\0", "*"), exact
+
+
+def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
+    """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
+    report = suggestions.report
+    unit = unit_of(report.units)
+    head = '# Give this file beside the scene, or after --rules.\nschema = "satcheck.scene/1"\n'
+    head += (f'units = "{unit}"\n' if unit else "") + "bodies = []\n"
+    blocks = [
+        f"# {_left_out(pair)}"
+        for pair in report.unchecked
+        if pair.adjacent or pair.reason == NO_FIGURE
     ]
-    return "\n".join((RULES_ALONE, *(f"{block}\n" for block in blocks)))
+    blocks += ["\n".join(_lines(rule, report)) for rule in rules_of(suggestions, pairs)]
+    return "\n".join((head, *(f"{block}\n" for block in blocks)))
+
+
+def _lines(rule: Rule, report: SuggestionsReport) -> Iterator[str]:
+    yield from ("[[rules]]", f"a = {quoted(rule.a)}", f"b = {quoted(rule.b)}")
+    if rule.max_thickness is not None:
+        yield f"max_thickness = {rule.max_thickness!r}"
+    if rule.max_depth is not None:
+        yield f"max_depth = {rule.max_depth!r}"
+    if rule.pairs[0].why != "contact":
+        yield "allowed = true"
+    yield f"reason = {quoted(f'suggested: {evidence(rule, report)}; confirm')}"
+
+
+def evidence(rule: Rule, report: SuggestionsReport) -> str:
+    """`penetrating, thickness 0.2 mm, depth 3 mm as placed; the limits add 10 %`."""
+    pairs, first, unit = rule.pairs, rule.pairs[0], unit_of(report.units)
+    said = [counted(len(pairs), "pair")] if len(pairs) > 1 else []
+    said += ["a joint connects them"] if first.why == "adjacent" else []
+    placed = [pair.relation for pair in pairs if pair.relation not in (None, "separated")]
+    said += [" or ".join(sorted(set(map(str, placed))))] if placed else []
+    thickness = _largest(p.thickness_bounds and p.thickness_bounds[1] for p in pairs)
+    depth = _largest(p.depth_bounds and p.depth_bounds[1] for p in pairs)
+    for name, figure in (("thickness", thickness), ("depth", depth)):
+        said += [] if figure is None else [f"{name} {with_unit(f'{figure:.3g}', unit)}"]
+    said[-1:] = [f"{said[-1]} as placed"] if placed else said[-1:]
+    if first.why == "never":
+        said.append(f"never in contact in {_poses(report)}, which is no proof")
+    elif first.contacts is not None and len(pairs) == 1:
+        said.append(f"in contact in {first.contacts:,} of {_poses(report)}")
+    names = sorted({pair.asset for pair in pairs if pair.asset is not None})
+    said += [f"in {', '.join(names[:_NAMED])}{', ...' if names[_NAMED:] else ''}"] if names else []
+    said += [f"{counted(rule.others, 'other pair')} of these names"] if rule.others else []
+    return ", ".join(said) + ("; the limits add 10 %" if first.why == "contact" else "")
 
 
 def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
-    """A line for each two links with a suggested pair of bodies, by the strongest of their reasons;
-    no "Never" where some of their bodies may meet. robot: its name.
+    """A line for each two links with a suggested pair of bodies, by the strongest of their reasons,
+    with the evidence as a comment; no "Never" where some of their bodies may meet. robot: its name.
 
     None where some of their bodies could not be checked: a comment says so in its place."""
-    unchecked = {
-        frozenset(pair.links): pair
-        for pair in suggestions.report.unchecked
-        if pair.links is not None
-    }
+    report = suggestions.report
+    unchecked = {frozenset(pair.links): pair for pair in report.unchecked if pair.links is not None}
     lines = {links: _comment(_left_out(pair)) for links, pair in unchecked.items() if pair.adjacent}
-    for reason, a, b in _links(pairs):
-        if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in suggestions.may_meet:
-            continue
+    order = list(_SRDF_REASONS)
+    of_links = [pair for pair in pairs if pair.links is not None and pair.why in order]
+    for pair in sorted(of_links, key=lambda pair: (order.index(pair.why), -(pair.contacts or 0))):
+        a, b = pair.links or ("", "")
         links = frozenset((a, b))
-        attributes = f"link1={quoteattr(a)} link2={quoteattr(b)} reason={quoteattr(reason)}"
-        line = f"<disable_collisions {attributes}/>"
-        if links in unchecked:
-            line = _comment(_left_out(unchecked[links]))
-        lines.setdefault(links, line)
+        if pair.why == "never" and links in suggestions.may_meet:
+            continue
+        line = f"<disable_collisions link1={quoteattr(a)} link2={quoteattr(b)} "
+        line += f'reason="{_SRDF_REASONS[pair.why]}"/> '
+        line += _comment(evidence(Rule(pair.a, pair.b, [pair]), report))
+        lines.setdefault(
+            links, _comment(_left_out(unchecked[links])) if links in unchecked else line
+        )
     inner = "".join(f"  {line}\n" for line in lines.values())
     return f"<robot name={quoteattr(robot)}>\n{inner}</robot>\n"
-
-
-def _links(pairs: Iterable[Suggestion]) -> Iterator[tuple[str, str, str]]:
-    """Reasons that disable most first, so that a link pair gets the strongest of its bodies."""
-    of_robot = [pair for pair in pairs if pair.links is not None]
-    for why, reason in _SRDF_REASONS.items():
-        for pair in of_robot:
-            if pair.why == why and pair.links is not None:
-                yield reason, *pair.links
-
-
-def evidence(pair: Suggestion, report: SuggestionsReport) -> str:
-    """`penetrating by 0.2 mm at the placement`."""
-    said = []
-    if pair.why == "adjacent":
-        said.append("a joint connects them")
-    if pair.relation is not None and pair.relation != "separated":
-        said.append(f"{_contact(pair, unit_of(report.units))} at the placement")
-    if report.poses and pair.contacts is not None:
-        poses = _poses(report)
-        if pair.why == "never":
-            said.append(f"never in contact in {poses}, which is no proof")
-        else:
-            said.append(f"in contact in {pair.contacts:,} of {poses}")
-    return ", ".join(said)
 
 
 def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
@@ -119,8 +205,8 @@ def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool
     if left_out := sum(pair.adjacent for pair in report.unchecked):
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
-    for (a, b), reason in islice(suggestions.undecided.items(), _NAMED):
-        said += f"\nNot decided: {a} and {b}: {reason.removeprefix('undecided: ')}"
+    for pair, reason in islice(suggestions.undecided.items(), _NAMED):
+        said += f"\nNot decided: {pair}: {reason.removeprefix('undecided: ')}"
     if (more := len(suggestions.undecided) - _NAMED) > 0:
         said += f"\nNot decided: {counted(more, 'more pair')}"
     return said
@@ -135,7 +221,7 @@ def _left_out(pair: Unchecked) -> str:
 
 
 def _comment(text: str) -> str:
-    """XML lets no comment hold `--`."""
+    """XML lets no comment hold `--`, or end with a hyphen."""
     return f"<!-- {re.sub('-(?=-)', '- ', text)} -->"
 
 
@@ -143,15 +229,6 @@ def _poses(report: SuggestionsReport) -> str:
     """`20 random poses with 1 joint held`."""
     poses = counted(report.poses, "pose" if report.seed is None else "random pose")
     return poses + (f" with {counted(len(report.held), 'joint')} held" if report.held else "")
-
-
-def _contact(pair: Suggestion, unit: str | None) -> str:
-    if pair.relation not in OVERLAPS or pair.depth_bounds is None:
-        return str(pair.relation)
-    low, high = pair.depth_bounds
-    exactly = number(low) == number(high)
-    figure = number(high) if exactly else f"at most {number(high)}"
-    return f"{pair.relation} by {with_unit(figure, unit)}"
 
 
 def quoted(text: str) -> str:

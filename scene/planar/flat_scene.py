@@ -176,6 +176,7 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
     deviation = _deviation(body, region)
     file: MeshFile = replace(
         body.file,
+        prepared=None,
         part=f"outline {plane} of {body.id}",
         resolution=body.resolution_world + deviation,
         deviation=deviation,

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit import check
+from satcheck.audit import Settings, check
 from satcheck.audit.finding import examine
-from satcheck.audit.suggest import Suggestions, suggest
+from satcheck.audit.suggest import NO_FIGURE, Suggestions, limit, suggest, suggestions_of
 from satcheck.report.report import INTERNAL_ERROR
-from satcheck.scene import Rule, Selector, load_scene
+from satcheck.scene import Rule, Scene, Selector, load_scene
 from satcheck.scene.robot import RandomPoses
 from tests.audit.shapes import open_box, scene_of, unit_box
 from tests.scene.robot.robots import joint, link, robot_of
@@ -31,14 +31,47 @@ def allow(a: str, b: str, **keys) -> Rule:
 
 
 def test_what_is_in_contact_as_placed(tmp_path):
+    """b and c touch, which passes."""
     meshes = {"a": unit_box(), "b": unit_box(0.75), "c": unit_box(1.75), "d": unit_box(9)}
     found = suggest(scene_of(tmp_path, **meshes))
-    assert pairs(found) == {("a", "b"): "contact", ("b", "c"): "contact"}
-    overlap, touch = found.report.suggestions
+    (overlap,) = found.report.suggestions
+    assert (overlap.a, overlap.b, overlap.why) == ("a", "b", "contact")
     assert overlap.relation == "penetrating"
     assert overlap.depth_bounds == pytest.approx((0.25, 0.25))
-    assert (touch.relation, touch.depth_bounds) == ("touching", None)
+    assert overlap.thickness_bounds == pytest.approx((0.25, 0.25), rel=0.01)
+    assert (overlap.max_depth, overlap.max_thickness) == (0.275, 0.275)
     assert found.undecided == {}
+
+
+@pytest.mark.parametrize(
+    ("bounds", "most"),
+    [
+        (None, None),
+        ((0.0, 0.0), 0.0),
+        ((0.1, 0.25), 0.275),
+        ((1.0, 1.0), 1.1),
+        ((9.0, 9.1), 10.1),  # 10.01 at least
+        ((1e-9, 3e-7), 3.3e-7),
+        ((1e30, 1e30), pytest.approx(1.1e30, rel=0.01)),
+        ((0.0, 1e-320), pytest.approx(1.1e-320, rel=0.01)),
+    ],
+)
+def test_a_limit_is_the_upper_end_and_a_tenth_in_three_digits(bounds, most):
+    assert limit(bounds) == most
+    assert bounds is None or limit(bounds) >= bounds[1]
+
+
+def test_an_overlap_without_a_figure_is_not_suggested(tmp_path):
+    """A rule would allow it without a limit. It is counted as undecided."""
+    report = check(
+        scene_of(tmp_path, a=unit_box(), b=unit_box(0.75)), Settings(depth=False, thickness=False)
+    )
+    found = suggestions_of({None: report})
+    assert found.report.suggestions == ()
+    (left_out,) = found.report.unchecked
+    assert (left_out.a, left_out.b, left_out.reason) == ("a", "b", NO_FIGURE)
+    assert found.undecided == {"a and b": NO_FIGURE}
+    assert found.report.undecided == 1
 
 
 @pytest.mark.parametrize(
@@ -70,7 +103,6 @@ def test_links_with_a_joint_between_them():
         ("fore", "left"),
         ("fore", "right"),
     }
-    assert pairs(found)["left", "right"] == "contact"
     assert all(one.contacts is None for one in found.report.suggestions)
     assert "never" not in pairs(found).values()
 
@@ -143,10 +175,53 @@ def test_bodies_of_links_that_may_meet_are_remembered():
     assert never - found.may_meet
 
 
-def test_allowing_what_is_suggested_makes_the_check_pass():
+def test_the_suggested_limits_make_the_check_pass():
     scene = load_scene([SAMPLES / "gripper.glb"])
     assert check(scene).summary.verdict == "fail"
-    rules = tuple(allow(one.a, one.b) for one in suggest(scene).report.suggestions)
+    rules = tuple(
+        allow(one.a, one.b, max_depth=one.max_depth, max_thickness=one.max_thickness)
+        for one in suggest(scene).report.suggestions
+    )
     allowed = replace(scene, rules=rules)
     assert check(allowed).summary.verdict == "pass"
     assert suggest(allowed).report.suggestions == ()
+
+
+def turning(tmp_path: Path, size: str) -> Scene:
+    """A robot whose tip turns about its base; a link without a body is between them."""
+    shape = '<collision>{}<geometry><box size="{}"/></geometry></collision>'
+    turn = '<axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    joints = [joint("j", "base", "mid", "revolute", turn), joint("k", "mid", "tip", "fixed")]
+    tip = shape.format('<origin xyz="1 0 0"/>', "1.5 0.1 0.1")
+    mid = shape.format('<origin xyz="0 0 9"/>', "1 1 1")
+    base = shape.format('<origin xyz="1 0 0"/>', size)
+    links = [link("base", base), link("mid", mid), link("tip", tip)]
+    (tmp_path / "r.urdf").write_text(robot_of(*links, *joints))
+    return load_scene([tmp_path / "r.urdf"])
+
+
+def test_links_that_meet_in_some_poses_are_never_allowed(tmp_path):
+    """They overlap as placed: a rule limits that, and the reason counts the poses."""
+    scene = turning(tmp_path, "0.1 0.1 0.1")
+    poses = list(RandomPoses([robot.robot for robot in scene.robots], 100, 0))
+    found = suggest(scene, poses=poses, seed=0)
+    (pair,) = [one for one in found.report.suggestions if (one.a, one.b) == ("base", "tip")]
+    assert pair.why == "contact"
+    assert 0 < pair.contacts < 50
+    assert pair.max_depth is not None
+
+
+def test_a_floor_below_a_robot_is_limited_and_not_allowed(tmp_path, monkeypatch):
+    """They meet in every pose, and as deep; a floor is no link."""
+    turning(tmp_path, "3 3 3")
+    monkeypatch.chdir(tmp_path)
+    floor = '{id = "floor", shape = {type = "box", size = [9, 9, 1]}, position = [0, 0, -1.75]}'
+    text = f'schema = "satcheck.scene/1"\nunits = "m"\nbodies = [{floor}]\n'
+    (tmp_path / "floor.toml").write_text(text)
+    scene = load_scene(["floor.toml", "r.urdf"])
+    poses = list(RandomPoses([robot.robot for robot in scene.robots], 3, 0))
+    found = {(one.a, one.b): one for one in suggest(scene, poses=poses).report.suggestions}
+    floored = found["floor", "base"]
+    assert (floored.why, floored.contacts) == ("contact", 3)
+    assert floored.max_depth == pytest.approx(0.275)
+    assert found["base", "tip"].why == "always"

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from importlib.util import find_spec
 
 ARGUMENTS = ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+if hasattr(os, "geteuid") and os.geteuid() == 0:
+    ARGUMENTS.append("--no-sandbox")  # Chromium has none for root
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 

@@ -27,7 +27,7 @@ WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
     "samples": (("-o", "{}", "arm.urdf", "--sample", "2"), "out.json"),
     "resolve": (("resolve", "-o", "{}", *PUSHED), "out.json"),
     "scene": (("resolve", "--scene-out", "{}", *PUSHED, "--allow-outside"), "out.json"),
-    "suggest": (("suggest", "-o", "{}", "cell.toml"), "out.toml"),
+    "suggest": (("suggest", "-o", "{}", "rack.3mf"), "out.toml"),
     "tradeoff": (("tradeoff", "-o", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.json"),
     "plot": (("tradeoff", "--plot", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.svg"),
 }

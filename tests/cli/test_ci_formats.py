@@ -175,29 +175,56 @@ def test_markdown_shows_names_as_text() -> None:
     assert "\\<b\\>\\|\\`x\\` \\# y" in text
 
 
-def test_csv() -> None:
-    rows = list(csv.DictReader(io.StringIO(render({"all": MIXED}, "csv"), newline="")))
-    assert [row["b"] for row in rows] == [*(finding.b for finding in MIXED.findings), ""]
-    error = rows[-1]
+def rows_of(text: str) -> list[dict[str, str]]:
+    """As a spreadsheet reads them."""
+    plain = text.encode().decode("utf-8-sig")
+    assert plain != text
+    return list(csv.DictReader(io.StringIO(plain, newline="")))
+
+
+def test_csv_has_the_worst_first() -> None:
+    rows = rows_of(render({"all": MIXED}, "csv"))
+    error = rows[0]
     assert (error["id"], error["severity"], error["reason"]) == (
         MISSING.code, "error", MISSING.message
     )  # fmt: skip
-    assert (rows[3]["depth"], rows[3]["mtv_x"], rows[3]["file_b"]) == (
-        "1.0", "-1.0", "block_pushed.obj"
-    )  # fmt: skip
-    assert rows[0]["depth"] == ""
+    assert [row["b"] for row in rows[1:3]] == ["deeper", "block_pushed"]
+    assert [row["severity"] for row in rows[1:]] == ["error", "error", "warning", "note", "none"]
+    assert (rows[2]["depth"], rows[2]["mtv_x"], rows[2]["file_b"]) == (
+        "1",
+        "-1",
+        "block_pushed.obj",
+    )
+    assert rows[-1]["depth"] == ""
+
+
+def test_csv_has_units_rounded_figures_and_no_empty_column() -> None:
+    third = 1 / 3
+    finding = replace(PENETRATING, depth=third, depth_bounds=(third / 2, third), volume=2e7 / 3)
+    whole = replace(scene_report(finding), units="millimeter", issues=())
+    (row,) = rows_of(render({"all": whole}, "csv"))
+    assert (row["depth [mm]"], row["depth_lower [mm]"]) == ("0.333333", "0.166667")
+    assert row["volume [mm^3]"] == "6.66667e+06"
+    assert all(value for name, value in row.items() if name != "undecided")
+    assert {"asset", "units", "distance [mm]", "baseline", "undecided"}.isdisjoint(row)
+
+
+def test_csv_of_assets_in_several_units_has_a_column_of_them() -> None:
+    some = [replace(scene_report(PENETRATING), units=units) for units in ("mm", "meter")]
+    rows = rows_of(render({"a.glb": some[0], "b.glb": some[1]}, "csv"))
+    named = [(row["asset"], row["units"]) for row in rows if row["depth"]]
+    assert named == [("a.glb", "mm"), ("b.glb", "m")]
 
 
 def test_csv_tells_what_a_baseline_accepts() -> None:
     states = ("unchanged", "new", "worse", "undecided", None)
     findings = [replace(PENETRATING, baseline_state=state) for state in states]
-    text = render({"all": scene_report(*findings, TOUCH)}, "csv")
-    rows = list(csv.DictReader(io.StringIO(text, newline="")))
+    rows = rows_of(render({"all": scene_report(*findings, TOUCH)}, "csv"))
     assert [(row["baseline"], row["fails"]) for row in rows] == [
-        ("unchanged", "false"), ("new", "true"), ("worse", "true"), ("undecided", "true"),
-        ("", "true"), ("", "false"), ("", ""),
+        ("", ""), ("new", "true"), ("worse", "true"), ("undecided", "true"),
+        ("", "true"), ("unchanged", "false"), ("", "false"),
     ]  # fmt: skip
-    assert rows[0]["mtv_verified"] == "true"
+    assert rows[1]["mtv_verified"] == "true"
 
 
 @pytest.mark.parametrize(
@@ -205,9 +232,9 @@ def test_csv_tells_what_a_baseline_accepts() -> None:
 )
 def test_a_name_in_csv_is_no_formula(name: str) -> None:
     body = replace(BLOCK, id=name, file=f"{name}.obj")
-    (row,) = csv.DictReader(io.StringIO(of_block(body, "csv"), newline=""))
+    (row,) = rows_of(of_block(body, "csv"))
     assert (row["a"], row["file_a"]) == (f"'{name}", f"'{name}.obj")
-    assert row["mtv_x"] == "-1.0"  # a number, which begins as it has to
+    assert row["mtv_x"] == "-1"  # a number, which begins as it has to
 
 
 def test_json_lines() -> None:

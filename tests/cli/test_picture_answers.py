@@ -13,6 +13,7 @@ from satcheck.audit import Settings, check
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.data import picture_data
 from satcheck.cli.formats.picture.png import ARROW, FAILS, FORCE, KINDS, render
+from satcheck.cli.formats.picture.raster import MARKS
 from satcheck.report.report import Report
 from satcheck.scene import Scene
 from tests.audit.statics.scenes import box, floor, loaded, tower
@@ -78,4 +79,4 @@ def test_a_region_hides_nothing(tmp_path: Path) -> None:
     assert [body.id for body in without_regions(scene).bodies] == ["floor", "lamp"]
     assert picture_data(report, scene)["bodies"]["ids"] == ["floor", "lamp"]
     assert share_of(render(report, scene, SIZE), FAILS) > 0.01
-    assert KINDS[ARROW].in_front
+    assert KINDS[ARROW].layer == MARKS

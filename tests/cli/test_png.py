@@ -181,7 +181,6 @@ def test_the_closing_line_names_every_file(tmp_path: Path) -> None:
 def test_a_picture_overwrites_no_input(tmp_path: Path) -> None:
     assert satcheck(*PUSHED, "--png", str(SAMPLES / "box.obj")).code == 2
     assert satcheck(*PUSHED, "--png", str(tmp_path / "none" / "x.png")).code == 2
-    assert satcheck("arm.urdf", "--sample", "2", "--png", str(tmp_path / "x.png")).code == 2
 
 
 def test_a_picture_overwrites_no_other_output(tmp_path: Path) -> None:

@@ -114,7 +114,7 @@ def test_top_is_the_worst_of_every_format_and_all_count(folder: Path) -> None:
             report(folder, "all.jsonl", "--top", "2", "--format", "csv").out.splitlines()
         )
     )
-    assert [row["asset"] for row in rows] == ["c.toml", "b.toml"]
+    assert [row["\ufeffasset"] for row in rows] == ["c.toml", "b.toml"]
     table = report(folder, "all.jsonl", "--top", "1").out
     assert "2 more assets not shown (--top 1)" in table
     assert "FAIL: 3 assets: 2 fail" in table

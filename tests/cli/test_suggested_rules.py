@@ -1,9 +1,10 @@
-"""What `satcheck suggest` writes, given beside the same input: the suggested pairs are allowed."""
+"""What `satcheck suggest` writes, given beside the same input: that passes, no worse one."""
 
 from __future__ import annotations
 
 import json
 import shutil
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,14 @@ def nodes_of_two(folder: Path) -> tuple[str, ...]:
     return (*glb(folder), "gripper.glb", "--split", "nodes")
 
 
+def concave(folder: Path) -> tuple[str, ...]:
+    """Their depth is a wide interval."""
+    names = ("kettle.obj", "snowflake.obj")
+    for name in names:
+        shutil.copy(SAMPLES / name, folder)
+    return names
+
+
 def toml_scene(folder: Path) -> tuple[str, ...]:
     bodies = "".join(
         f"[[bodies]]\nid = {json.dumps(name, ensure_ascii=False)}\nposition = [{STEP * k}, 0, 0]\n"
@@ -120,7 +129,7 @@ def outlines(folder: Path) -> tuple[str, ...]:
 
 
 KINDS = (
-    *(meshes, glb, threemf, components, split_glb, nodes_of_two, toml_scene, json_scene),
+    *(meshes, concave, glb, threemf, components, split_glb, nodes_of_two, toml_scene, json_scene),
     *(simple_scene, robot, outlines),
 )
 
@@ -132,12 +141,13 @@ def pairs_of(ran: Ran, *relations: str) -> set[tuple[str, str]]:
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
-def test_the_suggested_pairs_are_allowed_and_no_others(
+def test_the_suggested_pairs_pass_and_no_others_are_limited(
     kind: Callable[[Path], tuple[str, ...]], tmp_path: Path
 ) -> None:
+    """Links with a joint between them are allowed."""
     given = kind(tmp_path)
     bare = satcheck(*JSON, *given, cwd=tmp_path)
-    meet = pairs_of(bare, "penetrating", "touching")
+    meet = pairs_of(bare, "penetrating")
     assert meet
     assert bare.code in (0, 1), bare.err
     suggested = satcheck("suggest", *given, "-o", "rules.toml", cwd=tmp_path)
@@ -152,12 +162,95 @@ def test_the_suggested_pairs_are_allowed_and_no_others(
         assert [b["id"] for b in ran.document["bodies"]] == [
             b["id"] for b in bare.document["bodies"]
         ]
-        assert pairs_of(ran) == pairs_of(bare) - meet
-        counted = ran.document["summary"]["pairs"]
-        already = bare.document["summary"]["pairs"]["allowed"]
-        assert counted["allowed"] == len(meet) + already
+        jointed = meet if kind is robot else set()
+        assert pairs_of(ran) == pairs_of(bare) - jointed
+        limited = {(f["a"], f["b"]) for f in ran.document["findings"] if f["rule"]}
+        assert limited == meet - jointed
+        suggested_ones = [r for r in ran.document["rules"] if r["reason"].startswith("suggested:")]
+        assert {rule["allowed"] for rule in suggested_ones} == {True if jointed else None}
         assert "unused-rule" not in {issue["code"] for issue in ran.document["issues"]}
         assert ran.document["settings"] == bare.document["settings"]
+
+
+def table(folder: Path, sunk: float, name: str = "table.glb", legs: int = 4) -> str:
+    """A top, and legs that stand in it by so much, in metres."""
+    top = make.box((-1, -1, 0), (1, 1, 0.1))
+    leg = make.box((-0.05, -0.05, -0.7), (0.05, 0.05, 0.0))
+    nodes: list[dict[str, Any]] = [{"name": "top", "mesh": 0}]
+    for k in range(legs):
+        at = [0.8 - 1.6 * (k % 2), 0.8 - 1.6 * (k // 2 % 2), sunk]
+        nodes.append({"name": f"leg.{k:03d}", "mesh": 1, "translation": at})
+    content = hierarchies.glb({"top": top, "leg": leg}, nodes, list(range(len(nodes))))
+    (folder / name).write_bytes(content)
+    return name
+
+
+def test_a_leg_that_sinks_deeper_fails(tmp_path: Path) -> None:
+    """From 2 mm to 91 mm, beside the rules that allow the 2 mm."""
+    name = table(tmp_path, 0.002)
+    assert satcheck("suggest", name, "-o", "rules.toml", cwd=tmp_path).code == 0
+    assert satcheck(name, "rules.toml", cwd=tmp_path).code == 0
+    table(tmp_path, 0.091)
+    ran = satcheck(*JSON, name, "rules.toml", cwd=tmp_path)
+    assert ran.code == 1
+    assert {f["severity"] for f in ran.document["findings"] if f["rule"]} == {"error"}
+
+
+def test_a_folder_has_one_file_of_rules(tmp_path: Path) -> None:
+    """An asset is a scene of its own; of two with the same names the larger limit counts."""
+    (tmp_path / "kit").mkdir()
+    table(tmp_path / "kit", 0.002)
+    table(tmp_path / "kit", 0.003, "stool.glb")
+    ran = satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path)
+    assert ran.code == 0, ran.err
+    rules = tomllib.loads((tmp_path / "rules.toml").read_text())["rules"]
+    assert [(rule["a"], rule["b"]) for rule in rules] == [("top", f"leg.00{k}") for k in range(4)]
+    assert all(0.0033 <= rule["max_depth"] <= 0.00331 for rule in rules)
+    assert "in kit/stool.glb, kit/table.glb" in rules[0]["reason"]
+    checked = ("each", "kit", "--rules", "rules.toml")
+    assert satcheck(*checked, cwd=tmp_path).code == 0
+    table(tmp_path / "kit", 0.091)
+    assert satcheck(*checked, cwd=tmp_path).code == 1
+
+
+def test_names_that_another_asset_has_are_counted(tmp_path: Path) -> None:
+    """Its legs only touch the top, and a rule cannot leave the asset out: it says so."""
+    (tmp_path / "kit").mkdir()
+    table(tmp_path / "kit", 0.002)
+    table(tmp_path / "kit", 0.0, "stool.glb")
+    ran = satcheck("suggest", "kit", cwd=tmp_path)
+    rules = tomllib.loads(ran.out)["rules"]
+    assert [rule["b"] for rule in rules] == [f"leg.00{k}" for k in range(4)]
+    assert all("in kit/table.glb, 1 other pair of these names" in r["reason"] for r in rules)
+
+
+def test_assets_in_several_units_have_plain_limits(tmp_path: Path) -> None:
+    """Each is in the units of its asset, as the rules state none."""
+    (tmp_path / "kit").mkdir()
+    table(tmp_path / "kit", 0.002)
+    shutil.copy(SAMPLES / "rack.3mf", tmp_path / "kit")
+    assert satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path).code == 0
+    document = tomllib.loads((tmp_path / "rules.toml").read_text())
+    assert "units" not in document
+    assert [rule["a"] for rule in document["rules"]] == ["rack/tray", "top"]
+    assert satcheck("each", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
+
+
+@pytest.mark.parametrize("more", [("--format", "srdf"), ("--sample", "3")])
+def test_a_robot_in_a_folder_has_one_pose(more: tuple[str, ...], tmp_path: Path) -> None:
+    table(tmp_path, 0.002)
+    ran = satcheck("suggest", ".", *more, cwd=tmp_path)
+    assert ran.code == 2
+    assert "give it alone" in ran.err
+
+
+def test_an_asset_that_cannot_be_read_is_an_error(tmp_path: Path) -> None:
+    table(tmp_path, 0.002)
+    (tmp_path / "broken.obj").write_text("v 0 0 nan\nf 1 1 1\n")
+    ran = satcheck("suggest", ".", cwd=tmp_path)
+    assert ran.code == 2
+    assert "broken.obj" in ran.err
+    assert [rule["b"] for rule in tomllib.loads(ran.out)["rules"]] == ["leg.*"]
 
 
 def test_a_rule_about_no_body_is_a_warning(tmp_path: Path) -> None:

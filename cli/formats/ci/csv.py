@@ -1,9 +1,10 @@
-"""CSV (RFC 4180): a row for each finding that the reports list, and for each error of
-an input.
+"""CSV (RFC 4180) for spreadsheets: a row for each error of an input and for each finding that the
+reports list, the worst first. Columns that would be empty are left out.
 
 A spreadsheet takes a cell that begins with one of `=+-@` for a formula, whatever its quotes. A text
 that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are. Texts
-have no control characters: a table in a terminal is text, too.
+have no control characters: a table in a terminal is text, too. A byte order mark says that the text
+is UTF-8, which spreadsheets do not guess.
 """
 
 from __future__ import annotations
@@ -12,91 +13,88 @@ import csv
 import io
 from typing import TYPE_CHECKING, Any
 
+from satcheck.audit.words import rank
 from satcheck.cli.output import harmless
-from satcheck.report.verdict import is_failure
+from satcheck.report.rows import row_of
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from satcheck.cli.formats.registry import Reports
-    from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.report import Report
 
-# Columns that are fields of a finding with one value.
-_FIELDS = (
-    "id",
-    "a",
-    "b",
-    "relation",
-    "exact_relation",
-    "severity",
-    "rule",
-    "undecided",
-    "quality",
-    "thickness",
-    "depth",
-    "distance",
-    "volume",
-    "mtv_verified",
-    "reason",
+_BYTE_ORDER_MARK = "\ufeff"
+_DIGITS = 6
+_LENGTHS = (
+    *("thickness", "thickness_lower", "depth", "depth_lower", "distance", "distance_lower"),
+    *("mtv_x", "mtv_y", "mtv_z"),
 )
-_ENDS = ("thickness_lower", "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
-# Beside a baseline; and whether the check fails by the finding.
-_VERDICT = ("baseline", "fails")
+# In every file, also if they are empty.
+_ALWAYS = ("a", "b", "relation", "severity", "fails")
+_COLUMNS = (
+    *("asset", *_ALWAYS, "undecided", *_LENGTHS, "mtv_verified", "volume", "exact_relation"),
+    *("quality", "rule", "baseline", "reason", "units", "id", "file_a", "file_b"),
+)
 # The begin of a formula; in some countries also in full width.
 _FORMULA = ("=", "+", "-", "@", *"\uff1d\uff0b\uff0d\uff20")
-_COLUMNS = ("asset", *_FIELDS, *_ENDS, *_VERDICT)
 
 
 def render(reports: Reports) -> Iterator[str]:
-    yield lines([_COLUMNS])
+    """Units are in the header, or, if they differ, in a column."""
+    rows: list[tuple[tuple[float, ...], Mapping[str, Any]]] = []
+    units = set()
     for name, report in reports.items():
-        yield lines(_rows(name, report))
+        unit = unit_of(report.units)
+        units.add(unit)
+        beside = {"asset": name, "units": unit}
+        rows += ((key, beside | cells) for key, cells in _rows(report))
+    rows.sort(key=lambda row: row[0])
+    alike = units.pop() if len(units) == 1 else None
+    left_out = {"asset" if len(reports) == 1 else "", "units" if alike else ""}
+    columns = [
+        column
+        for column in _COLUMNS
+        if column not in left_out
+        and (column in _ALWAYS or any(cells.get(column) is not None for _, cells in rows))
+    ]
+    yield _BYTE_ORDER_MARK + _line(_with_unit(column, alike) for column in columns)
+    for _, cells in rows:
+        yield _line(_cell(cells.get(column)) for column in columns)
 
 
-def lines(rows: Iterable[Iterable[Any]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\r\n").writerows(map(_cell, row) for row in rows)
-    return text.getvalue()
-
-
-def _rows(asset: str, report: Report) -> Iterator[list[Any]]:
+def _rows(report: Report) -> Iterator[tuple[tuple[float, ...], dict[str, Any]]]:
+    """Yield what rows are sorted by, and their cells. The code of an issue is its id."""
     files = {body.id: body.file for body in report.bodies}
-    for finding in report.findings:
-        files_of_both = (files[finding.a], files[finding.b])
-        verdict = (finding.baseline_state, is_failure(finding, report.settings.fail_on))
-        yield [asset, *_values(finding), *files_of_both, *verdict]
     for issue in report.issues:
         if issue.severity == "error":
-            yield _of_issue(asset, issue, files)
+            cells = {"id": issue.code, "a": issue.body, "severity": issue.severity}
+            file = issue.file or files.get(issue.body or "")
+            yield (-1,), {**cells, "reason": issue.message, "file_a": file}
+    for finding in report.findings:
+        both = {"file_a": files[finding.a], "file_b": files[finding.b]}
+        yield rank(finding), row_of(finding, report) | both
+
+
+def _with_unit(column: str, unit: str | None) -> str:
+    """`depth [mm]`"""
+    if unit is None or column not in (*_LENGTHS, "volume"):
+        return column
+    return f"{column} [{unit}{'^3' if column == 'volume' else ''}]"
+
+
+def _line(cells: Iterable[Any]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\r\n").writerow(cells)
+    return text.getvalue()
 
 
 def _cell(value: Any) -> Any:
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, float):
+        return f"{value + 0.0:.{_DIGITS}g}"
     if not isinstance(value, str):
         return value
     text = harmless(value)
     return f"'{text}" if text.lstrip().startswith(_FORMULA) else text
-
-
-def _of_issue(asset: str, issue: Issue, files: Mapping[str, str]) -> list[str | None]:
-    """Its code is the id."""
-    cells = {
-        "asset": asset,
-        "id": issue.code,
-        "a": issue.body,
-        "severity": issue.severity,
-        "reason": issue.message,
-        "file_a": issue.file or files.get(issue.body or ""),
-    }
-    return [cells.get(column) for column in _COLUMNS]
-
-
-def _values(finding: Finding) -> list[Any]:
-    """An empty cell is a value that is not known or does not apply."""
-    bounds = (finding.thickness_bounds, finding.depth_bounds)
-    return [
-        *(getattr(finding, field) for field in _FIELDS),
-        *(None if interval is None else interval[0] for interval in bounds),
-        *(finding.mtv or (None, None, None)),
-    ]

@@ -11,10 +11,13 @@ const across = (a, b = [0, 0, 1]) => {
   return norm(normal) > 0.1 * norm(a) ? unit(normal) : across(a, [b[2], b[0], b[1]]);
 };
 
-// Looks at a target from a distance.
+const LENS = 2.2;
+
+// Looks at a target. far: how much is seen. back: the eye is so many times as far away, and its angle as much
+// smaller, so that it stands outside of the bodies.
 class Camera {
   constructor(upwards) {
-    Object.assign(this, { yaw: -0.7, pitch: 0.5, far: 10, target: [0, 0, 0], upwards });
+    Object.assign(this, { yaw: -0.7, pitch: 0.5, far: 10, back: 1, target: [0, 0, 0], upwards });
   }
 
   // From a frame whose z is up.
@@ -28,7 +31,7 @@ class Camera {
   }
 
   get eye() {
-    return plus(this.target, times(this.axis, this.far));
+    return plus(this.target, times(this.axis, this.far * this.back));
   }
 
   get side() {
@@ -39,9 +42,19 @@ class Camera {
     return cross(this.axis, this.side);
   }
 
-  frame(target, radius) {
+  // As viewpoint.py says. Without towards the direction stays.
+  frame({ target, radius, towards, clear = 0 }) {
     this.target = target;
     this.far = Math.max(radius, 1e-12) * 2.6;
+    this.back = Math.max(1, (1.2 * clear) / this.far);
+    if (!towards) return;
+    const [x, y, z] = this.upwards === "y" ? [towards[2], towards[0], towards[1]] : towards;
+    Object.assign(this, { yaw: Math.atan2(y, x), pitch: Math.asin(Math.max(-1, Math.min(1, z))) });
+  }
+
+  // The length of a pixel at the target, in a view of this height.
+  pixel(height) {
+    return (2 * this.far) / (LENS * height);
   }
 
   turn(x, y) {
@@ -57,8 +70,8 @@ class Camera {
 
   // Column by column, for WebGL. Right-handed, looking along -axis.
   matrix(aspect) {
-    const eye = this.eye, rows = [this.side, this.up, this.axis], f = 2.2;
-    const near = this.far / 100, far = this.far * 100, d = near - far;
+    const eye = this.eye, rows = [this.side, this.up, this.axis], f = LENS * this.back;
+    const reach = this.far * this.back, near = reach / 100, far = reach * 100, d = near - far;
     const p = [f / aspect, f, (far + near) / d];
     const out = new Float32Array(16);
     rows.forEach((row, r) => {

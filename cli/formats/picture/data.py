@@ -2,59 +2,91 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from msgspec import to_builtins
 
 from satcheck.audit.messages import measured
-from satcheck.audit.words import counted, interval, is_listed, severity, with_unit, worst_first
+from satcheck.audit.words import counted, is_hit, is_listed, severity, worst_first
 from satcheck.cli.formats.details import facts
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.geometry import geometry
+from satcheck.cli.formats.picture.moments import Moments, moments_of
 from satcheck.cli.formats.picture.packing import packed_points
+from satcheck.cli.formats.picture.shown import Shows
+from satcheck.cli.formats.picture.viewpoint import of_all
 from satcheck.cli.formats.summary import summary_line
 from satcheck.cli.output import issue_line
 from satcheck.core.errors import SatcheckError
+from satcheck.report.report import OVERLAPS
 from satcheck.report.verdict import is_failure
 from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     from satcheck.cli.formats.picture.geometry import Parts
+    from satcheck.cli.formats.picture.shown import Shown
+    from satcheck.cli.formats.picture.viewpoint import Viewpoint
     from satcheck.report.components import Component
-    from satcheck.report.report import Finding, Report
+    from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.values import Vector
     from satcheck.scene import Scene
 
     Floats = npt.NDArray[np.float64]
+    Line = Sequence[Vector] | Floats
+    Lines = Sequence[Line]
 
+CLOSELY = 50  # findings, the worst first, for which rays choose the viewpoint
 ROOM = 1_800_000  # characters for meshes, of a page that should be no larger than 2 MB
 MOST_COMPONENTS = 100  # of a finding; JSON has them all
 LARGEST = 1e18  # a coordinate whose square the renderer can hold: it has float32
 
 
-def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> dict[str, Any]:
+def picture_data(
+    report: Report, scene: Scene, parts: Parts | None = None, moments: Moments | None = None
+) -> dict[str, Any]:
     """Lengths in units of the scene, relative to the middle of all bodies. A body that cannot be
-    drawn has no number. parts: convex parts to show."""
+    drawn has no number. parts: convex parts to show. moments: None: those of the motions."""
     scene = without_regions(scene)
     bodies = list(scene.bodies) if can_be_drawn(scene) else []
+    moments = (moments or moments_of(report, scene)) if bodies else Moments()
     findings = listed(report)
     met = frozenset(id_ for finding in findings for id_ in (finding.a, finding.b))
-    drawn = geometry(bodies, met, parts or {}, ROOM)
+    drawn = geometry(bodies, met, parts or {}, ROOM, moments.placed)
     numbers = {body.id: k for k, body in enumerate(bodies)}
-    unit = unit_of(report.units)
     others = counted(len(bodies) - len(met & numbers.keys()), "body", "bodies")
     simpler = f"Simplified: {others} without findings, to {drawn.simplified}"
+    up = up_of(scene)
+    shows = Shows(report, scene, moments, up)
+    rims: list[Lines] = []
+    shown = []
+    for rank, finding in enumerate(findings):
+        stated = _stated(finding, report, drawn.middle)
+        if {finding.a, finding.b} <= numbers.keys():
+            seen = shows.of(finding, closely=rank < CLOSELY)
+            rims.append(seen.marks.rim.lines if seen.marks.rim else [])
+            stated |= _drawn(seen, numbers, drawn.middle)
+            if moments.note:  # several poses
+                stated["measured"] += f", {moments.names[seen.moment]}" if moments.names else ""
+        else:
+            rims.append([])
+            stated |= {"a": numbers.get(finding.a), "b": numbers.get(finding.b)}
+        shown.append(stated | _lines(finding, rims[-1], drawn.middle))
     return {
-        "title": summary_line(report),
+        "title": headline(report, moments),
+        "summary": summary_line(report),
         "verdict": report.summary.verdict,
-        "unit": unit or "",
-        "up": up_of(scene),
+        "unit": unit_of(report.units) or "",
+        "up": up,
+        "view": _view(of_all(bodies, up), drawn.middle) if bodies else None,
         "simplified": simpler if drawn.simplified else "",
-        "findings": [_shown(finding, report, numbers, drawn.middle) for finding in findings],
-        "points": _packed_points(findings),
+        "findings": shown,
+        "points": _packed_points(findings, rims),
         "states": {
             numbers[id_]: state for id_, state in states_of(report).items() if id_ in numbers
         },
@@ -63,10 +95,34 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
             {"from": _relative(start, drawn.middle), "way": _relative(way, 0.0), "kind": kind}
             for start, way, kind in (arrows_of(report, scene) if bodies else ())
         ],
+        "moments": moments.names,
         "issues": [issue_line(issue) for issue in report.issues],
+        "counted": _counted(report.issues),
         "drawn": len(bodies) == len(scene.bodies),
         **drawn.values,
     }
+
+
+def headline(report: Report, moments: Moments) -> str:
+    """`6 of 21 pairs overlap, 1 is undecided`; the message where no pair is at fault."""
+    note = f", {moments.note}" if moments.note else ""
+    total, failing = report.summary.pairs.asked, report.settings.fail_on
+    wrong = [finding for finding in report.findings if is_failure(finding, failing)]
+    overlaps = sum(finding.at_rest in OVERLAPS for finding in wrong)
+    hits = sum(is_hit(finding) and finding.at_rest not in OVERLAPS for finding in wrong)
+    undecided = sum(finding.undecided is not None for finding in report.findings)
+    counts = [
+        (overlaps, "overlaps", "overlap"),
+        (hits, "hits while moving", "hit while moving"),
+        (len(wrong) - overlaps - hits, "is too close", "are too close"),
+        (undecided, "is undecided", "are undecided"),
+    ]
+    said = [(count, one if count == 1 else many) for count, one, many in counts if count]
+    if not said or report.answers:
+        return f"{report.message.partition(': ')[2]}{note}"
+    (first, verb), *more = said
+    rest = "".join(f", {count:,} {words}" for count, words in more)
+    return f"{first:,} of {counted(total, 'pair')} {verb}{rest}{note}"
 
 
 def listed(report: Report) -> list[Finding]:
@@ -107,7 +163,7 @@ def require_drawable(scene: Scene) -> None:
         raise SatcheckError("not-drawable", "there is no picture: coordinates are too large for it")
 
 
-def lines_of(finding: Finding) -> list[list[tuple[float, float, float]]]:
+def lines_of(finding: Finding) -> list[Line]:
     """Where the surfaces cross, and the outlines of patches in which both lie; a closed line
     repeats its start."""
     if finding.contacts is None:
@@ -117,13 +173,23 @@ def lines_of(finding: Finding) -> list[list[tuple[float, float, float]]]:
     return [*curves, *([*outline, outline[0]] for outline in outlines)]
 
 
-def _points(finding: Finding) -> Floats:
-    return np.array([point for line in lines_of(finding) for point in line]).reshape(-1, 3)
+def _counted(issues: Sequence[Issue]) -> str:
+    """`1 error, 3 warnings`."""
+    counts = Counter(issue.severity for issue in issues)
+    return ", ".join(
+        counted(counts[one], one) for one in ("error", "warning", "note") if counts[one]
+    )
 
 
-def _packed_points(findings: list[Finding]) -> str:
+def _points(finding: Finding, rims: Lines) -> Floats:
+    return np.array([point for line in (*lines_of(finding), *rims) for point in line]).reshape(
+        -1, 3
+    )
+
+
+def _packed_points(findings: list[Finding], rims: list[Lines]) -> str:
     """Of the lines of all findings, within the box of each."""
-    points = [np.empty((0, 3)), *map(_points, findings)]
+    points = [np.empty((0, 3)), *map(_points, findings, rims)]
     boxes = [np.broadcast_to(_box(each), (len(each), 2, 3)) for each in points]
     return packed_points(np.concatenate(points), np.concatenate(boxes))
 
@@ -133,37 +199,69 @@ def _box(points: Floats) -> Floats:
     return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
 
-def _shown(
-    finding: Finding, report: Report, numbers: dict[str, int], middle: Floats
-) -> dict[str, Any]:
-    """lines: how many of `points` each has, which stand in the order of the findings. box: of all
-    these points."""
-    unit = unit_of(report.units)
-    witness = None if finding.witness is None else to_builtins(finding.witness)
-    ball, items = finding.ball, finding.components.items if finding.components else ()
-    thickness = with_unit(interval(finding.thickness_bounds), unit)
+def _lines(finding: Finding, rims: Lines, middle: Floats) -> dict[str, Any]:
+    """lines: how many of `points` each has, which stand in the order of the findings. rims: how
+    many of the lines, the last ones, are those of a hole. box: of all these points."""
+    return {
+        "lines": [*map(len, lines_of(finding)), *map(len, rims)],
+        "rims": len(rims),
+        "box": [_relative(corner, middle) for corner in _box(_points(finding, rims))],
+    }
+
+
+def _stated(finding: Finding, report: Report, middle: Floats) -> dict[str, Any]:
+    """What the report says."""
+    witness, ball = finding.witness, finding.ball
+    items = finding.components.items if finding.components else ()
     return {
         "names": [finding.a, finding.b],
-        "a": numbers.get(finding.a),
-        "b": numbers.get(finding.b),
-        "relation": finding.relation,
-        "measured": measured(finding, unit),
+        "relation": finding.at_rest,
+        "overlaps": finding.at_rest in OVERLAPS,
+        "measured": measured(finding, unit_of(report.units)),
         "severity": severity(finding),
         "text": finding.message,
         "mtv": finding.mtv,
         "ends": bool(finding.mtv_verified),
         "axis": finding.normal,
-        "witness": witness and [_relative(witness[body], middle) for body in ("a", "b")],
-        "ball": ball
-        and {
-            "centre": _relative(ball.centre, middle),
-            "radius": ball.radius,
-            "text": f"thickness {thickness}",
-        },
+        "witness": witness and [_relative(witness.a, middle), _relative(witness.b, middle)],
+        "ball": ball and {"centre": _relative(ball.centre, middle), "radius": ball.radius},
         "components": [_component(item, finding, middle) for item in items[:MOST_COMPONENTS]],
         "more": max(len(items) - MOST_COMPONENTS, 0),
-        "lines": list(map(len, lines_of(finding))),
-        "box": [_relative(corner, middle) for corner in _box(_points(finding))],
+    }
+
+
+def _drawn(shown: Shown, numbers: dict[str, int], middle: Floats) -> dict[str, Any]:
+    """What the picture adds. labels: the text, where it stands, and what it is about; the name of a
+    body stands at a point in the box of its mesh, whose sides are 1."""
+    finding, marks = shown.finding, shown.marks
+    return {
+        "a": numbers[finding.a],
+        "b": numbers[finding.b],
+        "moment": shown.moment,
+        "place": _relative(shown.place, middle),
+        "from": marks.way and _relative(marks.way[0], middle),
+        "gap": marks.gap and [_relative(point, middle) for point in marks.gap],
+        "hit": None if marks.hit is None else _relative(marks.hit, middle),
+        "labels": [
+            [text, _relative(at, middle) if kind not in "ab" else _in_box(shown, at, kind), kind]
+            for text, at, kind in shown.labels
+        ],
+        "view": _view(shown.view, middle),
+    }
+
+
+def _in_box(shown: Shown, at: Floats, kind: str) -> list[float]:
+    low, high = np.array(shown.pair["ab".index(kind)].file.mesh.bounds)
+    size = np.where(high > low, high - low, 1.0)
+    return _relative(at / size, low / size)
+
+
+def _view(view: Viewpoint, middle: Floats) -> dict[str, Any]:
+    return {
+        "target": _relative(view.target, middle),
+        "radius": view.radius,
+        "towards": _relative(view.towards, 0.0),
+        "clear": view.clear,
     }
 
 

@@ -46,12 +46,20 @@ class Geometry(NamedTuple):
     simplified: str
 
 
-def geometry(bodies: Sequence[Body], met: frozenset[str], parts: Parts, room: int) -> Geometry:
-    """met: ids of the bodies with findings. room: characters for all meshes.
+def geometry(
+    bodies: Sequence[Body],
+    met: frozenset[str],
+    parts: Parts,
+    room: int,
+    placed: Mapping[str, Floats] = {},
+) -> Geometry:
+    """met: ids of the bodies with findings. room: characters for all meshes. placed: body -> its
+    placement at each moment, of the bodies that move.
 
     frames: float32, for each body the rows of the 3 x 4 matrix from the box of its mesh, whose
     sides are 1, into the page. boxes: float32, least and greatest corner of each. hulls: body ->
     mesh, with the frame of the body. parts: body -> one mesh of all, and the triangles of each.
+    moved: float32, body -> at each moment what `frames` and `boxes` have of it, 18 numbers.
     """
     boxes = np.array([body.world_mesh().bounds for body in bodies]).reshape(-1, 2, 3)
     middle: Floats = np.zeros(3)
@@ -61,7 +69,7 @@ def geometry(bodies: Sequence[Body], met: frozenset[str], parts: Parts, room: in
     whole = {k: meshes.add(b.file.mesh) for k, b in enumerate(bodies) if b.id in met}
     hulls = {k: hull for k in whole if (hull := meshes.hull(bodies[k].file.mesh)) is not None}
     split = {
-        k: _parts(meshes, parts[bodies[k].id], bodies[k], middle)
+        k: _parts(meshes, parts[bodies[k].id], bodies[k].file.mesh)
         for k in whole
         if bodies[k].id in parts
     }
@@ -81,6 +89,11 @@ def geometry(bodies: Sequence[Body], met: frozenset[str], parts: Parts, room: in
         },
         "hulls": {k: hull.mesh for k, hull in hulls.items()},
         "parts": split,
+        "moved": {
+            k: _moved(drawn[k].frame if k in drawn else None, body, placed[body.id], middle)
+            for k, body in enumerate(bodies)
+            if body.id in placed
+        },
         "meshes": meshes.packed,
     }
     return Geometry(values, middle, words)
@@ -166,16 +179,29 @@ def _fitting(
     return result
 
 
-def _parts(
-    meshes: _Meshes, parts: Sequence[Polytope], body: Body, middle: Floats
-) -> dict[str, Any]:
+def _parts(meshes: _Meshes, parts: Sequence[Polytope], mesh: Mesh) -> dict[str, Any]:
+    """scale, offset: from the box of the parts into that of the mesh of the body."""
     solids = [part.to_mesh() for part in parts]
     drawn = meshes.add(joined(solids))
+    low, high = np.array(mesh.bounds)
+    size = np.where(high > low, high - low, 1.0)
     return {
         "mesh": drawn.mesh,
-        "frame": packed(_rows(drawn.frame, body.transform, middle).astype(np.float32)),
+        "scale": (np.diag(drawn.frame)[:3] / size).tolist(),
+        "offset": ((drawn.frame[:3, 3] - low) / size).tolist(),
         "triangles": [solid.triangle_count for solid in solids],
     }
+
+
+def _moved(frame: Floats | None, body: Body, placed: Floats, middle: Floats) -> str:
+    mesh = body.file.mesh
+    frame = frame_of(mesh) if frame is None else frame
+    numbers = []
+    for matrix in placed:
+        world = np.asarray(mesh.vertices) @ matrix[:3, :3].T + (matrix[:3, 3] - middle)
+        rows = _rows(frame, tuple(matrix.reshape(-1).tolist()), middle)
+        numbers.append([*rows, *world.min(axis=0), *world.max(axis=0)])
+    return packed(np.array(numbers, dtype=np.float32))
 
 
 def _rows(frame: Floats, transform: Sequence[float] | None, middle: Floats) -> Floats:

@@ -1,6 +1,6 @@
 """A report as a GLB file, for any viewer: the bodies, translucent, what they share in red, the ways
-out as arrows, the balls of the thickness. `remarks` in the `extras` of the scene name overlaps that
-are not drawn, and why.
+out as arrows, the balls of the thickness. Bodies that move stand as they do at the first hit, which
+is a red point. `remarks` in the `extras` of the scene name overlaps that are not drawn, and why.
 """
 
 from __future__ import annotations
@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.picture.data import listed, require_drawable
-from satcheck.cli.formats.picture.marks import arrow_of, ball_of, sphere_around
+from satcheck.cli.formats.picture.data import drawn_finding, listed, require_drawable
+from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, sphere_around
+from satcheck.cli.formats.picture.moments import moments_of
+from satcheck.cli.formats.picture.shown import marks_of
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
@@ -25,20 +27,29 @@ MET = Material("body with findings", (0.16, 0.44, 0.84, 0.35))
 OTHER = Material("body", (0.5, 0.54, 0.6, 0.2))
 OVERLAP = Material("overlap", (0.86, 0.1, 0.12, 1.0))
 WAY_OUT = Material("way out", (0.05, 0.05, 0.05, 1.0))
+HIT = Material("hit", (0.86, 0.1, 0.12, 1.0))
 THICKNESS = Material("thickness", (1.0, 0.85, 0.1, 1.0))
 
 
 def render(report: Report, scene: Scene) -> bytes:
     """In world coordinates, in metres where the unit is known. Bodies of one mesh share it."""
     require_drawable(scene)
-    findings = listed(report)
+    findings, moments, worst = (
+        listed(report),
+        moments_of(report, scene),
+        drawn_finding(report, scene),
+    )
+    moment = 0 if worst is None else moments.of.get(worst.id, 0)
+    scene = moments.scene_at(scene, moment)
     met = {id_ for finding in findings for id_ in (finding.a, finding.b)}
     nodes = [
         Node(body.id, body.file.mesh, body.transform, MET if body.id in met else OTHER)
         for body in scene.bodies
     ]
     bodies = {body.id: body for body in scene.bodies}
-    drawn = [f for f in findings if f.a in bodies and f.b in bodies]
+    drawn = [
+        f for f in findings if f.a in bodies and f.b in bodies and moments.of.get(f.id, 0) == moment
+    ]
     settings = report.settings
     meter = VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
     remarks: list[str] = []
@@ -53,8 +64,10 @@ def render(report: Report, scene: Scene) -> bytes:
 def _marks(
     finding: Finding, pair: list[Body], meter: VolumeMeter, remarks: list[str]
 ) -> Iterator[Node]:
+    found, radius = marks_of(finding, pair), sphere_around(pair)[1]
     marks = {
-        WAY_OUT: arrow_of(finding, *sphere_around(pair)),
+        WAY_OUT: None if found.way is None else arrow(*found.way, radius),
+        HIT: None if found.hit is None else dot(found.hit, radius),
         THICKNESS: ball_of(finding),
     }
     if finding.at_rest in OVERLAPS:

@@ -17,6 +17,7 @@ from satcheck.cli.formats.picture.packing import packed_text
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.picture.geometry import Parts
+    from satcheck.cli.formats.picture.moments import Moments
     from satcheck.report.report import Report
     from satcheck.scene import Scene
 
@@ -28,12 +29,15 @@ SOURCES = (
 )
 
 
-def render(report: Report, scene: Scene, parts: Parts | None = None) -> str:
-    """The whole page. scene: that the report is about. parts: convex parts to show."""
+def render(
+    report: Report, scene: Scene, parts: Parts | None = None, moments: Moments | None = None
+) -> str:
+    """The whole page. scene: that the report is about. parts: convex parts to show. moments: None:
+    those of the motions."""
     page = _part("page.html")
     for name in SOURCES:
         page = page.replace(f"/* {name} */", _part(name), 1)
-    content = picture_data(report, scene, parts)
+    content = picture_data(report, scene, parts, moments)
     data = _json({**content, "findings": packed_text(_json(content["findings"]))})
     # Text from files must not end the element that holds it.
     return page.replace("/* data */", data.replace("<", "\\u003c"), 1)

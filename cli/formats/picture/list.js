@@ -20,6 +20,8 @@ function list(choose) {
     item.addEventListener("click", () => choose(number));
   });
   report.issues.forEach((text) => added(element("issues"), "li", text));
+  element("issues-count").textContent = report.counted;
+  Object.assign(element("warnings"), { hidden: !report.issues.length, open: /\berrors?\b/.test(report.counted) });
   count();
 }
 

@@ -1,4 +1,4 @@
-"""What a finding says, as meshes beside those of the bodies: the way out, and the thickness."""
+"""What a finding says, as meshes beside those of the bodies: arrows, rods, points, and balls."""
 
 from __future__ import annotations
 
@@ -22,18 +22,7 @@ if TYPE_CHECKING:
 SEGMENTS = 32
 # Of the radius of both bodies, unless the arrow is short.
 _SHAFT, _HEAD = 0.012, 0.12
-
-
-def arrow_of(finding: Finding, centre: Floats, radius: float) -> Mesh | None:
-    """From where the bodies overlap along the way out. centre, radius: of both bodies."""
-    if finding.mtv is None or not any(finding.mtv):
-        return None
-    start = centre
-    if finding.ball is not None:
-        start = np.array(finding.ball.centre)
-    elif finding.witness is not None:
-        start = np.array(finding.witness.a)
-    return arrow(start, np.array(finding.mtv), radius)
+_DOT = 0.02
 
 
 def arrow(start: Floats, way: Floats, radius: float) -> Mesh:
@@ -48,11 +37,30 @@ def arrow(start: Floats, way: Floats, radius: float) -> Mesh:
     return Mesh(np.asarray(upright.vertices) @ turn.T + start, upright.triangles)
 
 
+def rod(start: Floats, end: Floats, radius: float) -> Mesh:
+    """radius: of the bodies beside it, which decides how thick it is."""
+    way = end - start
+    length = float(np.linalg.norm(way))
+    upright = _lifted(
+        mesh_of(Cylinder(radius=_SHAFT * radius / 2, height=length), SEGMENTS), length / 2
+    )
+    return Mesh(np.asarray(upright.vertices) @ _towards(way / length).T + start, upright.triangles)
+
+
+def dot(centre: Floats, radius: float) -> Mesh:
+    """A point that is seen beside bodies of this radius."""
+    return _sphere(centre, _DOT * radius)
+
+
 def ball_of(finding: Finding) -> Mesh | None:
     if finding.ball is None or not finding.ball.radius > 0.0:
         return None
-    ball = mesh_of(Sphere(radius=finding.ball.radius), SEGMENTS)
-    return Mesh(np.asarray(ball.vertices) + np.array(finding.ball.centre), ball.triangles)
+    return _sphere(np.array(finding.ball.centre), finding.ball.radius)
+
+
+def _sphere(centre: Floats, radius: float) -> Mesh:
+    ball = mesh_of(Sphere(radius=radius), SEGMENTS)
+    return Mesh(np.asarray(ball.vertices) + centre, ball.triangles)
 
 
 def sphere_around(bodies: list[Body]) -> tuple[Floats, float]:

@@ -1,14 +1,24 @@
 // The bodies of the report, and what is drawn of a finding.
 const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RED = [0.86, 0.1, 0.12];
-const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45];
+const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45], RIM = [0.75, 0.1, 0.65];
+// Of bodies with findings: between these, so that neighbours differ.
+const MET = [[0.42, 0.52, 0.7], [0.7, 0.77, 0.86]];
+
 const TINTS = { error: [0.82, 0.2, 0.2], warning: [0.8, 0.52, 0.05], note: [0.25, 0.5, 0.75] };
 const STILL = [0, 0, 0];
+// Which body is all of the overlap.
+const INNER = { contains: "b", inside: "a", coincident: "a" };
+const NUMBERS = 18; // of a body at a moment: its rows and its box
 const CROWD = 100, SURROUNDINGS = 4; // bodies; radii of the pair
 const FAINT = report.bodies.ids.length > CROWD ? 0.04 : 0.08;
 const hues = (count) => Array.from({ length: count }, (_, k) => {
   const turn = (k * 0.618034) % 1; // golden section: neighbours differ
   return [0, 1 / 3, 2 / 3].map((at) => 0.5 + 0.35 * Math.cos(2 * Math.PI * (turn + at)));
 });
+const shade = (body) => {
+  const share = (body * 0.618034) % 1; // golden section
+  return plus(times(MET[0], 1 - share), times(MET[1], share));
+};
 // A body without geometry has no number.
 const isDrawn = (now) => Boolean(now) && now.a !== null && now.b !== null;
 // To a power of ten, as many digits as corners of 16 bits have.
@@ -17,9 +27,16 @@ const rounded = (value, size) => {
   return Number((Math.round(value / step) * step).toPrecision(6));
 };
 
+// Where a point comes to lie, and rows that first scale and shift.
+const placedAt = (rows, at) => [0, 1, 2].map((r) => dot(rows.slice(4 * r, 4 * r + 3), at) + rows[4 * r + 3]);
+const within = (rows, { scale, offset }) => {
+  const origin = placedAt(rows, offset);
+  return [0, 1, 2].flatMap((r) => [...[0, 1, 2].map((k) => rows[4 * r + k] * scale[k]), origin[r]]);
+};
+
 class Picture {
   constructor(renderer) {
-    Object.assign(this, { renderer, shapes: new Map(), strips: [], shadows: null });
+    Object.assign(this, { renderer, shapes: new Map(), strips: [], dots: [], crowds: [], near: [], shadows: null, moment: 0 });
   }
 
   async load() {
@@ -29,19 +46,33 @@ class Picture {
     [this.frames, this.boxes] = await Promise.all(
       [bodies.frames, bodies.boxes].map((text) => unpacked(text, Float32Array)));
     this.points = await unpackedPoints(report.points);
-    this.parts = {};
-    for (const [body, { mesh, frame, triangles }] of Object.entries(report.parts))
-      this.parts[body] = { mesh, triangles, rows: [...(await unpacked(frame, Float32Array))] };
+    this.parts = report.parts;
+    this.moved = {};
+    for (const [body, text] of Object.entries(report.moved)) this.moved[body] = await unpacked(text, Float32Array);
     [this.sphere, this.rod, this.cone, this.cube] = [SPHERE, ROD, CONE, CUBE].map((m) => renderer.mesh(m));
     this.firstPoints = [0];
     for (const each of report.findings)
       this.firstPoints.push(this.firstPoints.at(-1) + each.lines.reduce((a, b) => a + b, 0));
     this.tints = bodies.ids.map(() => OTHER);
-    for (const each of [...report.findings].reverse())
-      for (const body of [each.a, each.b]) if (body !== null) this.tints[body] = TINTS[each.severity] || OTHER;
+    for (const each of report.findings)
+      for (const body of [each.a, each.b]) if (body !== null) this.tints[body] = shade(body);
     for (const [body, state] of Object.entries(report.states)) this.tints[body] = TINTS[state];
-    this.crowds = this.grouped(bodies.ids.map((_, body) => body));
-    this.near = [];
+    this.stand(0, null);
+  }
+
+  // Bodies stand as they do at a moment. now: the finding that is shown.
+  stand(moment, now) {
+    const { renderer } = this;
+    for (const shape of [...this.crowds, ...this.near, ...this.dots.map((dot) => dot.shape)]) renderer.forget(shape);
+    this.moment = moment;
+    this.shapes.clear();
+    this.shadows = null;
+    this.crowds = this.grouped(report.bodies.ids.map((_, body) => body));
+    this.near = isDrawn(now) ? this.surroundings(now) : [];
+    this.dots = Object.entries(TINTS).flatMap(([severity, colour]) => {
+      const places = report.findings.filter((each) => isDrawn(each) && each.severity === severity && each.moment === moment);
+      return places.length ? [{ shape: renderer.strip(places.map((each) => each.place)), colour }] : [];
+    }).reverse(); // errors last, on top
   }
 
   // Bodies of one mesh are drawn at once.
@@ -68,11 +99,14 @@ class Picture {
   }
 
   rows(body) {
-    return [...this.frames.subarray(12 * body, 12 * body + 12)];
+    const moved = this.moved[body], first = moved ? NUMBERS * this.moment : 12 * body;
+    return [...(moved || this.frames).subarray(first, first + 12)];
   }
 
   box(body) {
-    return [[...this.boxes.subarray(6 * body, 6 * body + 3)], [...this.boxes.subarray(6 * body + 3, 6 * body + 6)]];
+    const moved = this.moved[body], first = moved ? NUMBERS * this.moment + 12 : 6 * body;
+    const corners = [...(moved || this.boxes).subarray(first, first + 6)];
+    return [corners.slice(0, 3), corners.slice(3)];
   }
 
   // What a rung sees of a body; without parts or hull the triangles.
@@ -89,7 +123,7 @@ class Picture {
       return renderer.placed(this.cube, boxRows(low, minus(high, low)));
     }
     if (rung === "parts" && parts) {
-      const shape = renderer.placed(meshes[parts.mesh], parts.rows);
+      const shape = renderer.placed(meshes[parts.mesh], within(this.rows(body), parts));
       let first = 0;
       shape.ranges = parts.triangles.map((count) => [3 * (first += count) - 3 * count, 3 * count]);
       return shape;
@@ -109,16 +143,19 @@ class Picture {
   choose(number) {
     const now = report.findings[number], { renderer } = this;
     for (const { shape } of this.strips) renderer.forget(shape);
-    for (const crowd of this.near) renderer.forget(crowd);
-    Object.assign(this, { strips: [], near: [], shadows: null });
+    this.strips = [];
+    this.stand(isDrawn(now) ? now.moment : this.moment, now);
     if (!isDrawn(now)) return;
-    this.near = this.surroundings(now);
     let first = this.firstPoints[number];
-    for (const count of now.lines) {
-      const points = this.points.slice(3 * first, 3 * (first += count));
-      this.strip(points, RED, renderer.gl.LINE_STRIP, "line", boxRows(now.box[0], minus(now.box[1], now.box[0])));
-    }
-    if (now.witness) {
+    now.lines.forEach((count, k) => {
+      const points = this.points.slice(3 * first, 3 * (first += count)), isRim = k >= now.lines.length - now.rims;
+      const rows = boxRows(now.box[0], minus(now.box[1], now.box[0]));
+      this.strip(points, isRim ? RIM : RED, renderer.gl.LINE_STRIP, isRim ? "thick" : "line", rows);
+    });
+    if (now.gap) this.strip(now.gap, GREEN, renderer.gl.LINES, "thick");
+    if (now.hit) this.strip([now.hit], RED, renderer.gl.POINTS, "hit");
+    if (now.gap) now.gap.forEach((point, k) => this.strip([point], [A, B][k], renderer.gl.POINTS, "gap"));
+    else if (now.witness) {
       this.strip(now.witness, YELLOW, renderer.gl.LINES, "witness");
       this.strip([now.witness[0]], A, renderer.gl.POINTS, "witness");
       this.strip([now.witness[1]], B, renderer.gl.POINTS, "witness");
@@ -135,29 +172,45 @@ class Picture {
     if (!isDrawn(now)) {
       for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, 1], [-1, -1], true);
       renderer.onTop();
+      for (const { shape, colour } of this.dots)
+        renderer.draw(shape, [...colour, 1], { mode: gl.POINTS, lit: -1 });
       this.answers(view.ink);
       return labels;
     }
+    const own = now.moment === this.moment, inner = own && !norm(view.move) && INNER[now.relation];
     if (view.others)
       for (const crowd of this.near) renderer.drawCrowd(crowd, [...OTHER, FAINT], [now.a, now.b], false);
     const [a, b] = [now.a, now.b].map((body) => this.shape(body, view.rung));
-    this.body(a, A, view.move);
-    this.body(b, B, STILL);
-    renderer.overlap(a, view.move, b, STILL, [...RED, 0.85]);
-    renderer.overlap(b, STILL, a, view.move, [...RED, 0.85]);
+    if (inner !== "a") this.body(a, A, view.move);
+    if (inner !== "b") this.body(b, B, STILL);
+    if (inner) renderer.translucent(inner === "a" ? a : b, [...RED, 0.85]);
+    else if (!own || now.overlaps) {
+      renderer.overlap(a, view.move, b, STILL, [...RED, 0.85]);
+      renderer.overlap(b, STILL, a, view.move, [...RED, 0.85]);
+    }
     renderer.onTop();
+    if (own) this.marks(now, view);
+    if (own && view.axis) this.axis(now, view, [a, b], labels);
+    for (const [text, at, kind] of now.labels) {
+      if (kind === "a") labels.push([text, plus(placedAt(this.rows(now.a), at), view.move), kind]);
+      else if (kind === "b") labels.push([text, placedAt(this.rows(now.b), at), kind]);
+      else if (own && (kind !== "ball" || (view.ball && !view.ended))) labels.push([text, at, kind]);
+    }
+    return labels;
+  }
+
+  // What the figures are about, at the moment for which they hold.
+  marks(now, view) {
+    const { renderer } = this, gl = renderer.gl;
     for (const { shape, colour, mode, kind } of this.strips) {
       if (kind === "witness" && !view.witness) continue;
-      renderer.draw(shape, [...colour, 1], { mode, lit: mode === gl.POINTS ? -1 : 0 });
+      const draw = (move) => renderer.draw(shape, [...colour, 1], { move, mode, lit: mode === gl.POINTS ? -1 : 0 });
+      for (const move of kind === "thick" ? view.nearby : [STILL]) draw(move);
     }
-    if (view.ball && now.ball && !view.ended) {
+    if (view.ball && now.ball && !view.ended)
       renderer.translucent(renderer.placed(this.sphere, ballRows(now.ball.centre, now.ball.radius)), [...YELLOW, 0.8]);
-      labels.push([now.ball.text, now.ball.centre]);
-    }
-    if (view.component) this.component(view.component, view.ink, labels);
-    if (now.mtv) this.arrow(now, view.ink);
-    if (view.axis) this.axis(now, view, [a, b], labels);
-    return labels;
+    if (view.component) this.component(view.component, view.ink);
+    if (now.from) this.pointer(now.from, now.mtv, this.sphereAround([now.a, now.b])[1], view.ink);
   }
 
   body(shape, colour, move) {
@@ -175,15 +228,6 @@ class Picture {
     this.renderer.draw(this.renderer.placed(mesh, rows), [...colour, 1]);
   }
 
-  // From where the bodies overlap along the way out, as long as that is.
-  arrow(now, ink) {
-    const length = norm(now.mtv);
-    if (!length) return;
-    const [centre, radius] = this.sphereAround([now.a, now.b]);
-    const from = now.ball ? now.ball.centre : now.witness ? now.witness[0] : centre;
-    this.pointer(from, now.mtv, radius, ink);
-  }
-
   // radius: of the bodies beside it, which decides how thick the arrow is.
   pointer(from, way, radius, colour) {
     const length = norm(way), head = Math.min(0.4 * length, 0.12 * radius), thick = Math.min(0.1 * length, 0.012 * radius);
@@ -199,7 +243,7 @@ class Picture {
     for (const { from, way, kind } of report.arrows) this.pointer(from, way, radius, kind === "fall" ? ink : GREEN);
   }
 
-  component(item, ink, labels) {
+  component(item, ink) {
     const { renderer } = this, box = renderer.strip(edgesOf(item.low, item.high));
     const point = renderer.strip([item.point]);
     renderer.draw(box, [...ink, 1], { mode: renderer.gl.LINES, lit: 0 });
@@ -246,8 +290,8 @@ class Picture {
     bar(apart ? [inner[1], inner[0]] : inner, 2, apart ? GREEN : RED);
     for (const t of inner) this.rodFrom(place(t, 0), place(t, reach + 7 * width), 0.1 * width, view.ink);
     const length = rounded(Math.abs(inner[1] - inner[0]), 2 * radius), words = apart ? "shadows apart by" : "shadows overlap by";
-    const text = length ? `${words} ${length} ${report.unit}` : "shadows touch";
-    labels.push([text, place((inner[0] + inner[1]) / 2, reach + 10 * width)]);
+    const text = length ? `${words} ${length} ${report.unit}`.trim() : "shadows touch";
+    labels.push([text, place((inner[0] + inner[1]) / 2, reach + 10 * width), "axis"]);
   }
 
   reach(body, direction, from) {

@@ -35,12 +35,16 @@ _BESIDE_OVERLAP = 0.25  # share of the alpha of what else a ray meets: an overla
 _THROUGH_OPAQUE = 1e-4  # light, so that its logarithm is finite
 
 
+LAYERS = 3
+MARKS, INNER, BODIES = range(LAYERS)
+
+
 class Kind(NamedTuple):
-    """in_front: of everything that is not."""
+    """layer: each lies before those that follow it."""
 
     colour: Colour
     alpha: float
-    in_front: bool = False
+    layer: int = BODIES
 
 
 class Triangles(NamedTuple):
@@ -53,11 +57,12 @@ class Triangles(NamedTuple):
 def drawn(
     triangles: Triangles,
     kinds: Sequence[Kind],
-    overlap: Kind,
+    overlap: Kind | None,
     size: tuple[int, int],
     ground: Colour,
 ) -> npt.NDArray[np.uint8]:
-    """(height, width, 3). kinds: the first two are A and B. overlap: of where a ray is in both.
+    """(height, width, 3). kinds: the first two are A and B. overlap: of where a ray is in both;
+    None: they have nothing in common.
     size: width and height in pixels."""
     width, height = size[0] * RAYS, size[1] * RAYS
     rays = _for_rays(triangles, kinds)
@@ -79,9 +84,9 @@ def _for_rays(triangles: Triangles, kinds: Sequence[Kind]) -> Floats:
     corners = triangles.corners * [RAYS, RAYS, 1.0]
     depth = corners[:, :, 2]
     low, high = depth.min(initial=0.0), depth.max(initial=0.0)
-    behind = np.array([not kind.in_front for kind in kinds])[triangles.kinds]
+    layer = np.array([kind.layer for kind in kinds])[triangles.kinds]
     share = (depth - low) / (high - low or 1.0)
-    corners[:, :, 2] = (share + behind[:, None]) * ((1 << (_DEPTH_BITS - 1)) - 1)
+    corners[:, :, 2] = (share + layer[:, None]) * (((1 << _DEPTH_BITS) - 1) // LAYERS)
     return corners
 
 
@@ -145,7 +150,7 @@ def _depth(corner: Floats, normal: Floats, x: Reals, y: Reals) -> Integers:
 
 
 def _see(
-    image: npt.NDArray[np.float32], fragments: Integers, kinds: Sequence[Kind], overlap: Kind
+    image: npt.NDArray[np.float32], fragments: Integers, kinds: Sequence[Kind], overlap: Kind | None
 ) -> None:
     """Lays sorted fragments over the ground, the nearest first."""
     if not len(fragments):
@@ -155,12 +160,13 @@ def _see(
     shade = (fragments & ((1 << _SHADE_BITS) - 1)) / ((1 << _SHADE_BITS) - 1)
     starts = np.flatnonzero(np.diff(ray, prepend=-1))
     group = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(ray)))
-    entered = _enters_overlap(fragments, kind, starts, group)
     colours = np.array([k.colour for k in kinds])[kind] * shade[:, None]
-    colours[entered] = np.array(overlap.colour) * shade[entered, None]
     alpha = np.array([k.alpha for k in kinds])[kind]
-    faint = np.array([not k.in_front for k in kinds])[kind] & _any(entered, starts)[group]
-    alpha = np.where(entered, overlap.alpha, np.where(faint, _BESIDE_OVERLAP * alpha, alpha))
+    if overlap is not None:
+        entered = _enters_overlap(fragments, kind, starts, group)
+        colours[entered] = np.array(overlap.colour) * shade[entered, None]
+        faint = np.array([k.layer == BODIES for k in kinds])[kind] & _any(entered, starts)[group]
+        alpha = np.where(entered, overlap.alpha, np.where(faint, _BESIDE_OVERLAP * alpha, alpha))
     passing = np.log(np.maximum(1.0 - alpha, _THROUGH_OPAQUE))
     after = _running(passing, starts, group)
     weight = np.exp(after - passing) * alpha

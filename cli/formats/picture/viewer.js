@@ -1,6 +1,7 @@
 // What is selected, the panel, and what the mouse and the keys do.
 const camera = new Camera(report.up);
 const state = { selected: -1, component: -1, pending: false };
+const DOTS = " Dots are findings: red for errors, orange for warnings, blue for notes.";
 let picture = null;
 
 const finding = () => report.findings[state.selected];
@@ -19,21 +20,36 @@ function paint() {
   const dark = document.documentElement.dataset.theme === "dark", { renderer } = picture, { canvas } = renderer;
   const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight), now = finding();
   renderer.begin(dark ? [0.08, 0.09, 0.11] : [0.96, 0.965, 0.97], camera.matrix(aspect), camera.eye);
+  const step = camera.pixel(Math.max(1, canvas.clientHeight));
   const labels = picture.paint(now, {
     rung: element("rung").value,
     move: now && now.mtv ? times(now.mtv, +element("slider").value) : [0, 0, 0],
     up: camera.world([0, 0, 1]),
     ink: dark ? [1, 1, 1] : [0, 0, 0],
+    nearby: [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]].map(([x, y]) => plus(times(camera.side, x * step), times(camera.up, y * step))),
     ended: hasEnded(now),
     component: now && now.components[state.component],
     ...Object.fromEntries(["others", "axis", "ball", "witness"].map((id) => [id, isOn(id)])),
   });
   element("labels").replaceChildren();
-  for (const [text, point] of labels) {
+  if (element("names").checked) write(labels, aspect);
+}
+
+// Each label beside its point, and below those that are in its way.
+function write(labels, aspect) {
+  const place = element("labels"), taken = [];
+  for (const [text, point, kind] of labels) {
     const at = camera.seen(point, aspect);
     if (!at) continue;
-    const label = added(element("labels"), "span", text);
-    Object.assign(label.style, { left: `${100 * at[0]}%`, top: `${100 * at[1]}%` });
+    const label = added(place, "span", text);
+    label.dataset.kind = kind;
+    const { offsetWidth: width, offsetHeight: height } = label, free = place.clientWidth - width;
+    const left = Math.max(0, Math.min(free, at[0] * place.clientWidth + 12));
+    let top = Math.max(0, Math.min(place.clientHeight - height, at[1] * place.clientHeight - 1.4 * height));
+    const meets = (other) => left < other.right && other.left < left + width && top < other.bottom && other.top < top + height;
+    for (let other; (other = taken.find(meets)); ) top = other.bottom + 1;
+    taken.push({ left, top, right: left + width, bottom: top + height });
+    Object.assign(label.style, { left: `${left}px`, top: `${top}px` });
   }
 }
 
@@ -43,13 +59,26 @@ function select(number) {
   Object.assign(state, { selected: now ? number : -1, component: -1 });
   mark(number);
   element("pair").hidden = !now;
-  element("detail").textContent = now ? now.text : "All bodies, in the colour of their gravest finding.";
+  element("detail").textContent = now ? now.text : `All bodies.${report.findings.length ? DOTS : ""}`;
   element("view").setAttribute("aria-label", now ? `3-D view of ${now.names[0]} and ${now.names[1]}` : "3-D view of all bodies");
   listComponents(now, choose);
   if (!picture) return;
   picture.choose(number);
   if (now) offer(now);
+  showMoment();
   frame();
+}
+
+function showMoment() {
+  element("moment").value = picture.moment;
+  element("when").textContent = report.moments[picture.moment] || "";
+}
+
+function stand(moment) {
+  if (!(moment in report.moments)) return;
+  picture.stand(moment, finding());
+  showMoment();
+  show();
 }
 
 // What there is to show of a finding.
@@ -59,7 +88,7 @@ function offer(now) {
   [element("name-a").textContent, element("name-b").textContent] = now.names;
   element("slider").value = 0;
   element("way").hidden = !now.mtv;
-  for (const [id, there] of [["ball", now.ball], ["witness", now.witness], ["axis", now.axis || now.mtv]]) {
+  for (const [id, there] of [["ball", now.ball], ["witness", now.witness && !now.gap], ["axis", now.axis || now.mtv]]) {
     element(id).disabled = !there;
     element(id).parentElement.hidden = !there;
   }
@@ -69,14 +98,8 @@ function offer(now) {
 }
 
 function frame() {
-  const now = finding(), bodies = isDrawn(now) ? [now.a, now.b] : report.bodies.ids.map((_, body) => body);
-  if (bodies.length) {
-    const [target, radius] = picture.sphereAround(bodies);
-    const spheres = bodies.map((body) => picture.sphereAround([body])).sort((a, b) => a[1] - b[1]);
-    // Beside a large body the small one says where to look.
-    if (isDrawn(now) && 2 * spheres[0][1] < radius / 2) camera.frame(spheres[0][0], 2 * spheres[0][1]);
-    else camera.frame(target, radius);
-  }
+  const now = finding(), view = isDrawn(now) ? now.view : report.view;
+  if (view) camera.frame(view);
   show();
 }
 
@@ -85,7 +108,8 @@ function choose(number) {
   if (!item) return;
   state.component = number;
   markComponent(number);
-  camera.frame(times(plus(item.low, item.high), 0.5), norm(minus(item.high, item.low)));
+  const { clear } = finding().view;
+  camera.frame({ target: times(plus(item.low, item.high), 0.5), radius: norm(minus(item.high, item.low)), clear });
   show();
 }
 
@@ -103,7 +127,8 @@ function goToBody() {
   const [body] = bodiesNamed(element("search").value);
   if (body === undefined || !picture) return;
   select(-1);
-  camera.frame(...picture.sphereAround([body]));
+  const [target, radius] = picture.sphereAround([body]);
+  camera.frame({ target, radius });
   show();
 }
 
@@ -159,6 +184,9 @@ const ACTIONS = {
   x: () => toggle("axis"),
   i: () => toggle("ball"),
   w: () => toggle("witness"),
+  l: () => toggle("names"),
+  ",": () => stand(picture.moment - 1),
+  ".": () => stand(picture.moment + 1),
   f: () => frame(),
   u: () => setUp(camera.upwards === "y" ? "z" : "y"),
   "+": () => zoom(-0.2),
@@ -177,7 +205,7 @@ function key(event) {
   const { id, tagName } = event.target;
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   if (id === "search") return event.key === "Enter" ? goToBody() : undefined;
-  if (tagName === "SELECT" || (id === "slider" && /^(Arrow|Home|End)/.test(event.key))) return;
+  if (tagName === "SELECT" || (/^(slider|moment)$/.test(id) && /^(Arrow|Home|End)/.test(event.key))) return;
   if (event.key === " " && /^(BUTTON|SUMMARY)$/.test(tagName)) return;
   if (event.key === " " && tagName === "INPUT" && id !== "slider") return;
   const action = (id === "view" && ON_THE_VIEW[event.key]) || (picture && ACTIONS[event.key]);
@@ -199,17 +227,23 @@ function listen() {
   canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener("pointermove", drag);
   canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(event.deltaY * 0.001); }, { passive: false });
-  for (const id of ["slider", "rung", "others", "axis", "ball", "witness"]) element(id).addEventListener("input", show);
+  for (const id of ["slider", "rung", "others", "axis", "ball", "witness", "names"]) element(id).addEventListener("input", show);
   element("frame").addEventListener("click", frame);
   element("up").value = report.up;
   element("up").addEventListener("input", () => setUp(element("up").value));
   element("all").addEventListener("click", () => select(-1));
+  element("moment").addEventListener("input", () => stand(+element("moment").value));
   addEventListener("resize", show);
 }
 
 async function start() {
   report.findings = JSON.parse(await unpackedText(report.findings));
-  element("title").textContent = element("title").title = document.title = report.title;
+  element("title").textContent = document.title = report.title;
+  element("verdict").textContent = element("verdict").className = report.verdict;
+  element("summary").textContent = report.summary;
+  element("time").hidden = report.moments.length < 2;
+  element("moment").max = report.moments.length - 1;
+  new Set(report.findings.map((each) => each.moment)).forEach((moment) => added(element("impacts"), "option", "", { value: moment }));
   element("simplified").textContent = report.simplified;
   const preferred = matchMedia("(prefers-color-scheme: dark)");
   setTheme(preferred.matches);

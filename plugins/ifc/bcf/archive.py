@@ -23,7 +23,10 @@ from xsdata.formats.dataclass.serializers.writers import XmlEventWriter
 from xsdata.models.datatype import XmlDateTime
 
 from satcheck.cli.formats.picture.data import require_drawable, up_of
-from satcheck.cli.formats.picture.png import View, image_of, view_of
+from satcheck.cli.formats.picture.moments import Moments
+from satcheck.cli.formats.picture.png import View, image_file, image_of, image_of_bodies, view_of
+from satcheck.cli.formats.picture.shown import Shows
+from satcheck.cli.formats.picture.viewpoint import of_all
 from satcheck.cli.output import harmless
 from satcheck.plugins.ifc.bcf import topics
 from satcheck.scene.units import ratio, stated_unit
@@ -59,7 +62,7 @@ def render(report: Report, scene: Scene) -> bytes:
         "project.bcfp": bcf.ProjectInfo(project=bcf.Project(name=scene.name, project_id=number)),
         "extensions.xml": _extensions(found.values()),
     }
-    snapshots = Snapshots(scene)
+    snapshots = Snapshots(report, scene)
     for index, (guid, pairs) in enumerate(found.items()):
         views: list[Any] = []
         for pair in topics.shown(pairs):
@@ -142,9 +145,10 @@ def _xml(element: Any) -> str:
 class Snapshots:
     """Pictures of the pairs of a scene."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, report: Report, scene: Scene) -> None:
         self._scene = scene
         self._up = up_of(scene)
+        self._shows = Shows(report, scene, Moments(), self._up)
         self._axes = _Z_UP if self._up == "y" else np.eye(3)
         unit = stated_unit(scene.units)
         self._metres = 1.0 if unit is None else ratio(unit, _UNIT)
@@ -157,17 +161,19 @@ class Snapshots:
         pair = [self._bodies[m.id] for m in shown.members if m.id in self._bodies]
         if not pair:
             return None
-        view = view_of(pair, len(pair) == 2, self._up, SIZE)
-        near = replace(self._scene, bodies=tuple(self._near(view)))
-        finding = shown.finding if len(pair) == 2 else None
-        if finding is None:
-            near = replace(near, bodies=tuple(pair))
-        image = image_of(near, finding, pair, view, SIZE)
+        if shown.finding is None or len(pair) < 2:
+            view = view_of(of_all(pair, self._up), pair, self._up, SIZE)
+            image = image_of_bodies(pair, view, SIZE)
+        else:
+            seen = self._shows.of(shown.finding)
+            view = view_of(seen.view, pair, self._up, SIZE, seen.marks.points())
+            near = replace(self._scene, bodies=tuple(self._near(view)))
+            image = image_of(near, seen, view, SIZE)
         camera = self._camera(view, pair)
-        seen = bcf.VisualizationInfo(
+        visible = bcf.VisualizationInfo(
             guid=shown.guid, components=_components(shown), orthogonal_camera=camera
         )
-        return seen, image
+        return visible, image_file(image)
 
     def _near(self, view: View) -> list[Body]:
         """The bodies that may be in the image."""

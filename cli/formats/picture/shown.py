@@ -1,0 +1,299 @@
+"""What a picture shows of a finding, the page and the image alike: where its bodies stand, its
+marks, the labels with their figures, and the viewpoint. All of it is in the world."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from satcheck import core
+from satcheck.audit.words import NEGLIGIBLE, is_hit, with_unit
+from satcheck.cli.formats.picture.marks import sphere_around
+from satcheck.cli.formats.picture.rims import deciding_rim
+from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
+from satcheck.report.report import OVERLAPS
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from satcheck.cli.formats.picture.moments import Moments
+    from satcheck.cli.formats.picture.rims import Rim
+    from satcheck.core import Mesh
+    from satcheck.report.report import Finding, Report
+    from satcheck.report.sweep import Place
+    from satcheck.report.values import Interval
+    from satcheck.scene import Body, Scene
+
+    Floats = npt.NDArray[np.float64]
+    Kind = Literal["a", "b", "arrow", "gap", "ball", "hit", "hole"]
+
+LONGEST_NAME = 40
+# A body is named at a point of its surface that is no farther from the middle than this share of
+# the radius; of so many of its points at most.
+_WITHIN, _POINTS = 0.7, 4000
+
+
+class Label(NamedTuple):
+    """at: in the world; of a body, "a" or "b", a corner of its mesh in coordinates of its file."""
+
+    text: str
+    at: Floats
+    kind: Kind
+
+
+class Marks(NamedTuple):
+    """way: start and translation of the arrow. gap: the nearest points of A and B. hit: where
+    moving bodies meet first. rim: of the hole that decides."""
+
+    way: tuple[Floats, Floats] | None
+    gap: tuple[Floats, Floats] | None
+    hit: Floats | None
+    rim: Rim | None = None
+
+    def points(self) -> list[Floats]:
+        """That are to be seen."""
+        way = [] if self.way is None else [self.way[0], self.way[0] + self.way[1]]
+        rim = [] if self.rim is None else [point for line in self.rim.lines for point in line]
+        return [*way, *(self.gap or ()), *([] if self.hit is None else [self.hit]), *rim]
+
+
+class Shown(NamedTuple):
+    """pair: as they stand at the moment. place: where to look."""
+
+    finding: Finding
+    moment: int
+    pair: list[Body]
+    place: Floats
+    marks: Marks
+    labels: list[Label]
+    view: Viewpoint
+
+
+class Shows:
+    """Findings of a report about a scene, whose bodies can be drawn."""
+
+    def __init__(self, report: Report, scene: Scene, moments: Moments, up: str) -> None:
+        self._unit = unit_of(report.units)
+        self._scene, self._moments, self._up = scene, moments, up
+        self._planar = report.settings.planar is not None
+        self._viewpoints = Viewpoints(up)
+        self._scenes: dict[int, Scene] = {}
+
+    def scene_at(self, moment: int) -> Scene:
+        if moment not in self._scenes:
+            self._scenes = {moment: self._moments.scene_at(self._scene, moment)}
+        return self._scenes[moment]
+
+    def of(self, finding: Finding, *, closely: bool = True) -> Shown:
+        """closely: rays choose the viewpoint, holes are searched, and names stand on bodies."""
+        moment = self._moments.of.get(finding.id, 0)
+        bodies = self.scene_at(moment).bodies
+        by_id = {body.id: body for body in bodies}
+        pair = [by_id[finding.a], by_id[finding.b]]
+        marks = marks_of(finding, pair)
+        if closely and not self._planar:
+            marks = marks._replace(rim=deciding_rim(finding, pair))
+        if closely and moment:
+            marks = marks._replace(gap=_gap_then(finding, pair))
+        place, across = _place(finding, pair, marks), self._across(marks, finding, moment)
+        view = self._viewpoints.of_pair(
+            bodies,
+            pair,
+            place,
+            across,
+            through=marks.rim and marks.rim.normal,
+            also=marks.points(),
+            tested=closely,
+        )
+        labels = [
+            *self._names(pair, view, closely=closely),
+            *self._figures(finding, marks, view.towards),
+        ]
+        return Shown(finding, moment, pair, place, marks, labels, view)
+
+    def _across(self, marks: Marks, finding: Finding, moment: int) -> Floats | None:
+        """What the picture looks across: the way out, the gap, or how bodies moved before a hit."""
+        if marks.way is not None:
+            return marks.way[1]
+        if marks.gap is not None:
+            return marks.gap[1] - marks.gap[0]
+        if marks.hit is not None and moment > 0:
+            point, placed = np.append(marks.hit, 1.0), self._moments.placed
+            moved = np.zeros(4)
+            for sign, id_ in ((1.0, finding.a), (-1.0, finding.b)):
+                if id_ in placed:
+                    now, before = placed[id_][moment], placed[id_][moment - 1]
+                    moved += sign * (point - before @ np.linalg.solve(now, point))
+            return moved[:3]
+        return None if finding.normal is None else np.array(finding.normal)
+
+    def _names(self, pair: list[Body], view: Viewpoint, *, closely: bool) -> list[Label]:
+        names = short_names(*(body.id for body in pair))
+        centres = [sphere_around([body])[0] for body in pair]
+        rows = view.rows(self._up)
+        away = (rows @ (centres[0] - centres[1]))[:2]
+        away = away if away.any() else np.array([0.0, 1.0])
+        kinds: tuple[Kind, Kind] = ("a", "b")
+        return [
+            Label(name, _anchor(body, view, rows, sign * away, closely=closely), kind)
+            for name, body, sign, kind in zip(names, pair, (1.0, -1.0), kinds, strict=True)
+        ]
+
+    def _figures(self, finding: Finding, marks: Marks, towards: Floats) -> list[Label]:
+        unit, labels = self._unit, []
+        if finding.ball is not None:
+            text = f"thickness {figure(finding.thickness_bounds, unit)}"
+            labels.append(Label(text, np.array(finding.ball.centre), "ball"))
+        if marks.way is not None:
+            start, way = marks.way
+            labels.append(
+                Label(f"way out {figure(finding.depth_bounds, unit)}", start + way, "arrow")
+            )
+        if marks.gap is not None:
+            length = float(np.linalg.norm(marks.gap[1] - marks.gap[0]))
+            text = f"gap {with_unit(f'{length:.3g}', unit)}"
+            labels.append(Label(text, (marks.gap[0] + marks.gap[1]) / 2, "gap"))
+        if marks.hit is not None and finding.motion is not None:
+            at = ", ".join(_when(place, unit) for place in finding.motion.at)
+            labels.append(Label(f"hit at {at}", marks.hit, "hit"))
+        if marks.rim is not None:
+            wide = with_unit(f"{marks.rim.diameter:.3g}", unit)
+            hole = f"{marks.rim.which} of {short_names(marks.rim.body)[0]}"
+            text = f"{hole}, {wide} across: its fill decides"
+            rim = np.concatenate(marks.rim.lines)
+            labels.append(Label(text, rim[int((rim @ towards).argmax())], "hole"))
+        return labels
+
+
+def marks_of(finding: Finding, pair: list[Body]) -> Marks:
+    """Those that the finding states."""
+    return Marks(_way(finding, pair), _gap(finding), _hit(finding))
+
+
+def placed_point(body: Body, point: Floats) -> Floats:
+    """A point of its mesh in the world."""
+    matrix = np.array(body.transform or IDENTITY).reshape(4, 4)
+    placed: Floats = matrix[:3, :3] @ point + matrix[:3, 3]
+    return placed
+
+
+def short_names(*ids: str) -> list[str]:
+    """Without the folders that all of them share, and with an end for a beginning that is long."""
+    folders = [id_.split("/")[:-1] for id_ in ids]
+    shared = 0
+    if len(ids) > 1:
+        for names in zip(*folders, strict=False):
+            if len(set(names)) > 1:
+                break
+            shared += 1
+    short = ["/".join(id_.split("/")[shared:]) for id_ in ids]
+    return [name if len(name) <= LONGEST_NAME else f"…{name[-LONGEST_NAME:]}" for name in short]
+
+
+def figure(bounds: Interval | None, unit: str | None) -> str:
+    """Three digits: `0.504 mm`, `0.49 to 0.52 mm`, `at most 0.3 mm`."""
+    if bounds is None:
+        return ""
+    low, high = (f"{value:.3g}" for value in bounds)
+    if low == high:
+        return with_unit(high, unit)
+    if bounds[0] <= NEGLIGIBLE * bounds[1]:
+        return f"at most {with_unit(high, unit)}"
+    return f"{low} to {with_unit(high, unit)}"
+
+
+def _when(place: Place, unit: str | None) -> str:
+    value = f"{place.value:.3g}"
+    length = with_unit(value, unit)
+    return {"degrees": f"{value}°", "length": length, "t": f"t = {value}"}[place.term]
+
+
+def _way(finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
+    """From where the bodies overlap along the way out."""
+    if finding.mtv is None or not any(finding.mtv):
+        return None
+    start = _shared(pair)
+    if finding.ball is not None:
+        start = np.array(finding.ball.centre)
+    elif finding.witness is not None:
+        start = np.array(finding.witness.a)
+    return start, np.array(finding.mtv)
+
+
+def _gap(finding: Finding) -> tuple[Floats, Floats] | None:
+    if finding.at_rest in OVERLAPS or not finding.distance or finding.witness is None:
+        return None
+    return np.array(finding.witness.a), np.array(finding.witness.b)
+
+
+def _gap_then(finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
+    """At the moment of the pair, for which the finding has no points."""
+    if finding.at_rest in OVERLAPS or is_hit(finding):
+        return None
+    a, b = (core.Surface(body.world_mesh(), body.file.health.solid) for body in pair)
+    nearest = core.mesh_distance(a, b)
+    return np.array(nearest.witness_a), np.array(nearest.witness_b)
+
+
+def _hit(finding: Finding) -> Floats | None:
+    if finding.at_rest in OVERLAPS or not is_hit(finding) or finding.motion is None:
+        return None
+    return None if finding.motion.point is None else np.array(finding.motion.point)
+
+
+def _place(finding: Finding, pair: list[Body], marks: Marks) -> Floats:
+    """Where to look."""
+    if marks.rim is not None:
+        return marks.rim.centre
+    if marks.hit is not None:
+        return marks.hit
+    if finding.ball is not None and finding.at_rest in OVERLAPS:
+        return np.array(finding.ball.centre)
+    if finding.witness is not None:
+        between: Floats = (np.array(finding.witness.a) + np.array(finding.witness.b)) / 2
+        return between
+    return _shared(pair)
+
+
+def _shared(pair: list[Body]) -> Floats:
+    """The middle of what the boxes of the bodies share, or of what is between them."""
+    boxes = np.array([body.world_mesh().bounds for body in pair])
+    middle: Floats = (boxes[:, 0].max(axis=0) + boxes[:, 1].min(axis=0)) / 2
+    return middle
+
+
+def _anchor(body: Body, view: Viewpoint, rows: Floats, away: Floats, *, closely: bool) -> Floats:
+    """A corner of the mesh within the picture, away from the other body; in coordinates of the
+    file."""
+    mesh, world = body.file.mesh, body.world_mesh()
+    own = np.asarray(mesh.vertices)
+    if not closely:
+        first: Floats = own[0]
+        return first
+    every = slice(None, None, max(1, len(own) // _POINTS))
+    own, seen = own[every], (np.asarray(world.vertices)[every] - view.target) @ rows.T
+    off = np.abs(seen[:, :2]).max(axis=1)
+    inside = np.flatnonzero(off <= _WITHIN * view.radius)
+    if not len(inside):
+        return _beside(mesh, (np.asarray(world.vertices) - view.target) @ rows.T)
+    best: Floats = own[inside[int((seen[inside, :2] @ away).argmax())]]
+    return best
+
+
+def _beside(mesh: Mesh, seen: Floats) -> Floats:
+    """A point of a large body near the middle of the picture. seen: its vertices from there."""
+    corners = seen[np.asarray(mesh.triangles)]
+    a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal = np.cross(ab, ac)
+    size = np.maximum((normal**2).sum(axis=1), np.finfo(float).tiny)
+    second = -(np.cross(a, ac) * normal).sum(axis=1) / size
+    third = -(np.cross(ab, a) * normal).sum(axis=1) / size
+    weights = np.clip(np.stack([1.0 - second - third, second, third], axis=1), 0.0, 1.0)
+    weights /= weights.sum(axis=1, keepdims=True)
+    points = (weights[:, :, None] * corners).sum(axis=1)
+    best = int(np.linalg.norm(points, axis=1).argmin())
+    point: Floats = weights[best] @ np.asarray(mesh.vertices)[np.asarray(mesh.triangles)[best]]
+    return point
