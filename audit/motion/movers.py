@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both, corners
+from satcheck.audit.close_pairs import ClosePairs
 from satcheck.audit.motion.track import Track, track_of
 from satcheck.audit.pair import Paths
-from satcheck.audit.planner import IndexPair, Planner, close_pairs
+from satcheck.audit.planner import Planner
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
@@ -48,7 +49,7 @@ class Movers:
         path_a, path_b = (None if motion is None else motion.path for motion in motions)
         return Paths(path_a, path_b, any(motion and motion.clear for motion in motions))
 
-    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+    def close(self, bodies: PlacedBodies, planner: Planner) -> ClosePairs:
         """The pairs that may be as close as they ask, as placed or at some t."""
         placed, ids = bodies.placed, bodies.ids
         boxes: dict[int, SweptBoxes] = {}  # of bodies in pairs; many pairs have the same one
@@ -64,7 +65,7 @@ class Movers:
                 return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
             return boxes_of(i).may_meet(boxes_of(j), limit)
 
-        return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
+        return ClosePairs(bodies, planner, self.bounds, meet)
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
