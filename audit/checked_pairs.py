@@ -169,7 +169,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
 
 def with_certificate(finding: Finding, draft: Draft) -> Finding:
     """Return the finding with its evidence, or with a stage that says why there is none."""
-    from satcheck.audit.certify import NoCertificate, certified
+    from satcheck.audit.stages.certificate import NoCertificate, certified
 
     certificate: Certificate | NoCertificate = NoCertificate(
         "a sweep of moving bodies leaves no evidence"

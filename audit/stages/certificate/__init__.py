@@ -3,7 +3,7 @@
 Nothing here is trusted: `satcheck.verify` judges each certificate before it goes into a report.
 """
 
-from satcheck.audit.certify.certificate import certified
-from satcheck.audit.certify.maker import NoCertificate
+from satcheck.audit.stages.certificate.certificate import certified
+from satcheck.audit.stages.certificate.maker import NoCertificate
 
 __all__ = ["NoCertificate", "certified"]

@@ -10,9 +10,9 @@ from msgspec import UNSET
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.certify.cover import cover
-from satcheck.audit.certify.curved import CurvedMaker
-from satcheck.audit.certify.maker import (
+from satcheck.audit.stages.certificate.cover import cover
+from satcheck.audit.stages.certificate.curved import CurvedMaker
+from satcheck.audit.stages.certificate.maker import (
     AXES,
     Maker,
     NoCertificate,
@@ -22,7 +22,7 @@ from satcheck.audit.certify.maker import (
     leading_axes,
     or_unset,
 )
-from satcheck.audit.certify.thickness import cells, excuse
+from satcheck.audit.stages.certificate.thickness import cells, excuse
 from satcheck.audit.draft import Draft
 from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.report.certificate import (
