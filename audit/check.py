@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from msgspec import UNSET, UnsetType
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
+from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
@@ -310,6 +310,9 @@ def _findings(
             if (i, j) not in findings:
                 request = planner.request(i, j)
                 draft = Draft(Pair(bodies.placed[i], bodies.placed[j], settings, request))
-                apart = examine_boxes(draft)
-                findings[i, j] = with_certificate(apart, draft) if settings.certificate else apart
+                findings[i, j] = examine_boxes(draft)
+                if settings.certificate:
+                    from satcheck.audit.stages.certificate import with_certificate
+
+                    findings[i, j] = with_certificate(findings[i, j], draft)
     return [findings[pair] for pair in sorted(findings)]

@@ -1,9 +1,8 @@
-"""Certificates: the evidence for a finding. The results of the solver serve as hints.
+"""The stage `certificate`: the evidence for a finding. The results of the solver serve as hints.
 
 Nothing here is trusted: `satcheck.verify` judges each certificate before it goes into a report.
 """
 
-from satcheck.audit.stages.certificate.certificate import certified
-from satcheck.audit.stages.certificate.maker import NoCertificate
+from satcheck.audit.stages.certificate.certificate import with_certificate
 
-__all__ = ["NoCertificate", "certified"]
+__all__ = ["with_certificate"]
