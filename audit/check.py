@@ -268,7 +268,7 @@ def _examined_together(
                 request,
                 meter,
                 peers,
-                None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
+                None if movers is None else movers.moves(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not keep,
             )
             for (i, j), request in zip(close, requests, strict=True)

@@ -147,10 +147,10 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     draft = Draft(pair)
     try:
         finding = examine(draft, climb)
-        if pair.paths is not None:
+        if pair.moves is not None:
             from satcheck.audit.motion.swept_finding import with_sweep
 
-            finding = with_sweep(finding, draft, pair.paths)
+            finding = with_sweep(finding, draft, pair.moves)
         if pair.request.wants("certificate"):
             from satcheck.audit.stages.certificate import with_certificate
 
