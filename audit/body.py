@@ -45,7 +45,8 @@ def around_both(a: Box, b: Box) -> Box:
 
 
 def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
-    return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
+    low, high = box
+    return math.hypot(*[high[axis] - low[axis] for axis in axes])
 
 
 def box_escape(a: Box, b: Box) -> tuple[float, Vector]:

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 from msgspec import UNSET, UnsetType
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
+from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
+from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import examine_boxes
 from satcheck.audit.messages import with_messages
 from satcheck.audit.pair import Pair
-from satcheck.audit.planner import Planner, close_pairs
+from satcheck.audit.planner import Planner
 from satcheck.audit.settings import LISTED_PAIRS, LISTED_UNDECIDABLE, Settings, require_settings
 from satcheck.audit.summary import (
     body_reports,
@@ -92,10 +93,11 @@ def check(
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
-    close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
-    examined = _examined(bodies, close, planner, movers, progress, keep=cache is not None)
-    close, unexamined = close[: len(examined)], len(close) - len(examined)
-    findings = _findings(bodies, close, examined, planner)
+    close = ClosePairs(bodies, planner) if movers is None else movers.close(bodies, planner)
+    pairs, examined, unexamined = _examined(
+        bodies, close, planner, movers, progress, keep=cache is not None
+    )
+    findings = _findings(bodies, pairs, examined, planner)
     counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)
     pose = scene.posture.pose() if scene.posture else None
     allowed = all_allowed(counts, bodies.book.rules, pose)
@@ -133,7 +135,7 @@ def check(
         rules=bodies.book.rules,
         effects=effects_of(
             planner,
-            ((planner.request(*k), pair.finding) for k, pair in zip(close, examined, strict=True)),
+            ((planner.request(*k), pair.finding) for k, pair in zip(pairs, examined, strict=True)),
             counts,
             units_unknown=bodies.several_units_count,
         ),
@@ -212,39 +214,42 @@ def _regions(
 
 def _examined(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: ClosePairs,
     planner: Planner,
     movers: Movers | JointMovers | None,
     progress: Progress | None,
     *,
     keep: bool,
-) -> list[CheckedPair]:
-    """Return what is found of the close pairs, in their order, up to the block in which
-    ENOUGH_FAILURES are reached. keep: later checks need the data of the bodies."""
+) -> tuple[list[IndexPair], list[CheckedPair], int]:
+    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
+    each, and the number of close pairs after them. keep: later checks need the data of the
+    bodies."""
+    pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = 0
-    for start in range(0, len(close), BLOCK):
-        block = close[start : start + BLOCK]
-        after = close[start + BLOCK : start + BLOCK + 1]
+    blocks = close.blocks(BLOCK)
+    block, after = next(blocks, []), next(blocks, [])
+    total = close.count() if after else len(block)
+    while block and failures < ENOUGH_FAILURES:
 
-        def told(done: int, _: int, before: int = start) -> None:
+        def told(done: int, _: int, before: int = len(pairs)) -> None:
             if progress is not None:
-                progress(before + done, len(close))
+                progress(before + done, total)
 
         found = _examined_together(bodies, block, planner, movers, told, keep=keep or bool(after))
+        pairs += block
         examined += found
         failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
-        if failures >= ENOUGH_FAILURES:
-            break
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()
-    return examined
+        block, after = after, next(blocks, [])
+    return pairs, examined, total - len(examined)
 
 
 def _examined_together(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: list[IndexPair],
     planner: Planner,
     movers: Movers | JointMovers | None,
     progress: Progress,
@@ -265,7 +270,7 @@ def _examined_together(
                 request,
                 meter,
                 peers,
-                None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
+                None if movers is None else movers.moves(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not keep,
             )
             for (i, j), request in zip(close, requests, strict=True)
@@ -287,7 +292,7 @@ def _peers(settings: Settings) -> Peers:
 
 def _findings(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: list[IndexPair],
     examined: list[CheckedPair],
     planner: Planner,
 ) -> list[Finding]:
@@ -307,6 +312,9 @@ def _findings(
             if (i, j) not in findings:
                 request = planner.request(i, j)
                 draft = Draft(Pair(bodies.placed[i], bodies.placed[j], settings, request))
-                apart = examine_boxes(draft)
-                findings[i, j] = with_certificate(apart, draft) if settings.certificate else apart
+                findings[i, j] = examine_boxes(draft)
+                if settings.certificate:
+                    from satcheck.audit.stages.certificate import with_certificate
+
+                    findings[i, j] = with_certificate(findings[i, j], draft)
     return [findings[pair] for pair in sorted(findings)]

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
@@ -27,7 +26,6 @@ from satcheck.report.report import INTERNAL_ERROR, Finding, Issue
 if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
     from satcheck.core import Climb
-    from satcheck.report.certificate import Certificate
 
 # Below this many pairs, starting threads costs more than they save.
 PARALLEL_PAIRS = 8
@@ -149,11 +147,13 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     draft = Draft(pair)
     try:
         finding = examine(draft, climb)
-        if pair.paths is not None:
+        if pair.moves is not None:
             from satcheck.audit.motion.swept_finding import with_sweep
 
-            finding = with_sweep(finding, draft, pair.paths)
+            finding = with_sweep(finding, draft, pair.moves)
         if pair.request.wants("certificate"):
+            from satcheck.audit.stages.certificate import with_certificate
+
             finding = with_certificate(finding, draft)
         return CheckedPair(finding, tuple(draft.issues))
     except Exception as error:
@@ -165,24 +165,3 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         return CheckedPair(draft.indeterminate(reason), (*draft.issues, issue))
-
-
-def with_certificate(finding: Finding, draft: Draft) -> Finding:
-    """Return the finding with its evidence, or with a stage that says why there is none."""
-    from satcheck.audit.certify import NoCertificate, certified
-
-    certificate: Certificate | NoCertificate = NoCertificate(
-        "a sweep of moving bodies leaves no evidence"
-    )
-    if finding.motion is None:
-        try:
-            certificate = certified(draft, finding)
-        except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-            not_for_lack_of_memory(error)
-            certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
-    if isinstance(certificate, NoCertificate):
-        draft.record("certificate", "none", certificate.reason)
-        return replace(finding, plan=tuple(draft.stages))
-    kind = certificate.relation.__struct_config__.tag
-    draft.record("certificate", str(kind), "accepted by the checker")
-    return replace(finding, certificate=certificate, plan=tuple(draft.stages))

@@ -238,11 +238,10 @@ class Finding(Value, frozen=True, kw_only=True):
     baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
-        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
         vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
+        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
         for vector in (*vectors, self.thickness_bounds):
-            if vector is not None:
-                figures += vector
+            figures += vector or ()
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 

@@ -21,12 +21,14 @@ from satcheck.report.report import (
 from satcheck.report.settings import FailOn
 from satcheck.report.statics import State
 
+_RANK = {severity: place for place, severity in enumerate(SEVERITIES)}
+
 
 def fails(finding: Finding, fail_on: FailOn) -> bool:
     """Return whether the finding is decided and at least as grave as `fail_on`. An error always
     counts as decided."""
     decided = finding.undecided is None or finding.severity == "error"
-    return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
+    return decided and _RANK[finding.severity] <= _RANK[fail_on]
 
 
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
@@ -36,8 +38,7 @@ def is_failure(finding: Finding, fail_on: FailOn) -> bool:
 
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
     """Return whether the check fails by the answer to a question about a single body."""
-    level = SEVERITIES.index(fail_on)
-    return finding.answer != "open" and SEVERITIES.index(finding.severity) <= level
+    return finding.answer != "open" and _RANK[finding.severity] <= _RANK[fail_on]
 
 
 def severity_of_answer(answer: State, own: str | None) -> Severity:

@@ -250,5 +250,6 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 def _is_exact_scaling(transform: Transform) -> bool:
     """Return whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
-    scaling = (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])
-    return frexp(scale)[0] == 0.5 and transform == scaling
+    if frexp(scale)[0] != 0.5:
+        return False
+    return transform == (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])

@@ -166,7 +166,7 @@ class MovingPair:
             request=Request({"overlap": ALWAYS}, tolerance=self.tolerance),
             meter=None,
             peers=None,
-            paths=None,
+            moves=None,
         )
 
     def found_at(self, t: float) -> Finding:

@@ -134,7 +134,7 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
 
 def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
     """Return whether the pair needs computation after the climb."""
-    if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
+    if climb is None or pair.settings.accuracy == "parts" or pair.moves is not None:
         return True
     if climb.band in ("open", "hidden") or climb.thick is False:
         return True
