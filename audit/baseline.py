@@ -2,7 +2,8 @@
 
 An unchanged finding does not fail a check. A finding is worse if its relation is graver than the
 known one, or if a figure is proven to be worse. A length has to be worse by more than the precision
-of the input (the default touch band of the pair). It is unchanged if no figure can be worse.
+of the input (the default touch band of the pair). It is unchanged if no figure can be worse. An
+overlap without figures may be worse: it is undecided, unless somebody accepted it without figures.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import msgspec
 from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
+from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import (
     SCHEMA,
@@ -29,7 +31,7 @@ from satcheck.report.baseline import (
 )
 from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
-from satcheck.report.values import Interval
+from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
 from satcheck.scene.opening import Signature, followed, note, read_whole, signature
 
@@ -47,6 +49,7 @@ _GRAVITY: dict[KnownRelation, int] = {
 }
 _FIGURES: tuple[Figure, ...] = get_args(Figure)
 _OF_OVERLAPS: tuple[Figure, ...] = ("depth", "thickness", "volume")
+_DEPTHS = frozenset((*_OF_OVERLAPS, "motion_depth"))
 # Figures for which a smaller value is worse.
 _GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 
@@ -77,8 +80,11 @@ def beside_baseline(
     return with_messages(replace(report, findings=findings, baseline=stated, summary=judged))
 
 
-def known_findings(report: Report, asset: str = "", reason: str = "") -> list[KnownFinding]:
-    """The failing findings of a report, as a baseline holds them."""
+def known_findings(
+    report: Report, asset: str = "", reason: str = "", *, unmeasured: bool = False
+) -> list[KnownFinding]:
+    """The failing findings of a report, as a baseline holds them. unmeasured: overlaps without
+    figures are accepted, however deep they get."""
     return [
         KnownFinding(
             asset=asset,
@@ -87,6 +93,7 @@ def known_findings(report: Report, asset: str = "", reason: str = "") -> list[Kn
             severity=finding.severity,
             relation=finding.relation,
             units=report.units,
+            unmeasured=unmeasured and _lacks_figures(finding.relation, _bounds(finding)),
             reason=reason,
             **{name: bounds[name not in _GAPS] for name, bounds in _bounds(finding).items()},
         )
@@ -96,6 +103,23 @@ def known_findings(report: Report, asset: str = "", reason: str = "") -> list[Kn
         and finding.severity != "silenced"
         and finding.severity != "none"
     ]
+
+
+def of_unknown_depth(before: Baseline, after: Baseline) -> list[KnownFinding]:
+    """Return the overlaps without figures that nobody has accepted as such, and that a baseline has
+    only after a change."""
+    known = {each.key for each in before.findings}
+    return [
+        each
+        for each in after.findings
+        if not each.unmeasured
+        and each.key not in known
+        and _lacks_figures(each.relation, [f for f in _FIGURES if each.figure(f) is not None])
+    ]
+
+
+def _lacks_figures(relation: Relation, figures: Iterable[Figure]) -> bool:
+    return relation in OVERLAPS and _DEPTHS.isdisjoint(figures)
 
 
 def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[KnownFinding]:
@@ -129,6 +153,12 @@ def _would_fail(known: KnownFinding, report: Report) -> bool:
     return any(clearance is not None and clearance > gap for clearance in clearances)
 
 
+def measuring(settings: Settings) -> Settings:
+    """Return the settings of a check beside a baseline: it compares the figures of all overlaps, as
+    far as their own budgets go. The figures of a pair then depend on no other pair."""
+    return replace(settings, depth=True) if settings.depth is None else settings
+
+
 def updated(baseline: Baseline, findings: Iterable[KnownFinding]) -> Baseline:
     """The baseline with these findings added, sorted by name. A finding that is already known keeps
     its reason and the worse of both figures; figures in other units are replaced."""
@@ -149,8 +179,14 @@ def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
         figures[name] = (min if name in _GAPS else max)(known, default=None)
     graver = max(old, new, key=lambda each: _GRAVITY[each.relation])
     severity = min(old.severity, new.severity, key=SEVERITIES.index)
-    reason = old.reason or new.reason
-    return replace(old, relation=graver.relation, severity=severity, reason=reason, **figures)
+    return replace(
+        old,
+        relation=graver.relation,
+        severity=severity,
+        unmeasured=(old.unmeasured or new.unmeasured) and not any(map(figures.get, _DEPTHS)),
+        reason=old.reason or new.reason,
+        **figures,
+    )
 
 
 def pruned(baseline: Baseline, absent: Sequence[KnownFinding]) -> Baseline:
@@ -181,13 +217,15 @@ def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineSta
         return "undecided"
     if _GRAVITY[now.relation] > _GRAVITY[before.relation]:
         return "worse"
+    if before.unmeasured:
+        return "accepted"
     if now.undecided is not None or before.units != report.units:
         return "undecided"
     bounds, band = _bounds(now), _band(now, report)
-    kept = [
-        _is_no_worse(name, before.figure(name), bounds.get(name), band)
-        for name in _figures_to_compare(before, now)
-    ]
+    figures = _figures_to_compare(before, now)
+    if _lacks_figures(now.relation, figures):
+        return "undecided"
+    kept = [_is_no_worse(name, before.figure(name), bounds.get(name), band) for name in figures]
     return "worse" if False in kept else "undecided" if None in kept else "unchanged"
 
 

@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
+from satcheck.audit.figures import with_figures
 from satcheck.audit.finding import examine_boxes
 from satcheck.audit.messages import with_messages
 from satcheck.audit.pair import Pair
@@ -88,12 +90,15 @@ def check(
         errors = [each for each in scene.issues if each.severity == "error"]
         why = f"; {errors[0].message}" if errors else ""
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
+    if scene.joint_path is not None:  # many poses: figures on request only
+        settings = replace(settings, depth=settings.depth or False)
     bodies = place(scene, settings, cache)
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
     close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
     examined = _examined(bodies, close, planner, movers, progress, keep=cache is not None)
+    examined = with_figures(examined, settings, keep=cache is not None)
     close, unexamined = close[: len(examined)], len(close) - len(examined)
     findings = _findings(bodies, close, examined, planner)
     counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)

@@ -125,7 +125,8 @@ class Draft(Struct, eq=False):
     shown. reason: why an answer is missing or weaker than a proof. gap: of bodies without a common
     interior. band: of an overlap. ahead: waits for the search for the thickness that runs beside
     that for the depth, and returns its nanoseconds, too. The figures are None if they were not
-    requested. disputed: the answer of another library that contradicts the relation.
+    requested. disputed: the answer of another library that contradicts the relation. work: steps of
+    the searches for the depth and the thickness.
     """
 
     pair: Pair
@@ -155,6 +156,7 @@ class Draft(Struct, eq=False):
     contacts: Contacts | None = None
     components: Components | None = None
     disputed: str | None = None
+    work: int = 0
 
     def record(self, stage: str, result: str, detail: str = "", earlier: int = 0) -> None:
         """Add a stage that has ended now. earlier: nanoseconds that it ran before the last one."""

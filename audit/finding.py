@@ -7,6 +7,7 @@ An overlap has no gap, so it keeps no clearance. What decides `touching` is `rep
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -68,6 +69,19 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     return _judged(draft) if undecided is None else draft.indeterminate(undecided)
 
 
+def measure(draft: Draft) -> Finding:
+    """Return the finding of a drafted overlap with the depth and the thickness that its request
+    asks for by now."""
+    draft.since = perf_counter_ns()
+    wants = draft.pair.request.wants
+    undecided = _find_overlap(draft) if wants("depth") and draft.depth is None else None
+    if undecided is not None:
+        return draft.indeterminate(undecided)
+    if wants("thickness") and draft.thickness is None:
+        measure_thickness(draft)
+    return _judged(draft)
+
+
 def examine_boxes(draft: Draft) -> Finding:
     """Return the finding of a pair that the broad phase settled."""
     if not apart_by_boxes(draft):
@@ -114,7 +128,7 @@ def _find_overlap(draft: Draft) -> str | None:
     """Find what is known of an overlap. Returns why it is unknown whether the overlap is within the
     tolerance; None: it is known."""
     pair = draft.pair
-    band, depth = touch_band(draft), None
+    band, depth = draft.band or touch_band(draft), None
     guess = band.side == "within" and not draft.exact_proven
     if pair.request.wants("depth") and not guess:
         depth = measure_depth(draft, band.move)

@@ -29,7 +29,7 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
-from satcheck.report.report import INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
+from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.units import unit_of
 
@@ -69,7 +69,8 @@ def verdict_line(report: Report) -> str:
     errors, left_open = _errors(report), _left_open(report)
     unchecked = nothing_checked(report.issues)
     if report.summary.verdict == "fail":
-        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
+        more = [*left_open, *_unmeasured(report), *errors]
+        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, more)])
     if report.summary.verdict == "pass" and not errors:
         return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
     word = "ERROR" if errors else "INCOMPLETE"
@@ -93,6 +94,8 @@ def _passed(report: Report) -> str:
     if report.regions:
         lying = sum(answer.answer == "yes" for answer in report.regions.findings)
         said += f", {counted(lying, 'body', 'bodies')} inside the region"
+    if unproven := sum(finding.baseline_state == "accepted" for finding in report.findings):
+        said += f", {unproven:,} accepted without figures"
     if accepted := sum(issue.state == "accepted" for issue in report.issues):
         said += f", {counted(accepted, 'issue')} accepted"
     return said + (f", {counted(warnings, 'warning')}" if warnings else "")
@@ -130,6 +133,20 @@ def _failed(report: Report) -> str:
     return "; ".join(said)
 
 
+def _unmeasured(report: Report) -> list[str]:
+    """Return `figures of the 12 worst of 40 failing pairs; --depth measures all`, if the budget of
+    the scene left out the others."""
+    spared = (effect.not_run for effect in report.effects if effect.effect == "depth")
+    if not any(BEYOND_BUDGET in reasons for reasons in spared):
+        return []
+    overlaps = [finding for finding in failing(report) if finding.at_rest in OVERLAPS]
+    measured = sum(finding.depth is not None for finding in overlaps)
+    if not measured:
+        return []
+    said = f"figures of the {measured:,} worst of {len(overlaps):,} failing pairs"
+    return [f"{said}; --depth measures all"]
+
+
 def _unmet(report: Report) -> list[str]:
     """Return a message about each of the first failing bodies."""
     said: dict[str, str] = {}
@@ -159,7 +176,8 @@ def finding_message(finding: Finding, report: Report) -> str:
         way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
         text += f"; moving {finding.a} by {way} ends the overlap"
     if finding.baseline_state is not None:
-        text += f" [baseline: {finding.baseline_state}]"
+        unproven = " without figures" if finding.baseline_state == "accepted" else ""
+        text += f" [baseline: {finding.baseline_state}{unproven}]"
     if finding.reason is not None:
         text += f" ({finding.reason})"
     return f"{text}."

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
 from satcheck.scene.units import unit_of
@@ -230,8 +231,8 @@ def _of(shown: Mapping[str, str], body: str | None) -> str | None:
 
 
 def severity(finding: Finding) -> Severity:
-    """A finding that a baseline holds, unchanged, is a note."""
-    return "note" if finding.baseline_state == "unchanged" else finding.severity
+    """A finding that a baseline holds is a note."""
+    return "note" if finding.baseline_state in HELD else finding.severity
 
 
 def is_listed(finding: Finding) -> bool:

@@ -68,6 +68,8 @@ NO_ANSWER = "no answer"
 # The result of an effect that needs triangles, for a pair with a curved shape.
 NOT_AVAILABLE = "not available"
 ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-check")
+# Why an effect did not run on a pair that fails: other pairs of the scene have spent the steps.
+BEYOND_BUDGET = "beyond the budget of the scene"
 # The code of an issue about a pair that failed because of a bug in satcheck.
 INTERNAL_ERROR = "internal-error"
 # No pair is checked: all are within one link, allowed, or exempt.
@@ -122,8 +124,8 @@ class Summary(Value, frozen=True):
     number of pairs for which it is undecided whether an overlap is within the limits of its rules,
     or a gap keeps its clearance, at rest or in motion. sweeps_undecided: the number of pairs for
     which it is undecided whether they hit while they move. disputed: the number of pairs for which
-    another library contradicts the answer (Settings.cross_check). accepted: the number of failing
-    findings that the baseline contains, unchanged. They do not make the check fail.
+    another library contradicts the answer (Settings.cross_check). accepted: the number of findings
+    that the baseline holds. They do not make the check fail.
     """
 
     verdict: Verdict

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from satcheck.report.baseline import HELD
 from satcheck.report.report import (
     RELATIONS,
     SEVERITIES,
@@ -30,8 +31,8 @@ def fails(finding: Finding, fail_on: FailOn) -> bool:
 
 
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
-    """Return whether the check fails by it: a baseline does not hold it unchanged."""
-    return fails(finding, fail_on) and finding.baseline_state != "unchanged"
+    """Return whether the check fails by it: a baseline does not hold it."""
+    return fails(finding, fail_on) and finding.baseline_state not in HELD
 
 
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
@@ -95,7 +96,7 @@ def summarise(
         limits_undecided=undecided["limit"],
         sweeps_undecided=undecided["motion"],
         disputed=undecided["cross-check"],
-        accepted=sum(finding.baseline_state == "unchanged" for finding in findings),
+        accepted=sum(finding.baseline_state in HELD for finding in findings),
     )
 
 

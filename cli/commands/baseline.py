@@ -12,6 +12,7 @@ from satcheck.audit.baseline import (
     absent_from,
     asset_key,
     known_findings,
+    of_unknown_depth,
     pruned,
     read_baseline,
     updated,
@@ -36,6 +37,11 @@ reports_argument = click.argument(
 reason_option = click.option(
     "--reason", default="", metavar="TEXT", help="Why these findings are accepted."
 )
+unmeasured_option = click.option(
+    "--without-figures",
+    is_flag=True,
+    help="Accept overlaps of unknown depth, however deep they get.",
+)
 
 
 @click.group("baseline", cls=Group, context_settings=HELP_NAMES)
@@ -51,20 +57,22 @@ def command() -> None:
 @file_argument
 @reports_argument
 @reason_option
-def write(file: Path, reports: Sequence[Path], reason: str) -> None:
+@unmeasured_option
+def write(file: Path, reports: Sequence[Path], reason: str, without_figures: bool) -> None:
     """Write a new baseline with the failing findings of reports."""
     if exists(file):
         raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
-    _update(file, Baseline(), reports, reason)
+    _update(file, Baseline(), reports, reason, without_figures=without_figures)
 
 
 @command.command("update", context_settings=HELP_NAMES)
 @file_argument
 @reports_argument
 @reason_option
-def update(file: Path, reports: Sequence[Path], reason: str) -> None:
+@unmeasured_option
+def update(file: Path, reports: Sequence[Path], reason: str, without_figures: bool) -> None:
     """Add new findings of reports, and take over figures that are worse or were not known."""
-    _update(file, read_baseline(file), reports, reason)
+    _update(file, read_baseline(file), reports, reason, without_figures=without_figures)
 
 
 @command.command("prune", context_settings=HELP_NAMES)
@@ -81,13 +89,32 @@ def prune(file: Path, reports: Sequence[Path]) -> None:
     _write(file, baseline, pruned(baseline, absent))
 
 
-def _update(file: Path, baseline: Baseline, reports: Sequence[Path], reason: str) -> None:
+def _update(
+    file: Path, baseline: Baseline, reports: Sequence[Path], reason: str, *, without_figures: bool
+) -> None:
     known = [
         finding
         for asset, report in _named_reports(reports, file)
-        for finding in _named(known_findings(report, asset, reason), report, baseline, file)
+        for finding in _named(
+            known_findings(report, asset, reason, unmeasured=without_figures),
+            report,
+            baseline,
+            file,
+        )
     ]
-    _write(file, baseline, updated(baseline, known))
+    after = updated(baseline, known)
+    _refuse_unmeasured(baseline, after)
+    _write(file, baseline, after)
+
+
+def _refuse_unmeasured(before: Baseline, after: Baseline) -> None:
+    if new := of_unknown_depth(before, after):
+        first = f"{new[0].asset}: " if new[0].asset else ""
+        raise click.UsageError(
+            f"{counted(len(new), 'overlap')} of unknown depth, first {first}{new[0].a} and "
+            f"{new[0].b}: nobody would notice a deeper one. Check again with --depth and write the "
+            "baseline from that report, or accept them --without-figures"
+        )
 
 
 def _named(
