@@ -65,7 +65,7 @@ def nothing_checked(issues: Iterable[Issue]) -> list[str]:
 
 
 def verdict_line(report: Report) -> str:
-    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, depth 1 mm).`"""
+    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, 1 mm to pull apart).`"""
     errors, left_open = _errors(report), _left_open(report)
     unchecked = nothing_checked(report.issues)
     if report.summary.verdict == "fail":
@@ -167,8 +167,8 @@ def answer_message(answer: BodyAnswer) -> str:
 
 
 def finding_message(finding: Finding, report: Report) -> str:
-    """Return `box and lid overlap (thickness 0.5 mm, depth 1 mm); moving box by (-1, 0, 0) ends the
-    overlap.`"""
+    """Return `box and lid overlap (thickness 0.5 mm, 1 mm to pull apart); moving box by (-1, 0, 0)
+    ends the overlap.`"""
     text, swept = _clause(finding, report), finding.motion
     if swept and not _hits_only(finding) and swept.relation not in ("separated", finding.at_rest):
         text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
@@ -184,7 +184,7 @@ def finding_message(finding: Finding, report: Report) -> str:
 
 
 def measured(finding: Finding, unit: str | None) -> str:
-    """Return `penetrating, thickness 0.5 mm, depth 1 mm`, for what names the bodies itself."""
+    """Return `penetrating, thickness 0.5 mm, 1 mm to pull apart`, for what names the bodies."""
     parts = [finding.relation, *_figures(finding, unit)]
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")
@@ -233,10 +233,10 @@ def _overlap(finding: Finding, report: Report) -> str:
 
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:
-    known = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    known = {"thickness {}": finding.thickness_bounds, "{} to pull apart": finding.depth_bounds}
     said = [
-        f"{name} {with_unit(interval(proven, bounded='at most '), unit)}"
-        for name, proven in known.items()
+        words.format(with_unit(interval(proven, bounded="at most "), unit))
+        for words, proven in known.items()
         if proven is not None
     ]
     if finding.volume is not None:

@@ -108,7 +108,7 @@ def request_for(
 ) -> Request:
     """Return the request that follows from flags and rules, with who requests each effect."""
     across = None if settings.planar is None else settings.across
-    request = request_of(terms or {}, settings.clearance, settings.tolerance, across)
+    request = request_of(terms or {}, settings, across)
 
     def figure(setting: bool | None, limit: str) -> str | None:
         """Return who requests the depth or the thickness. limit: the key of rules for it."""

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
+from satcheck.report.request import OPTIONS_OF_LIMITS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -187,13 +188,18 @@ def limits(finding: Finding, report: Report) -> list[str]:
     if finding.relation not in OVERLAPS:
         own = None if rule is None else rule.clearance
         asked = {"clearance": (report.settings.clearance if own is None else own, "")}
-    elif rule is None:
-        return []
-    else:
+    elif rule is not None:
         asked = {
-            "max_depth": (rule.max_depth, ""),
             "max_thickness": (rule.max_thickness, ""),
+            "max_depth": (rule.max_depth, ""),
             "max_volume": (rule.max_volume, "^3"),
+        }
+    else:
+        settings, deciding = report.settings, (finding.rule or "").split(", ")
+        asked = {
+            key: (getattr(settings, key), "")
+            for key, option in OPTIONS_OF_LIMITS.items()
+            if option in deciding
         }
     return [
         f"{name} {with_unit(number(limit), unit and unit + power)}"

@@ -193,9 +193,8 @@ class _Report:
     def request_of(self, a: Placed, b: Placed) -> Request:
         """Return what the settings and the rules ask of this pair."""
         settings, terms = self.report.settings, self.book.terms(self.order[a.id], self.order[b.id])
-        tolerance = None if isinstance(settings.tolerance, str) else settings.tolerance
         across = None if settings.planar is None else ACROSS[settings.planar]
-        return request_of(terms, settings.clearance, tolerance, across)
+        return request_of(terms, settings, across)
 
     def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that

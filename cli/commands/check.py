@@ -151,6 +151,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--depth/--no-depth",
     note="for mesh files of one body each; otherwise for the worst pairs that fail",
 )
+@option.setting("max_thickness", type=length)
+@option.setting("max_depth", type=length)
 @option.setting("contacts")
 @option.setting("components")
 @option.setting("volume")
