@@ -153,10 +153,10 @@ class BodyCache:
         earlier = self.placed.get(body.id)
         if earlier is not None and earlier.body is body:
             return earlier
-        key = mesh_key(body.file)
+        key = mesh_key(body.file, is_open=body.open)
         if key not in self.meshes:
             in_file = bounds if body.transform is None else None
-            self.meshes[key] = SharedMesh(body.file, settings, in_file)
+            self.meshes[key] = SharedMesh(body.file, settings, in_file, is_open=body.open)
         placed = PlacedBody(body, self.meshes[key], bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
             far, most = told_apart(largest, LARGEST_PLACED)

@@ -243,7 +243,7 @@ def _of_estimate(
     overlap does not fail, unless --accuracy or --allow-open accepts estimates. overlaps: an overlap
     is proven, even if the relation is not."""
     settings = pair.settings
-    if settings.accuracy != "exact" or settings.allow_open:
+    if settings.accuracy != "exact" or pair.open_on_purpose:
         return judgement
     if finding.relation in OVERLAPS and overlaps:
         is_proven = finding.mtv_verified or not judgement.passes

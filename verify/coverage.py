@@ -58,6 +58,7 @@ GROUPS: dict[Kind, dict[str, str]] = {
         "primitive shapes": "bodies[].shape",
         "groups": "bodies[].groups",
         "which bodies are static": "bodies[].static",
+        "which bodies are open on purpose": "bodies[].open",
         "surface tolerances": "bodies[].surface_tolerance",
         "exempt pairs": "exempt",
         "rules": "rules[] regions.rules[] statics.rules[]",

@@ -162,9 +162,9 @@ def _open_pieces_around(pair: Pair) -> str | None:
     box whose faces miss each other by more than the precision of the file has six open parts. They
     count as six sheets, but the box may be meant as a solid.
     """
-    if pair.settings.allow_open:
-        return None
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
+        if pair.settings.allow_open or outer.body.open:
+            continue
         health = outer.body.file.health
         in_pieces = not (outer.solid or health.closed or health.flat or outer.curved)
         if in_pieces and _is_around(outer, _point_of(inner)):
