@@ -27,7 +27,9 @@ from satcheck.report.baseline import (
     Figure,
     KnownFinding,
     KnownRelation,
+    KnownUndecided,
     StatedBaseline,
+    UndecidedBy,
 )
 from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
@@ -63,7 +65,11 @@ def beside_baseline(
     where it knows a pair under several of these names, the first one counts.
     """
     known = {each.key: each for each in baseline.findings}
-    findings = tuple(_with_state(finding, report, known, assets) for finding in report.findings)
+    open_for = {each.key: each.reason_code for each in baseline.undecided}
+    findings = tuple(
+        _with_state(_if_accepted(finding, open_for, assets), report, known, assets)
+        for finding in report.findings
+    )
     absent = (known for asset in assets for known in absent_from(report, baseline, asset))
     stated = StatedBaseline(file, tuple(absent))
     summary, fail_on = report.summary, report.settings.fail_on
@@ -78,6 +84,27 @@ def beside_baseline(
     if summary.verdict == "pass":  # a baseline only excuses
         judged = replace(summary, accepted=judged.accepted)
     return with_messages(replace(report, findings=findings, baseline=stated, summary=judged))
+
+
+def _if_accepted(
+    finding: Finding,
+    open_for: Mapping[tuple[str, frozenset[str]], UndecidedBy],
+    assets: Sequence[str],
+) -> Finding:
+    """Return the finding, accepted if it is undecided for the reason that the baseline knows."""
+    pair, code = frozenset((finding.a, finding.b)), finding.reason_code
+    if code is None or code not in [open_for.get((asset, pair)) for asset in assets]:
+        return finding
+    return replace(finding, baseline_state="accepted")
+
+
+def known_undecided(report: Report, asset: str = "", reason: str = "") -> list[KnownUndecided]:
+    """Return the undecided pairs that a baseline can accept."""
+    return [
+        KnownUndecided(asset=asset, a=each.a, b=each.b, reason_code=each.reason_code, reason=reason)
+        for each in report.findings
+        if each.reason_code is not None
+    ]
 
 
 def known_findings(
@@ -159,13 +186,23 @@ def measuring(settings: Settings) -> Settings:
     return replace(settings, depth=True) if settings.depth is None else settings
 
 
-def updated(baseline: Baseline, findings: Iterable[KnownFinding]) -> Baseline:
+def updated(
+    baseline: Baseline,
+    findings: Iterable[KnownFinding],
+    undecided: Iterable[KnownUndecided] = (),
+) -> Baseline:
     """The baseline with these findings added, sorted by name. A finding that is already known keeps
     its reason and the worse of both figures; figures in other units are replaced."""
     known = {each.key: each for each in baseline.findings}
     for each in findings:
         known[each.key] = _merged(known.get(each.key), each)
-    return _sorted(known.values())
+    accepted = {each.key: each for each in baseline.undecided}
+    accepted |= {
+        each.key: each
+        for each in undecided
+        if each.key not in accepted or accepted[each.key].reason_code != each.reason_code
+    }
+    return _sorted(known.values(), accepted.values())
 
 
 def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
@@ -191,11 +228,17 @@ def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
 
 def pruned(baseline: Baseline, absent: Sequence[KnownFinding]) -> Baseline:
     gone = {each.key for each in absent}
-    return _sorted(each for each in baseline.findings if each.key not in gone)
+    kept = (each for each in baseline.findings if each.key not in gone)
+    return _sorted(kept, baseline.undecided)
 
 
-def _sorted(findings: Iterable[KnownFinding]) -> Baseline:
-    return Baseline(findings=tuple(sorted(findings, key=lambda f: (f.asset, f.a, f.b))))
+def _sorted(findings: Iterable[KnownFinding], undecided: Iterable[KnownUndecided]) -> Baseline:
+    def place(each: KnownFinding | KnownUndecided) -> tuple[str, str, str]:
+        return each.asset, each.a, each.b
+
+    return Baseline(
+        findings=tuple(sorted(findings, key=place)), undecided=tuple(sorted(undecided, key=place))
+    )
 
 
 def _with_state(

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
+    from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
 
@@ -304,7 +305,11 @@ def _findings(
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE
     for i, j, reason in islice(bodies.undecidable_pairs(), most):
-        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason)
+        usable = i in bodies.placed and j in bodies.placed
+        code: UndecidedBy | None = None
+        if usable and not bodies.is_comparable(i, j):
+            code = "units-unknown"
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, reason_code=code)
     if listed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:

@@ -108,6 +108,7 @@ def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
     whether they overlap."""
     draft = Draft(pair)
     draft.record("sort", "indeterminate", "the fill of a hole decides")
+    draft.reason_code = "open-hole"
     return draft.indeterminate(open_hole(pair, hole))
 
 
@@ -232,6 +233,7 @@ def _judged(draft: Draft) -> Finding:
         severity=judgement.severity,
         rule=judgement.rule,
         undecided=judgement.undecided,
+        reason_code=draft.reason_code if judgement.undecided == "relation" else None,
         reason=finding.reason or judgement.reason,
     )
 

@@ -29,6 +29,7 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
+from satcheck.report.baseline import HELD
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.units import unit_of
@@ -94,10 +95,15 @@ def _passed(report: Report) -> str:
     if report.regions:
         lying = sum(answer.answer == "yes" for answer in report.regions.findings)
         said += f", {counted(lying, 'body', 'bodies')} inside the region"
-    if unproven := sum(finding.baseline_state == "accepted" for finding in report.findings):
-        said += f", {unproven:,} accepted without figures"
-    if accepted := sum(issue.state == "accepted" for issue in report.issues):
-        said += f", {counted(accepted, 'issue')} accepted"
+    accepted = [finding for finding in report.findings if finding.baseline_state == "accepted"]
+    if unmeasured := sum(finding.undecided is None for finding in accepted):
+        said += f", {unmeasured:,} accepted without figures"
+    if undecided := [f"{each.a} and {each.b}" for each in accepted if each.undecided]:
+        more = f" and {len(undecided) - NAMED:,} more" if len(undecided) > NAMED else ""
+        named = ", ".join(undecided[:NAMED])
+        said += f", {len(undecided):,} accepted undecided ({named}{more})"
+    if issues := sum(issue.state == "accepted" for issue in report.issues):
+        said += f", {counted(issues, 'issue')} accepted"
     return said + (f", {counted(warnings, 'warning')}" if warnings else "")
 
 
@@ -176,7 +182,9 @@ def finding_message(finding: Finding, report: Report) -> str:
         way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
         text += f"; moving {finding.a} by {way} ends the overlap"
     if finding.baseline_state is not None:
-        unproven = " without figures" if finding.baseline_state == "accepted" else ""
+        unproven = ""
+        if finding.baseline_state == "accepted":
+            unproven = " undecided" if finding.undecided else " without figures"
         text += f" [baseline: {finding.baseline_state}{unproven}]"
     if finding.reason is not None:
         text += f" ({finding.reason})"
@@ -263,7 +271,9 @@ def _apart(finding: Finding, unit: str | None) -> str:
 def _left_open(report: Report) -> list[str]:
     """`1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
-    undecided = sum(f.undecided == "relation" for f in report.findings)
+    undecided = sum(
+        f.undecided == "relation" and f.baseline_state not in HELD for f in report.findings
+    )
     undecided += unlisted_indeterminate(summary.pairs, report.findings)
     if undecided:
         said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))

@@ -16,6 +16,9 @@ HELD: tuple[BaselineState, ...] = ("unchanged", "accepted")
 KnownRelation = Literal[
     "separated", "near", "touching", "penetrating", "contains", "inside", "coincident"
 ]
+# Why the relation of a pair is undecided, where the input is the cause. open-hole: what fills a
+# hole decides it. open-pieces: open pieces surround a body. units-unknown: no unit is common.
+UndecidedBy = Literal["open-hole", "open-pieces", "units-unknown"]
 Figure = Literal["depth", "thickness", "volume", "distance", "motion_depth", "motion_distance"]
 
 
@@ -55,9 +58,26 @@ class KnownFinding(Value, frozen=True, kw_only=True):
         return figure
 
 
+class KnownUndecided(Value, frozen=True, kw_only=True):
+    """A pair that may stay undecided for the same reason. asset, a, b: as above. reason_code: of
+    the finding. reason: a text that says why this is accepted."""
+
+    asset: str = ""
+    a: str
+    b: str
+    reason_code: UndecidedBy
+    reason: str = ""
+
+    @property
+    def key(self) -> tuple[str, frozenset[str]]:
+        """The same in either order of the bodies."""
+        return self.asset, frozenset((self.a, self.b))
+
+
 class Baseline(Value, frozen=True, kw_only=True):
     schema: Literal["satcheck.baseline/1"] = SCHEMA
     findings: tuple[KnownFinding, ...] = ()
+    undecided: tuple[KnownUndecided, ...] = ()
 
 
 class StatedBaseline(Value, frozen=True):

@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
-from satcheck.report.baseline import BaselineState, StatedBaseline
+from satcheck.report.baseline import BaselineState, StatedBaseline, UndecidedBy
 from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
@@ -198,8 +198,9 @@ class Finding(Value, frozen=True, kw_only=True):
     be a little longer, so that the moved mesh is verified free. motion: the sweep; None: the bodies
     do not move relative to each other, or their boxes stay apart. relation, severity and undecided
     include it; figures are as placed. certificate: what `satcheck verify` checks; None: not
-    requested, or nothing is proven, and the last stage of the plan says why. baseline_state: for a
-    failing finding, if the check has a baseline.
+    requested, or nothing is proven, and the last stage of the plan says why. reason_code: of an
+    undecided relation, where the input is the cause. baseline_state: for a failing finding, if the
+    check has a baseline, and for an undecided one that the baseline accepts.
     """
 
     id: str
@@ -233,6 +234,7 @@ class Finding(Value, frozen=True, kw_only=True):
     motion: Sweep | None = None
     certificate: Certificate | None = None
     reason: str | None = None
+    reason_code: UndecidedBy | None = None
     plan: tuple[Stage, ...]
     baseline_state: BaselineState | None = None
 

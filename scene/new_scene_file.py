@@ -72,7 +72,11 @@ def new_scene_file(
         accept=tuple(each.text for each in scene.accept if each.about is None),
         statics=stated_terms(scene) if scene.body_rules or scene.statics else None,
         bodies=tuple(entries),
-        rules=tuple(map(_rule, (*scene.rules, *scene.body_rules, *_open_bodies(scene)))),
+        rules=(
+            *map(_rule, scene.rules),
+            *map(_rule, scene.body_rules),
+            *map(_rule, _open_bodies(scene)),
+        ),
         motion=tuple(map(_motion, scene.motions)),
     )
     return (_toml if is_toml(output) else _json)(to_builtins(stated, enc_hook=_plain))

@@ -90,7 +90,8 @@ GROUPS: dict[Kind, dict[str, str]] = {
         "what happens while bodies move": "findings[].motion",
         "messages": "message findings[].message",
         "reasons": """
-            findings[].reason truncated.reason regions.findings[].reason statics.findings[].reason
+            findings[].reason findings[].reason_code truncated.reason regions.findings[].reason
+            statics.findings[].reason
         """,
         "plans": "findings[].plan",
         "which findings a baseline accepts": """

@@ -12,6 +12,7 @@ from satcheck.audit.baseline import (
     absent_from,
     asset_key,
     known_findings,
+    known_undecided,
     of_unknown_depth,
     pruned,
     read_baseline,
@@ -21,7 +22,7 @@ from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.stated_scene import read_report
-from satcheck.report.baseline import Baseline, KnownFinding
+from satcheck.report.baseline import Baseline, KnownFinding, KnownUndecided
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
 from satcheck.scene.opening import exists
@@ -42,6 +43,11 @@ unmeasured_option = click.option(
     is_flag=True,
     help="Accept overlaps of unknown depth, however deep they get.",
 )
+undecided_option = click.option(
+    "--undecided",
+    is_flag=True,
+    help="Accept pairs too that holes or units leave undecided, for that reason alone.",
+)
 
 
 @click.group("baseline", cls=Group, context_settings=HELP_NAMES)
@@ -58,11 +64,12 @@ def command() -> None:
 @reports_argument
 @reason_option
 @unmeasured_option
-def write(file: Path, reports: Sequence[Path], reason: str, without_figures: bool) -> None:
+@undecided_option
+def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Write a new baseline with the failing findings of reports."""
     if exists(file):
         raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
-    _update(file, Baseline(), reports, reason, without_figures=without_figures)
+    _update(file, Baseline(), reports, reason, **accepting)
 
 
 @command.command("update", context_settings=HELP_NAMES)
@@ -70,9 +77,10 @@ def write(file: Path, reports: Sequence[Path], reason: str, without_figures: boo
 @reports_argument
 @reason_option
 @unmeasured_option
-def update(file: Path, reports: Sequence[Path], reason: str, without_figures: bool) -> None:
+@undecided_option
+def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Add new findings of reports, and take over figures that are worse or were not known."""
-    _update(file, read_baseline(file), reports, reason, without_figures=without_figures)
+    _update(file, read_baseline(file), reports, reason, **accepting)
 
 
 @command.command("prune", context_settings=HELP_NAMES)
@@ -90,7 +98,13 @@ def prune(file: Path, reports: Sequence[Path]) -> None:
 
 
 def _update(
-    file: Path, baseline: Baseline, reports: Sequence[Path], reason: str, *, without_figures: bool
+    file: Path,
+    baseline: Baseline,
+    reports: Sequence[Path],
+    reason: str,
+    *,
+    without_figures: bool,
+    undecided: bool,
 ) -> None:
     known = [
         finding
@@ -102,7 +116,12 @@ def _update(
             file,
         )
     ]
-    after = updated(baseline, known)
+    still_open = [
+        pair
+        for asset, report in _named_reports(reports, file)
+        for pair in (known_undecided(report, asset, reason) if undecided else ())
+    ]
+    after = updated(baseline, known, still_open)
     _refuse_unmeasured(baseline, after)
     _write(file, baseline, after)
 
@@ -131,8 +150,14 @@ def _named(
         yield under if is_one and not finding.asset and under.key in keys else finding
 
 
+def _entries(baseline: Baseline) -> dict[object, KnownFinding | KnownUndecided]:
+    """Return what a baseline holds. A pair may be known to fail, and to be undecided."""
+    undecided = {("undecided", each.key): each for each in baseline.undecided}
+    return {**{each.key: each for each in baseline.findings}, **undecided}
+
+
 def _write(file: Path, before: Baseline, after: Baseline) -> None:
-    old, new = ({each.key: each for each in baseline.findings} for baseline in (before, after))
+    old, new = _entries(before), _entries(after)
     changed = sum(each != new.get(key, each) for key, each in old.items())
     write_file(file, json_document(after))
     Document().write(

@@ -13,6 +13,7 @@ from satcheck.audit.baseline import absent_from, asset_key, beside_baseline, kno
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose
+from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.cli.reports import (
     BOUNDED,
@@ -394,3 +395,54 @@ def test_a_stored_baseline_without_figures_proves_nothing() -> None:
     accepted = replace(bare, unmeasured=True)
     assert [state(accepted, now) for now in (shallow, unmeasured)] == ["accepted"] * 2
     assert state(accepted, replace(DEEPER, relation="contains")) == "worse"
+
+
+def shell(folder: Path, units: str = "mm") -> None:
+    """A scene of an open shell with a box in its mouth: the fill of the hole decides."""
+    write(folder, shell=open_box(), part=unit_box(1, 1, 3.5))
+    (folder / "pot.toml").write_text(
+        f'schema = "satcheck.scene/1"\nunits = "{units}"\n'
+        '[[bodies]]\nid = "pot"\nmesh = "shell.obj"\n[[bodies]]\nid = "lid"\nmesh = "part.obj"\n'
+    )
+
+
+def test_an_undecided_pair_is_accepted_only_if_told_and_for_the_same_reason(tmp_path: Path) -> None:
+    shell(tmp_path)
+    for gate in (("each", "pot.toml"), ("pot.toml",)):
+        known = tmp_path / "known.json"
+        known.unlink(missing_ok=True)
+        satcheck(*gate, "-o", "report.json", cwd=tmp_path)
+        write_it = ("baseline", "write", "known.json", "report.json")
+        satcheck(*write_it, cwd=tmp_path)
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 3
+        known.unlink()
+        satcheck(*write_it, "--undecided", "--reason", "a pot has no lid", cwd=tmp_path)
+        accepted = json.loads(known.read_text())["undecided"]
+        assert [each["reason_code"] for each in accepted] == ["open-hole"]
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 0
+        known.write_text(known.read_text().replace("open-hole", "units-unknown"))
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 3
+
+
+def test_an_accepted_undecided_pair_is_named(tmp_path: Path) -> None:
+    shell(tmp_path)
+    satcheck("pot.toml", "-o", "report.json", cwd=tmp_path)
+    satcheck("baseline", "write", "known.json", "report.json", "--undecided", cwd=tmp_path)
+    ran = satcheck("pot.toml", "--baseline", "known.json", "--format", "json", cwd=tmp_path)
+    assert "1 accepted undecided (pot and lid)" in ran.document["message"]
+    (finding,) = ran.document["findings"]
+    assert (finding["relation"], finding["baseline_state"]) == ("indeterminate", "accepted")
+    assert "[baseline: accepted undecided]" in finding["message"]
+    assert ran.document["summary"]["pairs"]["indeterminate"] == 1
+
+
+def test_other_units_are_a_reason_too_and_an_unreadable_body_is_none(tmp_path: Path) -> None:
+    (tmp_path / "box.obj").write_text((SAMPLES / "box.obj").read_text())
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path)
+    (tmp_path / "lost.obj").write_text("v 0 0 0\n")
+    files = ("box.obj", "gripper.glb", "lost.obj", "-o", "report.json")
+    satcheck(*files, cwd=tmp_path)
+    findings = json.loads((tmp_path / "report.json").read_text())["findings"]
+    codes = {(f["a"], f["b"]): f["reason_code"] for f in findings if f["undecided"]}
+    assert set(codes.values()) == {"units-unknown", None}
+    assert all((code is None) == ("lost" in pair) for pair, code in codes.items())
