@@ -152,8 +152,10 @@ def _named(
 
 def _entries(baseline: Baseline) -> dict[object, KnownFinding | KnownUndecided]:
     """Return what a baseline holds. A pair may be known to fail, and to be undecided."""
-    undecided = {("undecided", each.key): each for each in baseline.undecided}
-    return {**{each.key: each for each in baseline.findings}, **undecided}
+    entries: list[tuple[object, KnownFinding | KnownUndecided]] = []
+    entries += [(each.key, each) for each in baseline.findings]
+    entries += [(("undecided", each.key), each) for each in baseline.undecided]
+    return dict(entries)
 
 
 def _write(file: Path, before: Baseline, after: Baseline) -> None:
