@@ -257,9 +257,10 @@ def rank(finding: Finding) -> tuple[float, ...]:
 
 
 def _size(finding: Finding) -> tuple[int, float, float]:
-    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown."""
+    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown. One
+    without figures comes last: its boxes overlap by less than those that were measured."""
     if finding.at_rest in OVERLAPS:
-        deep = inf if finding.depth is None else finding.depth
+        deep = -inf if finding.depth is None else finding.depth
         thick = deep if finding.thickness is None else finding.thickness
         return (0, -thick, -deep)
     if is_hit(finding):

@@ -60,10 +60,10 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (
                 "2 bodies, 5 pairs: 3 penetrating, 1 containing, 1 indeterminate. "
                 "1 pair hits while moving.",
-                "FAIL: block and other overlap; "
-                "a_rather_long_name contains another_rather_long_name "
+                "FAIL: a_rather_long_name contains another_rather_long_name "
                 "(1.24123 .. 1.25001 to pull apart); "
-                "block and block_pushed overlap (thickness 0.5, 1 to pull apart); and 1 more pair. "
+                "block and block_pushed overlap (thickness 0.5, 1 to pull apart); "
+                "block and other overlap; and 1 more pair. "
                 "1 pair is indeterminate. Next: --depth measures the overlaps.",
             ),
         ),
