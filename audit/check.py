@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
+from satcheck.audit.figures import with_figures
 from satcheck.audit.finding import examine_boxes
 from satcheck.audit.messages import with_messages
 from satcheck.audit.pair import Pair
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
+    from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
 
@@ -89,6 +92,8 @@ def check(
         errors = [each for each in scene.issues if each.severity == "error"]
         why = f"; {errors[0].message}" if errors else ""
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
+    if scene.joint_path is not None:  # many poses: figures on request only
+        settings = replace(settings, depth=settings.depth or False)
     bodies = place(scene, settings, cache)
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
@@ -97,6 +102,7 @@ def check(
     pairs, examined, unexamined = _examined(
         bodies, close, planner, movers, progress, keep=cache is not None
     )
+    examined = with_figures(examined, settings, keep=cache is not None)
     findings = _findings(bodies, pairs, examined, planner)
     counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)
     pose = scene.posture.pose() if scene.posture else None
@@ -306,7 +312,11 @@ def _findings(
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE
     for i, j, reason in islice(bodies.undecidable_pairs(), most):
-        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason)
+        usable = i in bodies.placed and j in bodies.placed
+        code: UndecidedBy | None = None
+        if usable and not bodies.is_comparable(i, j):
+            code = "units-unknown"
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, reason_code=code)
     if listed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:

@@ -112,6 +112,16 @@ class Pair(Struct, eq=False):
         return self.a.endless or self.b.endless
 
     @property
+    def open_on_purpose(self) -> bool:
+        """Return whether every open mesh of the pair is meant to be open."""
+        if self.settings.allow_open:
+            return True
+        bodies = self.a.body, self.b.body
+        return any(body.open for body in bodies) and all(
+            body.open or body.file.health.solid for body in bodies
+        )
+
+    @property
     def triangles(self) -> int:
         """The number of triangles of both bodies, in their files."""
         return self.a.shared.triangles + self.b.shared.triangles

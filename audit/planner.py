@@ -26,13 +26,14 @@ KEY_OF_EFFECT: dict[Effect, str] = {
 ALWAYS = "always"
 MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
+FOR_FAILURES = "by default, for pairs that fail"
 
 
 class Planner:
     """Makes the requests for all pairs of a scene.
 
-    composed: a scene file places the bodies. Depth is then not computed by default: a scene has
-    many pairs, and its rules can request the depth of some. moving: some bodies move.
+    composed: a scene file places the bodies. By default, figures are then computed for the pairs
+    that fail (`figures.py`). moving: some bodies move.
     """
 
     def __init__(
@@ -107,7 +108,7 @@ def request_for(
 ) -> Request:
     """Return the request that follows from flags and rules, with who requests each effect."""
     across = None if settings.planar is None else settings.across
-    request = request_of(terms or {}, settings.clearance, settings.tolerance, across)
+    request = request_of(terms or {}, settings, across)
 
     def figure(setting: bool | None, limit: str) -> str | None:
         """Return who requests the depth or the thickness. limit: the key of rules for it."""
@@ -132,7 +133,18 @@ def request_for(
         "cross-check": "--cross-check" if settings.cross_check else None,
         "certificate": "--certificate" if settings.certificate else None,
     }
-    return replace(request, by={effect: who for effect, who in by.items() if who})
+    # A coarser accuracy is chosen for speed.
+    by_failing = composed and settings.depth is None and settings.accuracy == "exact"
+    wanted: dict[Effect, bool | None] = {"depth": None, "thickness": settings.thickness}
+    return replace(
+        request,
+        by={effect: who for effect, who in by.items() if who},
+        if_failing=tuple(
+            effect
+            for effect, setting in wanted.items()
+            if by_failing and setting is None and not by[effect]
+        ),
+    )
 
 
 def _requests_effect(rule: RuleReport, key: str) -> bool:

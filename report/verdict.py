@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from satcheck.report.baseline import HELD
 from satcheck.report.report import (
     RELATIONS,
     SEVERITIES,
@@ -32,8 +33,8 @@ def fails(finding: Finding, fail_on: FailOn) -> bool:
 
 
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
-    """Return whether the check fails by it: a baseline does not hold it unchanged."""
-    return fails(finding, fail_on) and finding.baseline_state != "unchanged"
+    """Return whether the check fails by it: a baseline does not hold it."""
+    return fails(finding, fail_on) and finding.baseline_state not in HELD
 
 
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
@@ -82,7 +83,7 @@ def summarise(
         verdict = "fail"  # even if other pairs are undecided
     elif (
         unlisted_open
-        or undecided.total() > undecided[None]
+        or any(f.undecided is not None and f.baseline_state not in HELD for f in findings)
         or not (counts.asked or alone)  # a check without pairs never passes
         or any(answer.answer == "open" for answer in answers)
         or any(issue.state == "blocking" for issue in issues)
@@ -96,7 +97,7 @@ def summarise(
         limits_undecided=undecided["limit"],
         sweeps_undecided=undecided["motion"],
         disputed=undecided["cross-check"],
-        accepted=sum(finding.baseline_state == "unchanged" for finding in findings),
+        accepted=sum(finding.baseline_state in HELD for finding in findings),
     )
 
 

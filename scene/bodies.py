@@ -80,7 +80,8 @@ class Body(Struct, frozen=True):
     surroundings, see `Scene.check_static`. pinned: `satcheck resolve` does not move it. units: of
     the world coordinates; None: unknown. unit_scale: the factor of unit conversion in the
     transform; None: no conversion. surface_tolerance: how far its surface may be off, world units;
-    None: the scene does not say.
+    None: the scene does not say. open: its mesh is meant to be open: sheets, not a solid with
+    holes.
     as_given: in a check in a plane, the body whose outline this is.
     """
 
@@ -96,6 +97,7 @@ class Body(Struct, frozen=True):
     units: str | None = None
     unit_scale: float | None = None
     surface_tolerance: float | None = None
+    open: bool = False
     as_given: Body | None = None
 
     def world_mesh(self) -> Mesh:
