@@ -2,7 +2,8 @@
 
 An unchanged finding does not fail a check. A finding is worse if its relation is graver than the
 known one, or if a figure is proven to be worse. A length has to be worse by more than the precision
-of the input (the default touch band of the pair). It is unchanged if no figure can be worse.
+of the input (the default touch band of the pair). It is unchanged if no figure can be worse. An
+overlap without figures may be worse: it is undecided, unless somebody accepted it without figures.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import msgspec
 from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
+from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import (
     SCHEMA,
@@ -25,11 +27,13 @@ from satcheck.report.baseline import (
     Figure,
     KnownFinding,
     KnownRelation,
+    KnownUndecided,
     StatedBaseline,
+    UndecidedBy,
 )
 from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
-from satcheck.report.values import Interval
+from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
 from satcheck.scene.opening import Signature, followed, note, read_whole, signature
 
@@ -47,6 +51,7 @@ _GRAVITY: dict[KnownRelation, int] = {
 }
 _FIGURES: tuple[Figure, ...] = get_args(Figure)
 _OF_OVERLAPS: tuple[Figure, ...] = ("depth", "thickness", "volume")
+_DEPTHS = frozenset((*_OF_OVERLAPS, "motion_depth"))
 # Figures for which a smaller value is worse.
 _GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 
@@ -60,7 +65,11 @@ def beside_baseline(
     where it knows a pair under several of these names, the first one counts.
     """
     known = {each.key: each for each in baseline.findings}
-    findings = tuple(_with_state(finding, report, known, assets) for finding in report.findings)
+    open_for = {each.key: each.reason_code for each in baseline.undecided}
+    findings = tuple(
+        _with_state(_if_accepted(finding, open_for, assets), report, known, assets)
+        for finding in report.findings
+    )
     absent = (known for asset in assets for known in absent_from(report, baseline, asset))
     stated = StatedBaseline(file, tuple(absent))
     summary, fail_on = report.summary, report.settings.fail_on
@@ -77,8 +86,32 @@ def beside_baseline(
     return with_messages(replace(report, findings=findings, baseline=stated, summary=judged))
 
 
-def known_findings(report: Report, asset: str = "", reason: str = "") -> list[KnownFinding]:
-    """The failing findings of a report, as a baseline holds them."""
+def _if_accepted(
+    finding: Finding,
+    open_for: Mapping[tuple[str, frozenset[str]], UndecidedBy],
+    assets: Sequence[str],
+) -> Finding:
+    """Return the finding, accepted if it is undecided for the reason that the baseline knows."""
+    pair, code = frozenset((finding.a, finding.b)), finding.reason_code
+    if code is None or code not in [open_for.get((asset, pair)) for asset in assets]:
+        return finding
+    return replace(finding, baseline_state="accepted")
+
+
+def known_undecided(report: Report, asset: str = "", reason: str = "") -> list[KnownUndecided]:
+    """Return the undecided pairs that a baseline can accept."""
+    return [
+        KnownUndecided(asset=asset, a=each.a, b=each.b, reason_code=each.reason_code, reason=reason)
+        for each in report.findings
+        if each.reason_code is not None
+    ]
+
+
+def known_findings(
+    report: Report, asset: str = "", reason: str = "", *, unmeasured: bool = False
+) -> list[KnownFinding]:
+    """The failing findings of a report, as a baseline holds them. unmeasured: overlaps without
+    figures are accepted, however deep they get."""
     return [
         KnownFinding(
             asset=asset,
@@ -87,6 +120,7 @@ def known_findings(report: Report, asset: str = "", reason: str = "") -> list[Kn
             severity=finding.severity,
             relation=finding.relation,
             units=report.units,
+            unmeasured=unmeasured and _lacks_figures(finding.relation, _bounds(finding)),
             reason=reason,
             **{name: bounds[name not in _GAPS] for name, bounds in _bounds(finding).items()},
         )
@@ -96,6 +130,23 @@ def known_findings(report: Report, asset: str = "", reason: str = "") -> list[Kn
         and finding.severity != "silenced"
         and finding.severity != "none"
     ]
+
+
+def of_unknown_depth(before: Baseline, after: Baseline) -> list[KnownFinding]:
+    """Return the overlaps without figures that nobody has accepted as such, and that a baseline has
+    only after a change."""
+    known = {each.key for each in before.findings}
+    return [
+        each
+        for each in after.findings
+        if not each.unmeasured
+        and each.key not in known
+        and _lacks_figures(each.relation, [f for f in _FIGURES if each.figure(f) is not None])
+    ]
+
+
+def _lacks_figures(relation: Relation, figures: Iterable[Figure]) -> bool:
+    return relation in OVERLAPS and _DEPTHS.isdisjoint(figures)
 
 
 def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[KnownFinding]:
@@ -129,13 +180,29 @@ def _would_fail(known: KnownFinding, report: Report) -> bool:
     return any(clearance is not None and clearance > gap for clearance in clearances)
 
 
-def updated(baseline: Baseline, findings: Iterable[KnownFinding]) -> Baseline:
+def measuring(settings: Settings) -> Settings:
+    """Return the settings of a check beside a baseline: it compares the figures of all overlaps, as
+    far as their own budgets go. The figures of a pair then depend on no other pair."""
+    return replace(settings, depth=True) if settings.depth is None else settings
+
+
+def updated(
+    baseline: Baseline,
+    findings: Iterable[KnownFinding],
+    undecided: Iterable[KnownUndecided] = (),
+) -> Baseline:
     """The baseline with these findings added, sorted by name. A finding that is already known keeps
     its reason and the worse of both figures; figures in other units are replaced."""
     known = {each.key: each for each in baseline.findings}
     for each in findings:
         known[each.key] = _merged(known.get(each.key), each)
-    return _sorted(known.values())
+    accepted = {each.key: each for each in baseline.undecided}
+    accepted |= {
+        each.key: each
+        for each in undecided
+        if each.key not in accepted or accepted[each.key].reason_code != each.reason_code
+    }
+    return _sorted(known.values(), accepted.values())
 
 
 def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
@@ -149,17 +216,29 @@ def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
         figures[name] = (min if name in _GAPS else max)(known, default=None)
     graver = max(old, new, key=lambda each: _GRAVITY[each.relation])
     severity = min(old.severity, new.severity, key=SEVERITIES.index)
-    reason = old.reason or new.reason
-    return replace(old, relation=graver.relation, severity=severity, reason=reason, **figures)
+    return replace(
+        old,
+        relation=graver.relation,
+        severity=severity,
+        unmeasured=(old.unmeasured or new.unmeasured) and not any(map(figures.get, _DEPTHS)),
+        reason=old.reason or new.reason,
+        **figures,
+    )
 
 
 def pruned(baseline: Baseline, absent: Sequence[KnownFinding]) -> Baseline:
     gone = {each.key for each in absent}
-    return _sorted(each for each in baseline.findings if each.key not in gone)
+    kept = (each for each in baseline.findings if each.key not in gone)
+    return _sorted(kept, baseline.undecided)
 
 
-def _sorted(findings: Iterable[KnownFinding]) -> Baseline:
-    return Baseline(findings=tuple(sorted(findings, key=lambda f: (f.asset, f.a, f.b))))
+def _sorted(findings: Iterable[KnownFinding], undecided: Iterable[KnownUndecided]) -> Baseline:
+    def place(each: KnownFinding | KnownUndecided) -> tuple[str, str, str]:
+        return each.asset, each.a, each.b
+
+    return Baseline(
+        findings=tuple(sorted(findings, key=place)), undecided=tuple(sorted(undecided, key=place))
+    )
 
 
 def _with_state(
@@ -181,13 +260,15 @@ def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineSta
         return "undecided"
     if _GRAVITY[now.relation] > _GRAVITY[before.relation]:
         return "worse"
+    if before.unmeasured:
+        return "accepted"
     if now.undecided is not None or before.units != report.units:
         return "undecided"
     bounds, band = _bounds(now), _band(now, report)
-    kept = [
-        _is_no_worse(name, before.figure(name), bounds.get(name), band)
-        for name in _figures_to_compare(before, now)
-    ]
+    figures = _figures_to_compare(before, now)
+    if _lacks_figures(now.relation, figures):
+        return "undecided"
+    kept = [_is_no_worse(name, before.figure(name), bounds.get(name), band) for name in figures]
     return "worse" if False in kept else "undecided" if None in kept else "unchanged"
 
 

@@ -154,12 +154,12 @@ class BodyCache:
         if earlier is not None and earlier.body is body:
             return earlier
         meshes: dict[Any, SharedMesh] = self.meshes
-        key: tuple[object, ...] = mesh_key(body.file)
+        key: tuple[object, ...] = mesh_key(body.file, is_open=body.open)
         if body.file.prepared is not None:  # of one mesh, whatever the body is called
             meshes, key = body.file.prepared, (*key[2:], *SharedMesh.terms(settings))
         if key not in meshes:
             in_file = bounds if body.transform is None else None
-            meshes[key] = SharedMesh(body.file, settings, in_file)
+            meshes[key] = SharedMesh(body.file, settings, in_file, is_open=body.open)
         placed = PlacedBody(body, meshes[key], bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
             far, most = told_apart(largest, LARGEST_PLACED)

@@ -45,7 +45,8 @@ def around_both(a: Box, b: Box) -> Box:
 
 
 def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
-    return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
+    low, high = box
+    return math.hypot(*[high[axis] - low[axis] for axis in axes])
 
 
 def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
@@ -68,7 +69,7 @@ def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
 
 
 T = TypeVar("T")
-MeshKey = tuple[str, str | int, str | None]
+MeshKey = tuple[str, str | int, str | None, bool]
 
 # Held while a body gets its (still empty) geometry.
 _MAKING = allocate_lock()
@@ -91,10 +92,10 @@ class Once(Generic[T]):
             return self.known
 
 
-def mesh_key(file: MeshFile) -> MeshKey:
+def mesh_key(file: MeshFile, *, is_open: bool) -> MeshKey:
     """The same key for the same mesh, while the mesh exists. The SHA-256 is not enough, because
     equal files may refer to different neighbour files."""
-    return file.path, file.sha256 or id(file.mesh), file.part
+    return file.path, file.sha256 or id(file.mesh), file.part, is_open
 
 
 class Work(Struct, frozen=True):
@@ -129,19 +130,27 @@ class SharedMesh:
         "triangles",
     )
 
-    def __init__(self, file: MeshFile, settings: Settings, bounds: Box | None = None) -> None:
-        """bounds: of the mesh, where known."""
+    def __init__(
+        self,
+        file: MeshFile,
+        settings: Settings,
+        bounds: Box | None = None,
+        *,
+        is_open: bool = False,
+    ) -> None:
+        """bounds: of the mesh, where known. is_open: it is meant to be open."""
         self.file = file
+        is_open = is_open or settings.allow_open
         self.triangles = file.mesh.triangle_count
         self.surface_tolerance = settings.surface_tolerance
         self.largest = largest_coordinate(bounds or file.mesh.bounds)
         self.geometry = core.Geometry(
-            file.mesh, file.health.solid, file.topology.plain_solid, settings.allow_open
+            file.mesh, file.health.solid, file.topology.plain_solid, is_open
         )
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.has_sheets = Once(lambda: core.has_sheets(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
-        self.shape = Once(lambda: self._shape(settings.allow_open))
+        self.shape = Once(lambda: self._shape(is_open))
         self._decompositions = 0
 
     @staticmethod

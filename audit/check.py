@@ -9,15 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs, with_certificate
+from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
+from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
+from satcheck.audit.figures import with_figures
 from satcheck.audit.finding import examine_boxes
 from satcheck.audit.messages import with_messages
 from satcheck.audit.pair import Pair
-from satcheck.audit.planner import Planner, close_pairs
+from satcheck.audit.planner import Planner
 from satcheck.audit.settings import LISTED_PAIRS, LISTED_UNDECIDABLE, Settings, require_settings
 from satcheck.audit.summary import (
     body_reports,
@@ -48,6 +51,7 @@ if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
+    from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
 
@@ -88,14 +92,18 @@ def check(
         errors = [each for each in scene.issues if each.severity == "error"]
         why = f"; {errors[0].message}" if errors else ""
         raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
+    if scene.joint_path is not None:  # many poses: figures on request only
+        settings = replace(settings, depth=settings.depth or False)
     bodies = place(scene, settings, cache)
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
-    close = close_pairs(bodies, planner) if movers is None else movers.close(bodies, planner)
-    examined = _examined(bodies, close, planner, movers, progress, keep=cache is not None)
-    close, unexamined = close[: len(examined)], len(close) - len(examined)
-    findings = _findings(bodies, close, examined, planner)
+    close = ClosePairs(bodies, planner) if movers is None else movers.close(bodies, planner)
+    pairs, examined, unexamined = _examined(
+        bodies, close, planner, movers, progress, keep=cache is not None
+    )
+    examined = with_figures(examined, settings, keep=cache is not None)
+    findings = _findings(bodies, pairs, examined, planner)
     counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)
     pose = scene.posture.pose() if scene.posture else None
     allowed = all_allowed(counts, bodies.book.rules, pose)
@@ -133,7 +141,7 @@ def check(
         rules=bodies.book.rules,
         effects=effects_of(
             planner,
-            ((planner.request(*k), pair.finding) for k, pair in zip(close, examined, strict=True)),
+            ((planner.request(*k), pair.finding) for k, pair in zip(pairs, examined, strict=True)),
             counts,
             units_unknown=bodies.several_units_count,
         ),
@@ -212,39 +220,42 @@ def _regions(
 
 def _examined(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: ClosePairs,
     planner: Planner,
     movers: Movers | JointMovers | None,
     progress: Progress | None,
     *,
     keep: bool,
-) -> list[CheckedPair]:
-    """Return what is found of the close pairs, in their order, up to the block in which
-    ENOUGH_FAILURES are reached. keep: later checks need the data of the bodies."""
+) -> tuple[list[IndexPair], list[CheckedPair], int]:
+    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
+    each, and the number of close pairs after them. keep: later checks need the data of the
+    bodies."""
+    pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = 0
-    for start in range(0, len(close), BLOCK):
-        block = close[start : start + BLOCK]
-        after = close[start + BLOCK : start + BLOCK + 1]
+    blocks = close.blocks(BLOCK)
+    block, after = next(blocks, []), next(blocks, [])
+    total = close.count() if after else len(block)
+    while block and failures < ENOUGH_FAILURES:
 
-        def told(done: int, _: int, before: int = start) -> None:
+        def told(done: int, _: int, before: int = len(pairs)) -> None:
             if progress is not None:
-                progress(before + done, len(close))
+                progress(before + done, total)
 
         found = _examined_together(bodies, block, planner, movers, told, keep=keep or bool(after))
+        pairs += block
         examined += found
         failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
-        if failures >= ENOUGH_FAILURES:
-            break
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()
-    return examined
+        block, after = after, next(blocks, [])
+    return pairs, examined, total - len(examined)
 
 
 def _examined_together(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: list[IndexPair],
     planner: Planner,
     movers: Movers | JointMovers | None,
     progress: Progress,
@@ -265,7 +276,7 @@ def _examined_together(
                 request,
                 meter,
                 peers,
-                None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
+                None if movers is None else movers.moves(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not keep,
             )
             for (i, j), request in zip(close, requests, strict=True)
@@ -287,7 +298,7 @@ def _peers(settings: Settings) -> Peers:
 
 def _findings(
     bodies: PlacedBodies,
-    close: list[tuple[int, int]],
+    close: list[IndexPair],
     examined: list[CheckedPair],
     planner: Planner,
 ) -> list[Finding]:
@@ -301,12 +312,19 @@ def _findings(
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE
     for i, j, reason in islice(bodies.undecidable_pairs(), most):
-        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason)
+        usable = i in bodies.placed and j in bodies.placed
+        code: UndecidedBy | None = None
+        if usable and not bodies.is_comparable(i, j):
+            code = "units-unknown"
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, reason_code=code)
     if listed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:
                 request = planner.request(i, j)
                 draft = Draft(Pair(bodies.placed[i], bodies.placed[j], settings, request))
-                apart = examine_boxes(draft)
-                findings[i, j] = with_certificate(apart, draft) if settings.certificate else apart
+                findings[i, j] = examine_boxes(draft)
+                if settings.certificate:
+                    from satcheck.audit.stages.certificate import with_certificate
+
+                    findings[i, j] = with_certificate(findings[i, j], draft)
     return [findings[pair] for pair in sorted(findings)]

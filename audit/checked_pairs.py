@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
@@ -22,12 +21,12 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
 from satcheck.audit.stages.relation import leaves_work, start_climbs
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
-from satcheck.report.report import INTERNAL_ERROR, Finding, Issue
+from satcheck.report.report import INTERNAL_ERROR, OVERLAPS, Finding, Issue
+from satcheck.report.verdict import fails
 
 if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
     from satcheck.core import Climb
-    from satcheck.report.certificate import Certificate
 
 # Below this many pairs, starting threads costs more than they save.
 PARALLEL_PAIRS = 8
@@ -41,8 +40,11 @@ Progress = Callable[[int, int], None]
 
 
 class CheckedPair(Struct, frozen=True):
+    """draft: of a pair that fails and waits for its figures, and for what comes after them."""
+
     finding: Finding
     issues: tuple[Issue, ...] = ()
+    draft: Draft | None = None
 
 
 def examine_pairs(
@@ -147,42 +149,40 @@ def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int,
 def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
-    try:
-        finding = examine(draft, climb)
-        if pair.paths is not None:
-            from satcheck.audit.motion.swept_finding import with_sweep
 
-            finding = with_sweep(finding, draft, pair.paths)
-        if pair.request.wants("certificate"):
-            finding = with_certificate(finding, draft)
-        return CheckedPair(finding, tuple(draft.issues))
+    def examined() -> CheckedPair:
+        finding = examine(draft, climb)
+        fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
+        if pair.request.if_failing and fails_now:
+            return CheckedPair(finding, draft=draft)
+        return finished(finding, draft)
+
+    return guarded(examined, draft)
+
+
+def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
+    """Return what the step returns, or what its failure says of the pair of the draft."""
+    try:
+        return step()
     except Exception as error:
         not_for_lack_of_memory(error)
         import logging
 
         logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
         reason = f"internal error: {type(error).__name__}: {error}"
-        message = f"{pair.a.id} and {pair.b.id}: {reason}"
+        message = f"{draft.pair.a.id} and {draft.pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         return CheckedPair(draft.indeterminate(reason), (*draft.issues, issue))
 
 
-def with_certificate(finding: Finding, draft: Draft) -> Finding:
-    """Return the finding with its evidence, or with a stage that says why there is none."""
-    from satcheck.audit.certify import NoCertificate, certified
+def finished(finding: Finding, draft: Draft) -> CheckedPair:
+    """Return the finding at rest with what comes last: the sweep of the pair and its evidence."""
+    if draft.pair.moves is not None:
+        from satcheck.audit.motion.swept_finding import with_sweep
 
-    certificate: Certificate | NoCertificate = NoCertificate(
-        "a sweep of moving bodies leaves no evidence"
-    )
-    if finding.motion is None:
-        try:
-            certificate = certified(draft, finding)
-        except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-            not_for_lack_of_memory(error)
-            certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
-    if isinstance(certificate, NoCertificate):
-        draft.record("certificate", "none", certificate.reason)
-        return replace(finding, plan=tuple(draft.stages))
-    kind = certificate.relation.__struct_config__.tag
-    draft.record("certificate", str(kind), "accepted by the checker")
-    return replace(finding, certificate=certificate, plan=tuple(draft.stages))
+        finding = with_sweep(finding, draft, draft.pair.moves)
+    if draft.pair.request.wants("certificate"):
+        from satcheck.audit.stages.certificate import with_certificate
+
+        finding = with_certificate(finding, draft)
+    return CheckedPair(finding, tuple(draft.issues))

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from satcheck import core
     from satcheck.core.curved.signed import Signed
+    from satcheck.report.baseline import UndecidedBy
     from satcheck.report.components import Components
     from satcheck.report.contacts import Contacts
 
@@ -125,7 +126,9 @@ class Draft(Struct, eq=False):
     shown. reason: why an answer is missing or weaker than a proof. gap: of bodies without a common
     interior. band: of an overlap. ahead: waits for the search for the thickness that runs beside
     that for the depth, and returns its nanoseconds, too. The figures are None if they were not
-    requested. disputed: the answer of another library that contradicts the relation.
+    requested. disputed: the answer of another library that contradicts the relation. work: steps of
+    the searches for the depth and the thickness. reason_code: why the relation is open, where the
+    input is the cause.
     """
 
     pair: Pair
@@ -155,6 +158,8 @@ class Draft(Struct, eq=False):
     contacts: Contacts | None = None
     components: Components | None = None
     disputed: str | None = None
+    work: int = 0
+    reason_code: UndecidedBy | None = None
 
     def record(self, stage: str, result: str, detail: str = "", earlier: int = 0) -> None:
         """Add a stage that has ended now. earlier: nanoseconds that it ran before the last one."""
@@ -228,10 +233,17 @@ class Draft(Struct, eq=False):
 
     def indeterminate(self, reason: str) -> Finding:
         """Return the finding of a pair whose relation is not decided."""
-        return indeterminate(self.pair.a.id, self.pair.b.id, reason, self.stages)
+        a, b = self.pair.a.id, self.pair.b.id
+        return indeterminate(a, b, reason, self.stages, self.reason_code)
 
 
-def indeterminate(a: str, b: str, reason: str, stages: list[Stage] | None = None) -> Finding:
+def indeterminate(
+    a: str,
+    b: str,
+    reason: str,
+    stages: list[Stage] | None = None,
+    reason_code: UndecidedBy | None = None,
+) -> Finding:
     """Return the finding of two bodies whose relation is not decided."""
     return Finding(
         id=finding_id(a, b),
@@ -241,5 +253,6 @@ def indeterminate(a: str, b: str, reason: str, stages: list[Stage] | None = None
         undecided="relation",
         relation="indeterminate",
         reason=reason,
+        reason_code=reason_code,
         plan=tuple(stages or ()),
     )

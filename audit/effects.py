@@ -6,8 +6,9 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from satcheck.audit.planner import Planner
+from satcheck.audit.planner import FOR_FAILURES, Planner
 from satcheck.report.report import (
+    BEYOND_BUDGET,
     EFFECTS,
     OVERLAPS,
     Effect,
@@ -17,6 +18,8 @@ from satcheck.report.report import (
     Relation,
 )
 from satcheck.report.request import Request
+from satcheck.report.settings import FailOn
+from satcheck.report.verdict import fails
 
 # Stages that are part of an effect of another name. All that no effect is named after decide the
 # overlap.
@@ -36,11 +39,12 @@ NO_ANSWER = "no answer"
 class _Kind(NamedTuple):
     """What counts here of a finding. Most findings have many equals.
 
-    done: the effects whose stages ran. unanswered: those of them without a result, for example
-    because they were refused.
+    called_for: effects that nobody requests, and a failing pair calls for. done: the effects whose
+    stages ran. unanswered: those of them without a result, for example because they were refused.
     """
 
     by: frozenset[str]
+    called_for: frozenset[str]
     at_rest: Relation
     exact: Relation | None
     done: frozenset[str]
@@ -58,11 +62,14 @@ def effects_of(
     there is no sweep. units_unknown: the number of pairs without a common unit."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     time: dict[str, float] = dict.fromkeys(EFFECTS, 0.0)
-    kinds = Counter(_kind_of(request, finding, time) for request, finding in close)
+    fail_on = planner.settings.fail_on
+    kinds = Counter(_kind_of(request, finding, fail_on, time) for request, finding in close)
     unreadable = counts.asked - counts.pruned - kinds.total() - units_unknown
     reports = []
     for effect in effects:
         by, ran = planner.requested_by(effect), 0
+        if any(effect in kind.called_for for kind in kinds):
+            by += (FOR_FAILURES,)
         spared = Counter({ALLOWED: counts.allowed})
         before = (PRUNED, counts.pruned), (UNREADABLE, unreadable), (UNITS_UNKNOWN, units_unknown)
         for reason, count in before:
@@ -77,9 +84,13 @@ def effects_of(
     return tuple(reports)
 
 
-def _kind_of(request: Request, finding: Finding, time: dict[str, float]) -> _Kind:
+def _kind_of(request: Request, finding: Finding, fail_on: FailOn, time: dict[str, float]) -> _Kind:
     """Adds the time of each stage to that of its effect."""
     by: frozenset[str] = frozenset(request.by)
+    called_for: frozenset[str] = frozenset()
+    if request.if_failing and finding.at_rest in OVERLAPS and fails(finding, fail_on):
+        called_for = frozenset(request.if_failing)
+        by |= called_for
     if finding.motion is not None:
         by |= {"sweep"}
     done: set[str] = {"overlap"}
@@ -98,7 +109,8 @@ def _kind_of(request: Request, finding: Finding, time: dict[str, float]) -> _Kin
         "certificate": finding.certificate,
     }
     unanswered = frozenset(e for e, answer in answers.items() if e in done and answer is None)
-    return _Kind(by, finding.at_rest, finding.exact_relation, frozenset(done), unanswered)
+    exact = finding.exact_relation
+    return _Kind(by, called_for, finding.at_rest, exact, frozenset(done), unanswered)
 
 
 def _why_not(effect: Effect, kind: _Kind) -> str | None:
@@ -113,4 +125,6 @@ def _why_not(effect: Effect, kind: _Kind) -> str | None:
         return FAILED
     if effect == "distance":
         return OVERLAP if (kind.exact or kind.at_rest) in OVERLAPS else FAR
+    if effect in ("depth", "thickness") and kind.at_rest in OVERLAPS:
+        return NO_ANSWER if "depth" in kind.done else BEYOND_BUDGET
     return NO_OVERLAP

@@ -7,6 +7,7 @@ An overlap has no gap, so it keeps no clearance. What decides `touching` is `rep
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -68,6 +69,19 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     return _judged(draft) if undecided is None else draft.indeterminate(undecided)
 
 
+def measure(draft: Draft) -> Finding:
+    """Return the finding of a drafted overlap with the depth and the thickness that its request
+    asks for by now."""
+    draft.since = perf_counter_ns()
+    wants = draft.pair.request.wants
+    undecided = _find_overlap(draft) if wants("depth") and draft.depth is None else None
+    if undecided is not None:
+        return draft.indeterminate(undecided)
+    if wants("thickness") and draft.thickness is None:
+        measure_thickness(draft)
+    return _judged(draft)
+
+
 def examine_boxes(draft: Draft) -> Finding:
     """Return the finding of a pair that the broad phase settled."""
     if not apart_by_boxes(draft):
@@ -94,6 +108,7 @@ def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
     whether they overlap."""
     draft = Draft(pair)
     draft.record("sort", "indeterminate", "the fill of a hole decides")
+    draft.reason_code = "open-hole"
     return draft.indeterminate(open_hole(pair, hole))
 
 
@@ -114,7 +129,7 @@ def _find_overlap(draft: Draft) -> str | None:
     """Find what is known of an overlap. Returns why it is unknown whether the overlap is within the
     tolerance; None: it is known."""
     pair = draft.pair
-    band, depth = touch_band(draft), None
+    band, depth = draft.band or touch_band(draft), None
     guess = band.side == "within" and not draft.exact_proven
     if pair.request.wants("depth") and not guess:
         depth = measure_depth(draft, band.move)
@@ -218,6 +233,7 @@ def _judged(draft: Draft) -> Finding:
         severity=judgement.severity,
         rule=judgement.rule,
         undecided=judgement.undecided,
+        reason_code=draft.reason_code if judgement.undecided == "relation" else None,
         reason=finding.reason or judgement.reason,
     )
 
@@ -229,7 +245,7 @@ def _of_estimate(
     overlap does not fail, unless --accuracy or --allow-open accepts estimates. overlaps: an overlap
     is proven, even if the relation is not."""
     settings = pair.settings
-    if settings.accuracy != "exact" or settings.allow_open:
+    if settings.accuracy != "exact" or pair.open_on_purpose:
         return judgement
     if finding.relation in OVERLAPS and overlaps:
         is_proven = finding.mtv_verified or not judgement.passes

@@ -29,7 +29,8 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
-from satcheck.report.report import INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
+from satcheck.report.baseline import HELD
+from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.units import unit_of
 
@@ -65,11 +66,12 @@ def nothing_checked(issues: Iterable[Issue]) -> list[str]:
 
 
 def verdict_line(report: Report) -> str:
-    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, depth 1 mm).`"""
+    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, 1 mm to pull apart).`"""
     errors, left_open = _errors(report), _left_open(report)
     unchecked = nothing_checked(report.issues)
     if report.summary.verdict == "fail":
-        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, [*left_open, *errors])])
+        more = [*left_open, *_unmeasured(report), *errors]
+        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, more)])
     if report.summary.verdict == "pass" and not errors:
         return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
     word = "ERROR" if errors else "INCOMPLETE"
@@ -93,8 +95,15 @@ def _passed(report: Report) -> str:
     if report.regions:
         lying = sum(answer.answer == "yes" for answer in report.regions.findings)
         said += f", {counted(lying, 'body', 'bodies')} inside the region"
-    if accepted := sum(issue.state == "accepted" for issue in report.issues):
-        said += f", {counted(accepted, 'issue')} accepted"
+    accepted = [finding for finding in report.findings if finding.baseline_state == "accepted"]
+    if unmeasured := sum(finding.undecided is None for finding in accepted):
+        said += f", {unmeasured:,} accepted without figures"
+    if undecided := [f"{each.a} and {each.b}" for each in accepted if each.undecided]:
+        more = f" and {len(undecided) - NAMED:,} more" if len(undecided) > NAMED else ""
+        named = ", ".join(undecided[:NAMED])
+        said += f", {len(undecided):,} accepted undecided ({named}{more})"
+    if issues := sum(issue.state == "accepted" for issue in report.issues):
+        said += f", {counted(issues, 'issue')} accepted"
     return said + (f", {counted(warnings, 'warning')}" if warnings else "")
 
 
@@ -130,6 +139,20 @@ def _failed(report: Report) -> str:
     return "; ".join(said)
 
 
+def _unmeasured(report: Report) -> list[str]:
+    """Return `figures of the 12 worst of 40 failing pairs; --depth measures all`, if the budget of
+    the scene left out the others."""
+    spared = (effect.not_run for effect in report.effects if effect.effect == "depth")
+    if not any(BEYOND_BUDGET in reasons for reasons in spared):
+        return []
+    overlaps = [finding for finding in failing(report) if finding.at_rest in OVERLAPS]
+    measured = sum(finding.depth is not None for finding in overlaps)
+    if not measured:
+        return []
+    said = f"figures of the {measured:,} worst of {len(overlaps):,} failing pairs"
+    return [f"{said}; --depth measures all"]
+
+
 def _unmet(report: Report) -> list[str]:
     """Return a message about each of the first failing bodies."""
     said: dict[str, str] = {}
@@ -150,8 +173,8 @@ def answer_message(answer: BodyAnswer) -> str:
 
 
 def finding_message(finding: Finding, report: Report) -> str:
-    """Return `box and lid overlap (thickness 0.5 mm, depth 1 mm); moving box by (-1, 0, 0) ends the
-    overlap.`"""
+    """Return `box and lid overlap (thickness 0.5 mm, 1 mm to pull apart); moving box by (-1, 0, 0)
+    ends the overlap.`"""
     text, swept = _clause(finding, report), finding.motion
     if swept and not _hits_only(finding) and swept.relation not in ("separated", finding.at_rest):
         text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
@@ -159,14 +182,17 @@ def finding_message(finding: Finding, report: Report) -> str:
         way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
         text += f"; moving {finding.a} by {way} ends the overlap"
     if finding.baseline_state is not None:
-        text += f" [baseline: {finding.baseline_state}]"
+        unproven = ""
+        if finding.baseline_state == "accepted":
+            unproven = " undecided" if finding.undecided else " without figures"
+        text += f" [baseline: {finding.baseline_state}{unproven}]"
     if finding.reason is not None:
         text += f" ({finding.reason})"
     return f"{text}."
 
 
 def measured(finding: Finding, unit: str | None) -> str:
-    """Return `penetrating, thickness 0.5 mm, depth 1 mm`, for what names the bodies itself."""
+    """Return `penetrating, thickness 0.5 mm, 1 mm to pull apart`, for what names the bodies."""
     parts = [finding.relation, *_figures(finding, unit)]
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")
@@ -215,10 +241,10 @@ def _overlap(finding: Finding, report: Report) -> str:
 
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:
-    known = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    known = {"thickness {}": finding.thickness_bounds, "{} to pull apart": finding.depth_bounds}
     said = [
-        f"{name} {with_unit(interval(proven, bounded='at most '), unit)}"
-        for name, proven in known.items()
+        words.format(with_unit(interval(proven, bounded="at most "), unit))
+        for words, proven in known.items()
         if proven is not None
     ]
     if finding.volume is not None:
@@ -245,7 +271,9 @@ def _apart(finding: Finding, unit: str | None) -> str:
 def _left_open(report: Report) -> list[str]:
     """`1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
-    undecided = sum(f.undecided == "relation" for f in report.findings)
+    undecided = sum(
+        f.undecided == "relation" and f.baseline_state not in HELD for f in report.findings
+    )
     undecided += unlisted_indeterminate(summary.pairs, report.findings)
     if undecided:
         said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))

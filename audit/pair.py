@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
     from satcheck.report.sweep import Sweep
-    from satcheck.scene.motion import Path
 
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
@@ -29,14 +28,12 @@ TOUCH_FRACTION = 1e-3
 _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 
-class Paths(Struct, frozen=True):
-    """The motions of the two bodies; None: at rest. At least one moves. clear: they may not touch
-    on the way, unless they touch as placed. known: the result, where joints move the bodies."""
+class Moves(Struct, frozen=True):
+    """Two bodies that move relative to each other. sweep: gives the result of their motion, from
+    the pair as placed. clear: they may not touch on the way, unless they touch as placed."""
 
-    a: Path | None = None
-    b: Path | None = None
+    sweep: Callable[[Pair], Sweep]
     clear: bool = False
-    known: Sweep | None = None
 
 
 class Pair(Struct, eq=False):
@@ -48,7 +45,7 @@ class Pair(Struct, eq=False):
     deviation of polygons from the curves that they replace. off: how far the surfaces of A and B
     may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
     with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
-    within them; else 0.0. paths: the relative motion of the bodies; None: they do not move.
+    within them; else 0.0. moves: the relative motion of the bodies; None: they do not move.
     alone: no other pair needs these bodies.
     """
 
@@ -58,7 +55,7 @@ class Pair(Struct, eq=False):
     request: Request
     meter: VolumeMeter | None = None
     peers: Peers | None = None
-    paths: Paths | None = None
+    moves: Moves | None = None
     alone: bool = False
     tolerance: float = 0.0  # __post_init__ sets these four
     gap_limit: float = 0.0
@@ -113,6 +110,16 @@ class Pair(Struct, eq=False):
     def on_half_space(self) -> bool:
         """A body is a half space. In a check in a plane it is the prism over its outline."""
         return self.a.endless or self.b.endless
+
+    @property
+    def open_on_purpose(self) -> bool:
+        """Return whether every open mesh of the pair is meant to be open."""
+        if self.settings.allow_open:
+            return True
+        bodies = self.a.body, self.b.body
+        return any(body.open for body in bodies) and all(
+            body.open or body.file.health.solid for body in bodies
+        )
 
     @property
     def triangles(self) -> int:

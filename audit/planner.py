@@ -1,20 +1,15 @@
 """The planner makes the `Request` of each pair from the flags of a check and the rules of its
-scene, and keeps the pairs that are close enough to matter.
-
-It alone decides which stages run.
-"""
+scene. It alone decides which stages run."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from satcheck import core
-from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.settings import Settings
-from satcheck.core.conventions import LARGEST_LENGTH, Bounds
+from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Effect, RuleReport
 from satcheck.report.request import Request, request_of
@@ -31,13 +26,14 @@ KEY_OF_EFFECT: dict[Effect, str] = {
 ALWAYS = "always"
 MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
+FOR_FAILURES = "by default, for pairs that fail"
 
 
 class Planner:
     """Makes the requests for all pairs of a scene.
 
-    composed: a scene file places the bodies. Depth is then not computed by default: a scene has
-    many pairs, and its rules can request the depth of some. moving: some bodies move.
+    composed: a scene file places the bodies. By default, figures are then computed for the pairs
+    that fail (`figures.py`). moving: some bodies move.
     """
 
     def __init__(
@@ -112,7 +108,7 @@ def request_for(
 ) -> Request:
     """Return the request that follows from flags and rules, with who requests each effect."""
     across = None if settings.planar is None else settings.across
-    request = request_of(terms or {}, settings.clearance, settings.tolerance, across)
+    request = request_of(terms or {}, settings, across)
 
     def figure(setting: bool | None, limit: str) -> str | None:
         """Return who requests the depth or the thickness. limit: the key of rules for it."""
@@ -137,7 +133,18 @@ def request_for(
         "cross-check": "--cross-check" if settings.cross_check else None,
         "certificate": "--certificate" if settings.certificate else None,
     }
-    return replace(request, by={effect: who for effect, who in by.items() if who})
+    # A coarser accuracy is chosen for speed.
+    by_failing = composed and settings.depth is None and settings.accuracy == "exact"
+    wanted: dict[Effect, bool | None] = {"depth": None, "thickness": settings.thickness}
+    return replace(
+        request,
+        by={effect: who for effect, who in by.items() if who},
+        if_failing=tuple(
+            effect
+            for effect, setting in wanted.items()
+            if by_failing and setting is None and not by[effect]
+        ),
+    )
 
 
 def _requests_effect(rule: RuleReport, key: str) -> bool:
@@ -145,51 +152,3 @@ def _requests_effect(rule: RuleReport, key: str) -> bool:
     of 0 does."""
     value = getattr(rule, key)
     return bool(value) if key == "clearance" else value is not None
-
-
-IndexPair = tuple[int, int]
-
-
-def close_pairs(
-    bodies: PlacedBodies, planner: Planner, swept: Callable[[str, Bounds], Bounds] | None = None
-) -> list[IndexPair]:
-    """Pairs of placed bodies to check, sorted, whose boxes are close enough to matter.
-
-    swept: the world box of a body over its whole motion, from its id and its box as placed.
-    """
-    index, book = tuple(bodies.placed), bodies.book
-    place = {body: k for k, body in enumerate(index)}
-    boxes = {k: body.bounds for k, body in bodies.placed.items()}
-    if swept is not None:
-        boxes = {k: swept(bodies.ids[k], box) for k, box in boxes.items()}
-    close = core.close_pairs(
-        list(boxes.values()),
-        planner.reach({k: body.resolution for k, body in bodies.placed.items()}),
-        [book.kind_of[i] for i in index],
-        book.exempt_kinds(),
-        [(place[i], place[j]) for i, j in book.exempt_named() if i in place and j in place],
-    )
-    pairs = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
-    if len(set(bodies.units.values())) > 1:
-        pairs = [pair for pair in pairs if bodies.is_comparable(*pair)]
-    if endless := {(i, j) for i, j, _ in bodies.endless_pairs()}:
-        pairs = [pair for pair in pairs if pair not in endless]
-    if not book.rules:
-        return pairs
-    requested = [pair for pair in pairs if book.is_checked(*pair)]
-    return (
-        _within_own_gaps(bodies, boxes, planner, requested) if planner.lengths_differ else requested
-    )
-
-
-def _within_own_gaps(
-    bodies: PlacedBodies, boxes: Mapping[int, Bounds], planner: Planner, pairs: list[IndexPair]
-) -> list[IndexPair]:
-    """Drops pairs beyond their own gap. The broad phase used the largest gap of each body."""
-    placed = bodies.placed
-    return [
-        (i, j)
-        for i, j in pairs
-        if core.box_gap(boxes[i], boxes[j])
-        <= planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
-    ]

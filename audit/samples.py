@@ -54,7 +54,7 @@ def check_poses(
     """
     if not poses:
         raise ValueError("no pose to check")
-    settings = replace(settings, list_pruned=False)
+    settings = replace(settings, list_pruned=False, depth=settings.depth or False)
     results = SampleResults(settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
     first = next(batches)  # all poses are judged before work is done

@@ -75,7 +75,12 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
                 raise _refused(f"{name} needs triangles: not at accuracy {self.accuracy}")
             if self.planar is not None:
                 raise _refused(f"{name} needs bodies in space: not with planar")
-        for name in ("clearance", "tolerance", "surface_tolerance"):
+        if self.clearance and (self.max_thickness, self.max_depth) != (None, None):
+            raise _refused(
+                "clearance contradicts max_thickness and max_depth: bodies that may overlap keep "
+                "no gap; give either to some pairs by rules"
+            )
+        for name in ("clearance", "tolerance", "surface_tolerance", "max_thickness", "max_depth"):
             value = getattr(self, name)
             if value is not None and not math.isfinite(value):
                 raise _refused(f"{name} must be a finite length, not {value!r}")

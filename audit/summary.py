@@ -103,6 +103,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
         unit_scale=body.body.unit_scale,
         groups=body.body.groups,
         static=body.body.static,
+        open=body.body.open,
         triangles=file.mesh.triangle_count,
         health=file.health,
         resolution=body.resolution,

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
+from satcheck.report.request import OPTIONS_OF_LIMITS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -186,13 +188,18 @@ def limits(finding: Finding, report: Report) -> list[str]:
     if finding.relation not in OVERLAPS:
         own = None if rule is None else rule.clearance
         asked = {"clearance": (report.settings.clearance if own is None else own, "")}
-    elif rule is None:
-        return []
-    else:
+    elif rule is not None:
         asked = {
-            "max_depth": (rule.max_depth, ""),
             "max_thickness": (rule.max_thickness, ""),
+            "max_depth": (rule.max_depth, ""),
             "max_volume": (rule.max_volume, "^3"),
+        }
+    else:
+        settings, deciding = report.settings, (finding.rule or "").split(", ")
+        asked = {
+            key: (getattr(settings, key), "")
+            for key, option in OPTIONS_OF_LIMITS.items()
+            if option in deciding
         }
     return [
         f"{name} {with_unit(number(limit), unit and unit + power)}"
@@ -230,8 +237,8 @@ def _of(shown: Mapping[str, str], body: str | None) -> str | None:
 
 
 def severity(finding: Finding) -> Severity:
-    """A finding that a baseline holds, unchanged, is a note."""
-    return "note" if finding.baseline_state == "unchanged" else finding.severity
+    """A finding that a baseline holds is a note."""
+    return "note" if finding.baseline_state in HELD else finding.severity
 
 
 def is_listed(finding: Finding) -> bool:
@@ -250,9 +257,10 @@ def rank(finding: Finding) -> tuple[float, ...]:
 
 
 def _size(finding: Finding) -> tuple[int, float, float]:
-    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown."""
+    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown. One
+    without figures comes last: its boxes overlap by less than those that were measured."""
     if finding.at_rest in OVERLAPS:
-        deep = inf if finding.depth is None else finding.depth
+        deep = -inf if finding.depth is None else finding.depth
         thick = deep if finding.thickness is None else finding.thickness
         return (0, -thick, -deep)
     if is_hit(finding):

@@ -26,7 +26,7 @@ SECTIONS = {
     "allow_open package packages geometry read pose state "
     "joint_path sample seed root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",
-    "Tolerances and rules": "clearance tolerance surface_tolerance "
+    "Tolerances and rules": "max_thickness max_depth clearance tolerance surface_tolerance "
     "rules between baseline fail_on accept exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",

@@ -29,7 +29,7 @@ _LIMITS = frozenset(
 )
 # Options that decide what passes.
 _DECIDING = (
-    *("tolerance", "surface-tolerance", "clearance", "read"),
+    *("tolerance", "surface-tolerance", "clearance", "max-thickness", "max-depth", "read"),
     *("accuracy", "fail-on", "allow-open", "accept", "rules", "between", "baseline", "never"),
     *("units", "geometry", "planar", "pose", "state", "exclude"),
 )

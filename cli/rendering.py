@@ -101,8 +101,8 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
 
 def in_one_line_each(report: Report) -> Report:
     """The report with texts that a terminal can show."""
-    names = ((body.id, body.name, body.file, body.path or "") for body in report.bodies)
-    if all(name.isprintable() for each in names for name in each):
+    names = (f"{body.id}{body.name}{body.file}{body.path or ''}" for body in report.bodies)
+    if all(map(str.isprintable, names)):
         return report
     from msgspec import convert, to_builtins
 

@@ -15,9 +15,12 @@ from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from msgspec import Struct
+
+if TYPE_CHECKING:
+    from importlib.metadata import Distribution
 
 _PACKAGE = "satcheck.plugins"
 Group = Literal["readers", "formats", "commands"]
@@ -60,18 +63,26 @@ def versions() -> tuple[str, ...]:
     """Return what answers depend on beside satcheck: the installed packages that it names, with
     their versions, and those that register plug-ins. Of these the modules count too, by size and
     time: who writes a plug-in changes it more often than its version."""
-    from importlib.metadata import PackageNotFoundError, entry_points, requires, version
+    from importlib.metadata import PackageNotFoundError, distribution, entry_points, requires
 
     found = set()
     with suppress(PackageNotFoundError):  # a working tree
-        for need in requires("satcheck") or ():
-            name = re.split(r"[^\w.-]", need)[0]
+        for name in {re.split(r"[^\w.-]", need)[0] for need in requires("satcheck") or ()}:
             with suppress(PackageNotFoundError):
-                found.add(f"{name} {version(name)}")
+                found.add(f"{name} {_version(distribution(name))}")
+    points = entry_points()
     for group in get_args(Group):
-        for point in entry_points(group=f"satcheck.{group}"):
+        for point in points.select(group=f"satcheck.{group}"):
             found.add(f"{point.value} {point.dist and point.dist.version} {_state(point.module)}")
     return tuple(sorted(found))
+
+
+def _version(installed: Distribution) -> str:
+    """Return the version of a package. Its attribute `version` parses the whole description first,
+    and each process of a batch asks this of dozens of packages."""
+    about = installed.read_text("METADATA") or ""
+    found = re.search(r"^Version:[ \t]*(\S+)", about, re.MULTILINE)
+    return found[1] if found else installed.version
 
 
 def _state(module: str) -> str:

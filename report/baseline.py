@@ -8,11 +8,17 @@ from satcheck.report.values import Length, Value
 
 SCHEMA: Literal["satcheck.baseline/1"] = "satcheck.baseline/1"
 # The state of a finding compared with a baseline. unchanged: known, and proven to be no worse.
-# undecided: known, but it is unknown whether it is worse.
-BaselineState = Literal["new", "unchanged", "worse", "undecided"]
+# accepted: known, and accepted without that proof. undecided: known, but it is open whether it is
+# worse.
+BaselineState = Literal["new", "unchanged", "accepted", "worse", "undecided"]
+# The states of findings that do not make a check fail.
+HELD: tuple[BaselineState, ...] = ("unchanged", "accepted")
 KnownRelation = Literal[
     "separated", "near", "touching", "penetrating", "contains", "inside", "coincident"
 ]
+# Why the relation of a pair is undecided, where the input is the cause. open-hole: what fills a
+# hole decides it. open-pieces: open pieces surround a body. units-unknown: no unit is common.
+UndecidedBy = Literal["open-hole", "open-pieces", "units-unknown"]
 Figure = Literal["depth", "thickness", "volume", "distance", "motion_depth", "motion_distance"]
 
 
@@ -20,8 +26,8 @@ class KnownFinding(Value, frozen=True, kw_only=True):
     """asset: for `satcheck each`, the asset relative to the folder of the baseline; "" for other
     checks. a, b: ids of bodies. severity, relation and figures: as accepted. units: of the figures;
     None: unknown. depth, thickness, volume: upper ends. distance: the lower end. motion_depth,
-    motion_distance: of the worst pose of a motion. reason: a text that says why the finding is
-    accepted."""
+    motion_distance: of the worst pose of a motion. unmeasured: an overlap that is accepted without
+    figures, however deep it gets. reason: a text that says why the finding is accepted."""
 
     asset: str = ""
     a: str
@@ -35,6 +41,7 @@ class KnownFinding(Value, frozen=True, kw_only=True):
     distance: Length | None = None
     motion_depth: Length | None = None
     motion_distance: Length | None = None
+    unmeasured: bool = False
     reason: str = ""
 
     @property
@@ -51,9 +58,26 @@ class KnownFinding(Value, frozen=True, kw_only=True):
         return figure
 
 
+class KnownUndecided(Value, frozen=True, kw_only=True):
+    """A pair that may stay undecided for the same reason. asset, a, b: as above. reason_code: of
+    the finding. reason: a text that says why this is accepted."""
+
+    asset: str = ""
+    a: str
+    b: str
+    reason_code: UndecidedBy
+    reason: str = ""
+
+    @property
+    def key(self) -> tuple[str, frozenset[str]]:
+        """The same in either order of the bodies."""
+        return self.asset, frozenset((self.a, self.b))
+
+
 class Baseline(Value, frozen=True, kw_only=True):
     schema: Literal["satcheck.baseline/1"] = SCHEMA
     findings: tuple[KnownFinding, ...] = ()
+    undecided: tuple[KnownUndecided, ...] = ()
 
 
 class StatedBaseline(Value, frozen=True):

@@ -46,7 +46,8 @@ class BodyReport(Value, frozen=True, kw_only=True):
     shape that the file states, in its own frame; None: a mesh file. `units`: of its lengths
     here; None: no input states any. `unit_scale`: the factor of unit conversion in `transform`;
     None: no conversion. `stated_at`: the line of the scene file or the robot that states the body,
-    if a finding about it is an error, a warning or a note; else None.
+    if a finding about it is an error, a warning or a note; else None. `open`: its mesh is meant to
+    be open.
     """
 
     id: str
@@ -60,6 +61,7 @@ class BodyReport(Value, frozen=True, kw_only=True):
     unit_scale: Size | None = None
     groups: tuple[str, ...]
     static: bool
+    open: bool = False
     triangles: Count | None = None
     health: MeshHealth | None = None
     resolution: Length | None = None

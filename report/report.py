@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
-from satcheck.report.baseline import BaselineState, StatedBaseline
+from satcheck.report.baseline import BaselineState, StatedBaseline, UndecidedBy
 from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
@@ -71,6 +71,8 @@ NO_ANSWER = "no answer"
 # The result of an effect that needs triangles, for a pair with a curved shape.
 NOT_AVAILABLE = "not available"
 ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-check")
+# Why an effect did not run on a pair that fails: other pairs of the scene have spent the steps.
+BEYOND_BUDGET = "beyond the budget of the scene"
 # The code of an issue about a pair that failed because of a bug in satcheck.
 INTERNAL_ERROR = "internal-error"
 # No pair is checked: all are within one link, allowed, or exempt.
@@ -125,8 +127,8 @@ class Summary(Value, frozen=True):
     number of pairs for which it is undecided whether an overlap is within the limits of its rules,
     or a gap keeps its clearance, at rest or in motion. sweeps_undecided: the number of pairs for
     which it is undecided whether they hit while they move. disputed: the number of pairs for which
-    another library contradicts the answer (Settings.cross_check). accepted: the number of failing
-    findings that the baseline contains, unchanged. They do not make the check fail.
+    another library contradicts the answer (Settings.cross_check). accepted: the number of findings
+    that the baseline holds. They do not make the check fail.
     """
 
     verdict: Verdict
@@ -199,8 +201,9 @@ class Finding(Value, frozen=True, kw_only=True):
     be a little longer, so that the moved mesh is verified free. motion: the sweep; None: the bodies
     do not move relative to each other, or their boxes stay apart. relation, severity and undecided
     include it; figures are as placed. certificate: what `satcheck verify` checks; None: not
-    requested, or nothing is proven, and the last stage of the plan says why. baseline_state: for a
-    failing finding, if the check has a baseline.
+    requested, or nothing is proven, and the last stage of the plan says why. reason_code: of an
+    undecided relation, where the input is the cause. baseline_state: for a failing finding, if the
+    check has a baseline, and for an undecided one that the baseline accepts.
     """
 
     id: str
@@ -234,15 +237,15 @@ class Finding(Value, frozen=True, kw_only=True):
     motion: Sweep | None = None
     certificate: Certificate | None = None
     reason: str | None = None
+    reason_code: UndecidedBy | None = None
     plan: tuple[Stage, ...]
     baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
-        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
         vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
+        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
         for vector in (*vectors, self.thickness_bounds):
-            if vector is not None:
-                figures += vector
+            figures += vector or ()
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 

@@ -9,21 +9,27 @@ from msgspec import Struct
 
 from satcheck.report.report import Effect
 from satcheck.report.rule_book import Terms
+from satcheck.report.settings import StatedSettings
 
 # The keys that limit an overlap.
 LIMITS = ("max_depth", "max_thickness", "max_volume")
+# The limits that settings give to all pairs, and the names that decide by them.
+OPTIONS_OF_LIMITS = {"max_depth": "--max-depth", "max_thickness": "--max-thickness"}
 
 
 class Request(Struct, frozen=True):
     """Lengths and volumes are in units of the scene.
 
-    by: effect -> the flag or rule that requests it; no entry: it is not requested. clearance: None:
-    no clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
+    by: effect -> the flag or rule that requests it; no entry: it is not requested. if_failing:
+    effects that are requested if the pair fails, within a budget of the scene. clearance: None: no
+    clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
     max_volume: limits of an overlap. severity: of the errors of the pair; None: the default. rules:
-    key -> the name of the rule that set it. across: in a check in a plane, the axis across it.
+    key -> the name of the rule, or of the option, that set it. across: in a check in a plane, the
+    axis across it.
     """
 
     by: Mapping[Effect, str] = {}
+    if_failing: tuple[Effect, ...] = ()
     clearance: float | None = None
     tolerance: float | None = None
     max_depth: float | None = None
@@ -46,19 +52,28 @@ class Request(Struct, frozen=True):
         return self.rules.get(key)
 
 
-def request_of(
-    terms: Terms, clearance: float | None, tolerance: float | None, across: int | None
-) -> Request:
+def request_of(terms: Terms, settings: StatedSettings, across: int | None) -> Request:
     """Return what rules make of the settings for their pairs. A key of a rule overrides the
-    setting. A pair that may overlap within limits has no clearance."""
+    setting. A pair that may overlap within limits has no clearance. Limits of the settings are for
+    pairs to which rules give neither a limit nor a clearance."""
     by = {key: rule for key, rule in terms.items() if key != "allowed"}
+    given = settings.tolerance
+    values: dict[str, Any] = {
+        "clearance": settings.clearance,
+        "tolerance": None if isinstance(given, str) else given,
+    }
+    names: dict[str, str] = {}
     if not by.keys().isdisjoint(LIMITS):
-        clearance = None
+        values["clearance"] = None
         by.pop("clearance", None)
-    values: dict[str, Any] = {"clearance": clearance, "tolerance": tolerance}
+    elif "clearance" not in by:
+        limits = {key: getattr(settings, key) for key in OPTIONS_OF_LIMITS}
+        values |= limits
+        names = {key: OPTIONS_OF_LIMITS[key] for key, limit in limits.items() if limit is not None}
     values |= {key: getattr(rule, key) for key, rule in by.items()}
     if "clearance" in by:
         values["clearance"] = values["clearance"] or None
     lengths = values.keys() - {"severity"}  # Python callers may give an integer
     values |= {key: float(values[key]) for key in lengths if values[key] is not None}
-    return Request(**values, rules={key: rule.name for key, rule in by.items()}, across=across)
+    names |= {key: rule.name for key, rule in by.items()}
+    return Request(**values, rules=names, across=across)

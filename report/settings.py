@@ -35,6 +35,8 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     through the other there.
     clearance: Pairs with a smaller gap fail; shows the gap.
     tolerance: A gap or a depth up to this counts as touching.
+    max_thickness: Overlaps (interferences) no thicker than this pass.
+    max_depth: Overlaps no deeper than this pass.
     surface_tolerance: How far surfaces of closed bodies may be off: overlaps that this explains
     count as touching.
     accuracy: The finest test: aabb, obb, hull, parts or exact. Those below exact may report false
@@ -56,8 +58,9 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     depth, thickness: a report says whether they are computed for every overlap; None: the thickness
     whenever the depth is. volume_*, part_*, *_per_file: limits. contact_points: the most points
     listed for a pair. list_pruned: findings for pairs that the broad phase settled; None: if there
-    are few pairs. method: changes no relation, and of a depth only the last digits. depth_budget:
-    of the thickness half of it.
+    are few pairs. max_thickness, max_depth: both count, for pairs to which rules give neither a
+    limit nor a clearance. method: changes no relation, and of a depth only the last digits.
+    depth_budget: of the thickness half of it.
     """
 
     depth: bool | None = None
@@ -70,6 +73,8 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     components: bool = False
     clearance: Length | None = None
     tolerance: Length | Literal["input-precision"] | None = None
+    max_thickness: Length | None = None
+    max_depth: Length | None = None
     surface_tolerance: Length | None = None
     accuracy: Accuracy = "exact"
     method: Method = "auto"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from satcheck.report.baseline import HELD
 from satcheck.report.report import (
     RELATIONS,
     SEVERITIES,
@@ -21,23 +22,24 @@ from satcheck.report.report import (
 from satcheck.report.settings import FailOn
 from satcheck.report.statics import State
 
+_RANK = {severity: place for place, severity in enumerate(SEVERITIES)}
+
 
 def fails(finding: Finding, fail_on: FailOn) -> bool:
     """Return whether the finding is decided and at least as grave as `fail_on`. An error always
     counts as decided."""
     decided = finding.undecided is None or finding.severity == "error"
-    return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
+    return decided and _RANK[finding.severity] <= _RANK[fail_on]
 
 
 def is_failure(finding: Finding, fail_on: FailOn) -> bool:
-    """Return whether the check fails by it: a baseline does not hold it unchanged."""
-    return fails(finding, fail_on) and finding.baseline_state != "unchanged"
+    """Return whether the check fails by it: a baseline does not hold it."""
+    return fails(finding, fail_on) and finding.baseline_state not in HELD
 
 
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
     """Return whether the check fails by the answer to a question about a single body."""
-    level = SEVERITIES.index(fail_on)
-    return finding.answer != "open" and SEVERITIES.index(finding.severity) <= level
+    return finding.answer != "open" and _RANK[finding.severity] <= _RANK[fail_on]
 
 
 def severity_of_answer(answer: State, own: str | None) -> Severity:
@@ -81,7 +83,7 @@ def summarise(
         verdict = "fail"  # even if other pairs are undecided
     elif (
         unlisted_open
-        or undecided.total() > undecided[None]
+        or any(f.undecided is not None and f.baseline_state not in HELD for f in findings)
         or not (counts.asked or alone)  # a check without pairs never passes
         or any(answer.answer == "open" for answer in answers)
         or any(issue.state == "blocking" for issue in issues)
@@ -95,7 +97,7 @@ def summarise(
         limits_undecided=undecided["limit"],
         sweeps_undecided=undecided["motion"],
         disputed=undecided["cross-check"],
-        accepted=sum(finding.baseline_state == "unchanged" for finding in findings),
+        accepted=sum(finding.baseline_state in HELD for finding in findings),
     )
 
 

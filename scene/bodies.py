@@ -80,7 +80,8 @@ class Body(Struct, frozen=True):
     surroundings, see `Scene.check_static`. pinned: `satcheck resolve` does not move it. units: of
     the world coordinates; None: unknown. unit_scale: the factor of unit conversion in the
     transform; None: no conversion. surface_tolerance: how far its surface may be off, world units;
-    None: the scene does not say.
+    None: the scene does not say. open: its mesh is meant to be open: sheets, not a solid with
+    holes.
     as_given: in a check in a plane, the body whose outline this is.
     """
 
@@ -96,6 +97,7 @@ class Body(Struct, frozen=True):
     units: str | None = None
     unit_scale: float | None = None
     surface_tolerance: float | None = None
+    open: bool = False
     as_given: Body | None = None
 
     def world_mesh(self) -> Mesh:
@@ -250,5 +252,6 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 def _is_exact_scaling(transform: Transform) -> bool:
     """Return whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
-    scaling = (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])
-    return frexp(scale)[0] == 0.5 and transform == scaling
+    if frexp(scale)[0] != 0.5:
+        return False
+    return transform == (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])

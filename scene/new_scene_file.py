@@ -72,10 +72,19 @@ def new_scene_file(
         accept=tuple(each.text for each in scene.accept if each.about is None),
         statics=stated_terms(scene) if scene.body_rules or scene.statics else None,
         bodies=tuple(entries),
-        rules=(*map(_rule, scene.rules), *map(_rule, scene.body_rules)),
+        rules=(
+            *map(_rule, scene.rules),
+            *map(_rule, scene.body_rules),
+            *map(_rule, _open_bodies(scene)),
+        ),
         motion=tuple(map(_motion, scene.motions)),
     )
     return (_toml if is_toml(output) else _json)(to_builtins(stated, enc_hook=_plain))
+
+
+def _open_bodies(scene: Scene) -> list[BodyRule]:
+    opened = (body for body in scene.bodies if body.open)
+    return [BodyRule(bodies=Selector.exactly(body.id), open=True) for body in opened]
 
 
 def left_out_of(scene: Scene) -> list[str]:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 QUESTIONS: tuple[Literal["supported", "stable"], ...] = ("supported", "stable")
 FACTS = ("mounted", "region", "density", "mass", "friction")
 KEYS = (*QUESTIONS, "inside", *FACTS, "severity")
+EFFECTIVE_KEYS = (*KEYS, "open")  # `open` is a fact of the body itself in a scene
 
 _DOWN_Z: Vector = (0.0, 0.0, -1.0)
 _DOWN_Y: Vector = (0.0, -1.0, 0.0)
@@ -52,6 +53,8 @@ class BodyRuleKeys(Table, frozen=True, kw_only=True):
     region: They bound space and have no material: they collide with nothing and hold nothing.
     mass: Of each of them; overrides the density.
     friction: Of two bodies the smaller one counts.
+    open: Their meshes are meant to be open: sheets, not solids with holes.
+    asset: Only the bodies of such files, by a glob of the name or the path.
     reason: Why, in words.
     """
 
@@ -64,6 +67,8 @@ class BodyRuleKeys(Table, frozen=True, kw_only=True):
     density: Positive | None = None
     mass: Positive | None = None
     friction: NotNegative | None = None
+    open: bool | None = None
+    asset: Text | None = None
     severity: Severity | None = None
     reason: Text = ""
 
@@ -90,7 +95,7 @@ class BodyRule(BodyRuleKeys, frozen=True, kw_only=True):
                 raise _refused(f"{key} must be a finite number > 0, not {value!r}")
         if self.friction is not None and not (math.isfinite(self.friction) and self.friction >= 0):
             raise _refused(f"friction must be a finite number >= 0, not {self.friction!r}")
-        require_effect(self, KEYS)
+        require_effect(self, EFFECTIVE_KEYS)
 
     def scaled(self, scale: float) -> BodyRule:
         """The same rule in another unit of length, which is `scale` times smaller."""

@@ -84,6 +84,7 @@ def parse_length(text: str) -> Length:
     return Length(number, match[2].lower() if match[2] else None)
 
 
+@lru_cache(maxsize=64)
 def unit_of(declared: str | None) -> str | None:
     """The unit that a scene declares, as a key of MICROMETRES; None if unknown or not declared."""
     name = (declared or "").strip().lower()

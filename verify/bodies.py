@@ -152,7 +152,7 @@ class Bodies:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)
         self._files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
-        self._shapes: dict[tuple[str, str | None], Shape] = {}
+        self._shapes: dict[tuple[str, str | None, bool], Shape] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
         """The report's bodies; with --planar, the prisms over their outlines. If a file is missing
@@ -202,6 +202,7 @@ class Bodies:
         body = Body(
             *(entry.id, entry.id, shape.file, entry.transform, entry.groups),
             static=entry.static,
+            open=entry.open,
             shape=None if entry.shape is None else shape_from(to_builtins(entry.shape)),
         )
         return body, shape
@@ -215,14 +216,17 @@ class Bodies:
                 absent = mesh.code == "file-not-found"
                 raise Missing("its file is not there") if absent else Rejected(str(mesh))
             key, make = (
-                (entry.file, mesh.part),
-                partial(shape_of, mesh, allow_open=self._allow_open),
+                (entry.file, mesh.part, entry.open),
+                partial(shape_of, mesh, allow_open=self._allow_open or entry.open),
             )
         elif entry.path is not None:
             raise Rejected("a shape is no node of a file")
         else:
             values = to_builtins(entry.shape)
-            key, make = (entry.file, json.dumps(values)), partial(_primitive, entry.file, values)
+            key, make = (
+                (entry.file, json.dumps(values), False),
+                partial(_primitive, entry.file, values),
+            )
         if key not in self._shapes:
             self._shapes[key] = make()
         return self._shapes[key]

@@ -58,6 +58,7 @@ GROUPS: dict[Kind, dict[str, str]] = {
         "primitive shapes": "bodies[].shape",
         "groups": "bodies[].groups",
         "which bodies are static": "bodies[].static",
+        "which bodies are open on purpose": "bodies[].open",
         "surface tolerances": "bodies[].surface_tolerance",
         "exempt pairs": "exempt",
         "rules": "rules[] regions.rules[] statics.rules[]",
@@ -89,7 +90,8 @@ GROUPS: dict[Kind, dict[str, str]] = {
         "what happens while bodies move": "findings[].motion",
         "messages": "message findings[].message",
         "reasons": """
-            findings[].reason truncated.reason regions.findings[].reason statics.findings[].reason
+            findings[].reason findings[].reason_code truncated.reason regions.findings[].reason
+            statics.findings[].reason
         """,
         "plans": "findings[].plan",
         "which findings a baseline accepts": """

@@ -120,7 +120,7 @@ class _Report:
         if report.motions:
             self.beyond.append("bodies move: what happens on the way is not certified")
         if report.summary.accepted and report.summary.verdict != "fail":
-            self.beyond.append("a baseline accepts findings: without it the verdict is 'fail'")
+            self.beyond.append("a baseline accepts findings: without it the check does not pass")
 
     def check(self, finding: Finding | Checked) -> Checked:
         a, b, relation = finding.a, finding.b, finding.relation
@@ -193,9 +193,8 @@ class _Report:
     def request_of(self, a: Placed, b: Placed) -> Request:
         """Return what the settings and the rules ask of this pair."""
         settings, terms = self.report.settings, self.book.terms(self.order[a.id], self.order[b.id])
-        tolerance = None if isinstance(settings.tolerance, str) else settings.tolerance
         across = None if settings.planar is None else ACROSS[settings.planar]
-        return request_of(terms, settings.clearance, tolerance, across)
+        return request_of(terms, settings, across)
 
     def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from msgspec import Struct
 
 from satcheck.audit import Settings
+from satcheck.audit.baseline import measuring
 from satcheck.audit.settings import settings_in_units
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import StatedConfig
@@ -35,7 +36,8 @@ class CheckOptions(LoadOptions, frozen=True, kw_only=True):
     def settings_for(self, scene: Scene) -> Settings:
         """Lengths are in the units of the scene. Raises SatcheckError (`bad-setting`)."""
         try:
-            return settings_in_units(self.settings, scene, self.names)
+            settings = settings_in_units(self.settings, scene, self.names)
+            return settings if self.baseline is None else measuring(settings)
         except ValueError as error:
             raise SatcheckError("bad-setting", str(error)) from None
 

@@ -10,11 +10,12 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both
+from satcheck.audit.close_pairs import ClosePairs
 from satcheck.audit.motion.joint_search import Search, SweptPair
 from satcheck.audit.motion.joint_travel import Interval, Travel
 from satcheck.audit.motion.sweep import relation_apart, swept, worst_pose
-from satcheck.audit.pair import Paths
-from satcheck.audit.planner import IndexPair, Planner, close_pairs
+from satcheck.audit.pair import Moves
+from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import PosedPairs
 from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
@@ -47,9 +48,9 @@ class JointMovers:
         self._boxes = self._swept_boxes(scene)
         self._sweeps: dict[tuple[str, str], Sweep] = {}
 
-    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
-        """The pairs whose boxes over the whole path are close, swept; `paths` has the results."""
-        close = close_pairs(bodies, planner, self._bounds)
+    def close(self, bodies: PlacedBodies, planner: Planner) -> ClosePairs:
+        """The pairs whose boxes over the whole path are close, swept; `moves` has the results."""
+        close = ClosePairs(bodies, planner, self._bounds)
         wanted = {(bodies.ids[i], bodies.ids[j]) for i, j in close}
         pairs = self._pairs.pairs
         moves = np.array([p.ids in wanted and self._travel.moves(*p.places) for p in pairs], bool)
@@ -65,10 +66,10 @@ class JointMovers:
     def _bounds(self, body: str, placed: Box) -> Box:
         return around_both(placed, self._boxes.get(body, placed))
 
-    def paths(self, a: str, b: str) -> Paths | None:
-        """The sweep of a pair; None: the bodies do not move relative to each other."""
+    def moves(self, a: str, b: str) -> Moves | None:
+        """None: the bodies do not move relative to each other."""
         sweep = self._sweeps.get((a, b))
-        return None if sweep is None else Paths(known=sweep)
+        return None if sweep is None else Moves(lambda _: sweep)
 
     def stated(self) -> tuple[StatedMotion, ...]:
         """The path as a report states it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from functools import partial
 
 import numpy as np
 from msgspec import Struct, convert, to_builtins
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both, corners
+from satcheck.audit.close_pairs import ClosePairs
+from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.motion.track import Track, track_of
-from satcheck.audit.pair import Paths
-from satcheck.audit.planner import IndexPair, Planner, close_pairs
+from satcheck.audit.pair import Moves
+from satcheck.audit.planner import Planner
 from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
@@ -39,16 +42,17 @@ class Movers:
         times = part_times(tracks.values())
         self._parts = {key: parts_of(track, times) for key, track in tracks.items()}
 
-    def paths(self, a: str, b: str) -> Paths | None:
-        """The paths of a pair; None: the bodies do not move relative to each other."""
+    def moves(self, a: str, b: str) -> Moves | None:
+        """None: the bodies do not move relative to each other."""
         motion_a, motion_b = self._motion.get(a), self._motion.get(b)
         if motion_a is motion_b:
             return None
         motions = (motion_a, motion_b)
         path_a, path_b = (None if motion is None else motion.path for motion in motions)
-        return Paths(path_a, path_b, any(motion and motion.clear for motion in motions))
+        swept = partial(sweep, path_a=path_a, path_b=path_b)
+        return Moves(swept, any(motion and motion.clear for motion in motions))
 
-    def close(self, bodies: PlacedBodies, planner: Planner) -> list[IndexPair]:
+    def close(self, bodies: PlacedBodies, planner: Planner) -> ClosePairs:
         """The pairs that may be as close as they ask, as placed or at some t."""
         placed, ids = bodies.placed, bodies.ids
         boxes: dict[int, SweptBoxes] = {}  # of bodies in pairs; many pairs have the same one
@@ -64,7 +68,7 @@ class Movers:
                 return core.box_gap(placed[i].bounds, placed[j].bounds) <= limit
             return boxes_of(i).may_meet(boxes_of(j), limit)
 
-        return [pair for pair in close_pairs(bodies, planner, self.bounds) if meet(*pair)]
+        return ClosePairs(bodies, planner, self.bounds, meet)
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""

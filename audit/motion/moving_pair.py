@@ -115,7 +115,8 @@ class MovingPair:
         pair = self.pair
         if pair.settings.allow_open:
             return []
-        return [body.id for body in (pair.a, pair.b) if body.body.file.health.holes]
+        bodies = (body.body for body in (pair.a, pair.b))
+        return [body.id for body in bodies if body.file.health.holes and not body.open]
 
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
@@ -166,7 +167,7 @@ class MovingPair:
             request=Request({"overlap": ALWAYS}, tolerance=self.tolerance),
             meter=None,
             peers=None,
-            paths=None,
+            moves=None,
         )
 
     def found_at(self, t: float) -> Finding:

@@ -7,8 +7,7 @@ import math
 from msgspec.structs import replace
 
 from satcheck.audit.draft import Draft
-from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.pair import Paths
+from satcheck.audit.pair import Moves
 from satcheck.report.judge import Judgement, by_rule, judged
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Relation
 from satcheck.report.request import Request
@@ -17,14 +16,14 @@ from satcheck.report.sweep import Sweep
 CLEAR = "clear"  # the rule of a touch on a way that must be free
 
 
-def with_sweep(finding: Finding, draft: Draft, paths: Paths) -> Finding:
+def with_sweep(finding: Finding, draft: Draft, moves: Moves) -> Finding:
     """The finding with the sweep of the pair, its stage in the draft, and a severity that counts
     both."""
     pair = draft.pair
-    motion = paths.known or sweep(pair, paths.a, paths.b)
+    motion = moves.sweep(pair)
     draft.record("sweep", motion.relation, _detail(motion))
     judgement = _judged(finding, motion, pair.request)
-    if paths.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
+    if moves.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
         judgement = Judgement("error", CLEAR)
     judgement = by_rule(judgement, pair.request)
     graver = SEVERITIES.index(judgement.severity) < SEVERITIES.index(finding.severity)

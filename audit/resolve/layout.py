@@ -93,7 +93,7 @@ class Layout:
             {index: body.resolution for index, body in zip(self._index, self.placed, strict=True)}
         )
         boxes = [body.bounds for body in self.placed]
-        close = core.close_pairs(boxes, reach, [0] * len(boxes))
+        close = core.ClosePairs(boxes, reach, [0] * len(boxes)).take()
         return [pair for pair in close if self.is_checked(pair)]
 
     def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:

@@ -108,6 +108,7 @@ def search(
             limit=limit,
             progress=progress,
         )
+    draft.work += interval.work
     spent = interval.stop == "work spent"
     reason = "; the budget ended the search" if spent else ""
     draft.record(

@@ -35,6 +35,8 @@ MOST_CROSSINGS = 100_000
 # that, with e_A = e_B = e, if w is 17 degrees or more.
 MOST_REACH = 4.0
 THROUGH = "one body passes through the other"
+# Steps of a search that decides most overlaps that are well within the tolerance or well beyond it.
+QUICK_WORK = 1_000_000
 # Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
 FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
 
@@ -74,6 +76,11 @@ def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
     """Decide whether a ball thicker than the tolerance lies in both."""
     half = 0.5 * pair.tolerance
     if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
+        return "within", "no point lies deeper than"
+    quick = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False, work=QUICK_WORK)
+    if quick.lower > pair.tolerance:
+        return "deeper", "a point lies deeper than"
+    if quick.upper <= pair.tolerance and passes(pair) is False:
         return "within", "no point lies deeper than"
     fit = _fit_of_convex(pair) or _fit(pair)
     if fit == "deeper":
@@ -183,13 +190,15 @@ def _search(
     limit: float,
     *,
     prove: bool,
+    work: int | None = None,
 ) -> core.ThicknessInterval:
+    """work: steps; None: as many as the settings grant."""
     with pair.searching("thickness beyond the surface tolerances") as progress:
         return core.search_thickness(
             a.surface(),
             b.surface(),
             width=0.0,
-            work=pair.settings.thickness_work,
+            work=pair.settings.thickness_work if work is None else work,
             less_a=off[0],
             less_b=off[1],
             limit=limit,

@@ -92,6 +92,7 @@ def _take(draft: Draft, climb: core.Climb) -> None:
     weak = None if climb.hole is None else open_hole(draft.pair, climb.hole)
     draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
     draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
+    draft.reason_code = None if climb.hole is None else "open-hole"
 
 
 def open_hole(pair: Pair, hole: core.OpenHole) -> str:
@@ -134,7 +135,7 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
 
 def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
     """Return whether the pair needs computation after the climb."""
-    if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
+    if climb is None or pair.settings.accuracy == "parts" or pair.moves is not None:
         return True
     if climb.band in ("open", "hidden") or climb.thick is False:
         return True
@@ -152,7 +153,10 @@ def why_open(draft: Draft) -> str | None:
     """Return why the relation is undecided; None: it is decided."""
     if draft.exact == "indeterminate":
         return draft.weak or "undecided"
-    return _open_pieces_around(draft.pair) if draft.exact in ("separated", "touching") else None
+    pieces = _open_pieces_around(draft.pair) if draft.exact in ("separated", "touching") else None
+    if pieces is not None:
+        draft.reason_code = "open-pieces"
+    return pieces
 
 
 def _open_pieces_around(pair: Pair) -> str | None:
@@ -162,9 +166,9 @@ def _open_pieces_around(pair: Pair) -> str | None:
     box whose faces miss each other by more than the precision of the file has six open parts. They
     count as six sheets, but the box may be meant as a solid.
     """
-    if pair.settings.allow_open:
-        return None
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
+        if pair.settings.allow_open or outer.body.open:
+            continue
         health = outer.body.file.health
         in_pieces = not (outer.solid or health.closed or health.flat or outer.curved)
         if in_pieces and _is_around(outer, _point_of(inner)):

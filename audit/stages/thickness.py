@@ -60,9 +60,11 @@ def measure_thickness(draft: Draft) -> None:
     else:
         interval, nanoseconds = draft.ahead()
         draft.add(STAGE, *_outcome_of(interval), nanoseconds)
+    draft.work += interval.work
     thickness = _thickness_of(interval)
     if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
         closer = _search(pair, EXACT_WIDTH, work - interval.work, limit)
+        draft.work += closer.work
         draft.record(STAGE, *_outcome_of(closer))
         thickness = _narrower(thickness, _thickness_of(closer))
     if pair.closer:

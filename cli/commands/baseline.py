@@ -12,6 +12,8 @@ from satcheck.audit.baseline import (
     absent_from,
     asset_key,
     known_findings,
+    known_undecided,
+    of_unknown_depth,
     pruned,
     read_baseline,
     updated,
@@ -20,7 +22,7 @@ from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.stated_scene import read_report
-from satcheck.report.baseline import Baseline, KnownFinding
+from satcheck.report.baseline import Baseline, KnownFinding, KnownUndecided
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
 from satcheck.scene.opening import exists
@@ -35,6 +37,16 @@ reports_argument = click.argument(
 )
 reason_option = click.option(
     "--reason", default="", metavar="TEXT", help="Why these findings are accepted."
+)
+unmeasured_option = click.option(
+    "--without-figures",
+    is_flag=True,
+    help="Accept overlaps of unknown depth, however deep they get.",
+)
+undecided_option = click.option(
+    "--undecided",
+    is_flag=True,
+    help="Accept pairs too that holes or units leave undecided, for that reason alone.",
 )
 
 
@@ -51,20 +63,24 @@ def command() -> None:
 @file_argument
 @reports_argument
 @reason_option
-def write(file: Path, reports: Sequence[Path], reason: str) -> None:
+@unmeasured_option
+@undecided_option
+def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Write a new baseline with the failing findings of reports."""
     if exists(file):
         raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
-    _update(file, Baseline(), reports, reason)
+    _update(file, Baseline(), reports, reason, **accepting)
 
 
 @command.command("update", context_settings=HELP_NAMES)
 @file_argument
 @reports_argument
 @reason_option
-def update(file: Path, reports: Sequence[Path], reason: str) -> None:
+@unmeasured_option
+@undecided_option
+def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Add new findings of reports, and take over figures that are worse or were not known."""
-    _update(file, read_baseline(file), reports, reason)
+    _update(file, read_baseline(file), reports, reason, **accepting)
 
 
 @command.command("prune", context_settings=HELP_NAMES)
@@ -81,13 +97,43 @@ def prune(file: Path, reports: Sequence[Path]) -> None:
     _write(file, baseline, pruned(baseline, absent))
 
 
-def _update(file: Path, baseline: Baseline, reports: Sequence[Path], reason: str) -> None:
+def _update(
+    file: Path,
+    baseline: Baseline,
+    reports: Sequence[Path],
+    reason: str,
+    *,
+    without_figures: bool,
+    undecided: bool,
+) -> None:
     known = [
         finding
         for asset, report in _named_reports(reports, file)
-        for finding in _named(known_findings(report, asset, reason), report, baseline, file)
+        for finding in _named(
+            known_findings(report, asset, reason, unmeasured=without_figures),
+            report,
+            baseline,
+            file,
+        )
     ]
-    _write(file, baseline, updated(baseline, known))
+    still_open = [
+        pair
+        for asset, report in _named_reports(reports, file)
+        for pair in (known_undecided(report, asset, reason) if undecided else ())
+    ]
+    after = updated(baseline, known, still_open)
+    _refuse_unmeasured(baseline, after)
+    _write(file, baseline, after)
+
+
+def _refuse_unmeasured(before: Baseline, after: Baseline) -> None:
+    if new := of_unknown_depth(before, after):
+        first = f"{new[0].asset}: " if new[0].asset else ""
+        raise click.UsageError(
+            f"{counted(len(new), 'overlap')} of unknown depth, first {first}{new[0].a} and "
+            f"{new[0].b}: nobody would notice a deeper one. Check again with --depth and write the "
+            "baseline from that report, or accept them --without-figures"
+        )
 
 
 def _named(
@@ -104,8 +150,16 @@ def _named(
         yield under if is_one and not finding.asset and under.key in keys else finding
 
 
+def _entries(baseline: Baseline) -> dict[object, KnownFinding | KnownUndecided]:
+    """Return what a baseline holds. A pair may be known to fail, and to be undecided."""
+    entries: list[tuple[object, KnownFinding | KnownUndecided]] = []
+    entries += [(each.key, each) for each in baseline.findings]
+    entries += [(("undecided", each.key), each) for each in baseline.undecided]
+    return dict(entries)
+
+
 def _write(file: Path, before: Baseline, after: Baseline) -> None:
-    old, new = ({each.key: each for each in baseline.findings} for baseline in (before, after))
+    old, new = _entries(before), _entries(after)
     changed = sum(each != new.get(key, each) for key, each in old.items())
     write_file(file, json_document(after))
     Document().write(

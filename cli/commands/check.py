@@ -12,7 +12,12 @@ from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
-from satcheck.audit.baseline import beside_baseline, names_in_baseline, read_baseline
+from satcheck.audit.baseline import (
+    beside_baseline,
+    measuring,
+    names_in_baseline,
+    read_baseline,
+)
 from satcheck.audit.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
@@ -144,8 +149,10 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @option.setting(
     "depth",
     "--depth/--no-depth",
-    note="for mesh files of one body each; otherwise only where a rule needs it",
+    note="for mesh files of one body each; otherwise for the worst pairs that fail",
 )
+@option.setting("max_thickness", type=length)
+@option.setting("max_depth", type=length)
 @option.setting("contacts")
 @option.setting("components")
 @option.setting("volume")
@@ -251,7 +258,8 @@ def command(
     settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:
-        result = _check(scene, settings_of(settings, scene))
+        asked = settings_of(settings, scene)
+        result = _check(scene, asked if known is None else measuring(asked))
         if known is not None:
             result = known.beside(result, inputs.paths)
         if form != "table":

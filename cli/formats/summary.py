@@ -33,7 +33,7 @@ _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
 
 
-_OPEN: tuple[BaselineState, ...] = ("new", "worse", "undecided")
+_STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")
 _UNDECIDED = (
     " Undecided findings need figures: add --depth, --clearance or --volume, and update the "
     "baseline from a report that has them."
@@ -160,7 +160,7 @@ class BesideBaseline(Struct):
         if not self.judged:
             return []
         parts = [counted(self.states["unchanged"], "known finding")]
-        parts += [f"{self.states[s]:,} {s}" for s in _OPEN if self.states[s]]
+        parts += [f"{self.states[s]:,} {s}" for s in _STATES if self.states[s]]
         verb = "passes" if self.absent == 1 else "pass"
         gone = f"; {self.absent:,} more {verb} now: satcheck baseline prune" if self.absent else ""
         undecided = _UNDECIDED if self.states["undecided"] else ""

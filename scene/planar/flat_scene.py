@@ -62,7 +62,7 @@ def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene
     placed, lost = [], []
     for body in scene.bodies:
         try:
-            placed.append((body, _region(body, plane, allow_open=allow_open)))
+            placed.append((body, _region(body, plane, allow_open=allow_open or body.open)))
         except Refused as error:
             lost.append(_lost(body, error))
     heights = _heights([region for _, region in placed])

@@ -116,18 +116,16 @@ def affine(rows: Matrix, key: str) -> Transform:
     """The matrix that a key states. Raises Wrong if it cannot place a body."""
     if rows[3] != (0.0, 0.0, 0.0, 1.0):
         raise Wrong("the last row should be 0 0 0 1", key, code="singular-transform")
-    return _regular(tuple(entry for row in rows for entry in row), key)
+    return _regular((*rows[0], *rows[1], *rows[2], *rows[3]), key)
 
 
 def _regular(placement: Transform, key: str) -> Transform:
     """The same. Raises Wrong if it flattens space. key: that states it."""
-    rows = [placement[0:3], placement[4:7], placement[8:11]]
-    lengths = [math.hypot(*row) for row in rows]
-    if 0.0 in lengths:
+    a, b, c, _, d, e, f, _, g, h, i, *_ = placement
+    p, q, r = math.hypot(a, b, c), math.hypot(d, e, f), math.hypot(g, h, i)
+    if 0.0 in (p, q, r):
         raise Wrong("singular transform: it scales by 0", key, code="singular-transform")
-    (a, b, c), (d, e, f), (g, h, i) = (
-        [entry / length for entry in row] for row, length in zip(rows, lengths, strict=True)
-    )
+    a, b, c, d, e, f, g, h, i = a / p, b / p, c / p, d / q, e / q, f / q, g / r, h / r, i / r
     if abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < _SINGULAR:
         raise Wrong("singular transform: it flattens space", key, code="singular-transform")
     return placement

@@ -8,8 +8,10 @@ bodies.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from fnmatch import fnmatchcase
 from functools import cache
 from itertools import product
+from pathlib import PurePosixPath
 from typing import Any
 
 from msgspec import Struct
@@ -19,8 +21,8 @@ from satcheck.scene.bodies import Accepted, Body, Scene, Unreadable
 from satcheck.scene.document import Document, FilePart
 from satcheck.scene.errors import Refused
 from satcheck.scene.motion import Motion, scaled_motion
-from satcheck.scene.rules import Rule, Selectable, Selector
-from satcheck.scene.statics import BodyRule, StaticsTerms, joined_terms
+from satcheck.scene.rules import Rule, Selectable, Selector, stated_keys
+from satcheck.scene.statics import KEYS, BodyRule, StaticsTerms, joined_terms
 
 Bodies = Sequence[Body | Unreadable]
 
@@ -110,14 +112,31 @@ class Joined(Struct, frozen=True):
                         yield replace(rule, a=Selector.exactly(first), b=Selector.exactly(second))
 
     def body_rules(self, everybody: Bodies, bare: Bodies) -> Iterator[BodyRule]:
-        """Beside other inputs a rule is written out body by body."""
+        """A rule about some files, and any rule beside other inputs, is written out body by
+        body."""
+        files = {body.id: _file_of(body) for body in everybody}
         for rule in (rule.scaled(self.scale) for rule in self.file.body_rules):
-            if self.is_everything(everybody):
+            is_everything = self.is_everything(everybody)
+            if rule.asset is None and is_everything:
                 yield rule
                 continue
-            selectors = map(Selector.exactly, self.chosen(rule.bodies, bare))
-            for selector in [*selectors] or [Selector.nobody()]:
-                yield replace(rule, bodies=selector)
+            ids = (
+                [body.id for body in rule.bodies.select(everybody)]
+                if is_everything
+                else (self.chosen(rule.bodies, bare))
+            )
+            if rule.asset is not None:
+                ids = [id_ for id_ in ids if _is_of(files[id_], rule.asset)]
+            for selector in [*map(Selector.exactly, ids)] or [Selector.nobody()]:
+                yield replace(rule, bodies=selector, asset=None)
+
+
+def _file_of(body: Body | Unreadable) -> str:
+    return body.file if isinstance(body, Unreadable) else body.file.path
+
+
+def _is_of(file: str, pattern: str) -> bool:
+    return any(fnmatchcase(name, pattern) for name in (file, PurePosixPath(file).name))
 
 
 def joined(scene: Scene, files: Sequence[Joined], *, alone: bool) -> Scene:
@@ -130,6 +149,11 @@ def joined(scene: Scene, files: Sequence[Joined], *, alone: bool) -> Scene:
     bare = [body for body in everybody if body.id not in placed]
     rules = [rule for each in files for rule in each.rules(everybody, bare)]
     body_rules = [rule for each in files for rule in each.body_rules(everybody, bare)]
+    opened: dict[str, bool] = {}
+    for rule in body_rules:
+        if rule.open is not None:
+            opened |= dict.fromkeys((body.id for body in rule.bodies.select(everybody)), rule.open)
+    body_rules = [rule for rule in body_rules if stated_keys(rule, KEYS)]
     spaces = (rule.permission for rule in body_rules if rule.region)
     terms = [
         each.file.statics.scaled(each.scale) for each in files if each.file.statics is not None
@@ -137,6 +161,9 @@ def joined(scene: Scene, files: Sequence[Joined], *, alone: bool) -> Scene:
     ignored = (each.groups[name] for each in files for name in each.file.ignore_within_groups)
     return replace(
         scene,
+        bodies=tuple(
+            replace(body, open=True) if opened.get(body.id) else body for body in scene.bodies
+        ),
         ignore_within_groups=frozenset(ignored),
         # Those of documents and of regions first, so that a rule of a scene can override them.
         rules=(*scene.rules, *spaces, *rules),

@@ -10,7 +10,7 @@ from msgspec.json import schema_components
 
 from satcheck.scene.rules import KEYS, RuleKeys
 from satcheck.scene.scene_file.document import RulesFile, Scene
-from satcheck.scene.statics import KEYS as BODY_KEYS
+from satcheck.scene.statics import EFFECTIVE_KEYS as BODY_KEYS
 from satcheck.scene.statics import BodyRuleKeys
 from satcheck.scene.table import LARGEST, Table
 

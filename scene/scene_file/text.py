@@ -30,7 +30,9 @@ MOST = 20  # errors told about one file
 _MAX_BYTES = 512 << 20  # a million bodies, each with a matrix
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
-_MARK = r"""\[[^][{}"'#]*+\]|[][{},]"""  # a list of numbers is one token
+_NUMBERS = r"""\[[^][{}"'#]*+\]"""
+# A list of numbers is one token, and so is a matrix.
+_MARK = rf"{_NUMBERS}|\[\s*+(?:{_NUMBERS}[\s,]*+)++\]|[][{{}},]"
 _JSON = re.compile(rf"(?P<key>{_TEXT})\s*+:|{_TEXT}|{_MARK}")
 _PART = rf"(?:(?<![\w-])[\w-]++|{_TEXT}|'[^'\n]*+')"
 _NAME = rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+"

@@ -25,14 +25,15 @@ from tests.cli.reports import BLOCK, PENETRATING, SOUP, report
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
 PUSHED = check([SAMPLES / "box.obj", SAMPLES / "box_pushed.stl"])
 SAID = (
-    "box and box_pushed overlap (thickness 1, depth 1); moving box by (-1, 0, 0) ends the overlap."
+    "box and box_pushed overlap (thickness 1, 1 to pull apart); moving box by (-1, 0, 0) ends the "
+    "overlap."
 )
 
 
 def test_json_states_them() -> None:
     document = json.loads("".join(render_json(PUSHED, timings=False)))
     assert [finding["message"] for finding in document["findings"]] == [SAID]
-    assert document["message"] == "FAIL: box and box_pushed overlap (thickness 1, depth 1)."
+    assert document["message"] == "FAIL: box and box_pushed overlap (thickness 1, 1 to pull apart)."
 
 
 @pytest.mark.parametrize("form", ["sarif", "junit", "github", "jsonl"])

@@ -192,9 +192,9 @@ def test_what_a_mesh_has_is_made_once_for_all_poses(monkeypatch: pytest.MonkeyPa
     made: list[str] = []
     make = SharedMesh.__init__
 
-    def counted(self: SharedMesh, file: MeshFile, *rest: Any) -> None:
+    def counted(self: SharedMesh, file: MeshFile, *rest: Any, **named: Any) -> None:
         made.append(file.sha256 + str(file.part))
-        make(self, file, *rest)
+        make(self, file, *rest, **named)
 
     monkeypatch.setattr(SharedMesh, "__init__", counted)
     check_poses(ARM, list(RandomPoses(ROBOTS, 10, 3)), QUICK)

@@ -23,7 +23,8 @@ def test_overlap_is_exit_1_and_a_table() -> None:
     assert "penetrating" in ran.out
     assert "(-1, 0, 0)" in ran.out
     assert (
-        ran.out.splitlines()[-1] == "FAIL: box and box_pushed overlap (thickness 1, depth 1). "
+        ran.out.splitlines()[-1]
+        == "FAIL: box and box_pushed overlap (thickness 1, 1 to pull apart). "
         "Next: -o report.html shows it in 3-D."
     )
     assert ran.err == ""

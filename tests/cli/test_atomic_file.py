@@ -179,7 +179,7 @@ def test_what_is_open_already_is_not_cut_off(tmp_path: Path, name: str) -> None:
     text = (tmp_path / "log").read_text(encoding="utf-8")
     document, _, last = text.removeprefix("before\n").rpartition("}\n")
     assert json.loads(document + "}")["schema"] == "satcheck.report/1"
-    said = "FAIL: box and box_pushed overlap (thickness 1, depth 1)."
+    said = "FAIL: box and box_pushed overlap (thickness 1, 1 to pull apart)."
     assert last == f"2 bodies, 1 pair: 1 penetrating.\n{said} Report: {name}\n"
 
 

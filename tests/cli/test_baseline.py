@@ -13,6 +13,7 @@ from satcheck.audit.baseline import absent_from, asset_key, beside_baseline, kno
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose
+from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.cli.reports import (
     BOUNDED,
@@ -327,3 +328,121 @@ def test_an_accepted_finding_is_named_and_not_verified(tmp_path: Path) -> None:
     assert (ran.code, "PASS: no new or worse finding." in ran.err) == (0, True)
     verified = satcheck("verify", second)
     assert (verified.code, "a baseline accepts findings" in verified.out) == (1, True)
+
+
+def table(folder: Path, sunk: float) -> None:
+    """A scene file of a table top of which a leg is sunk by some millimetres."""
+    (folder / "table.toml").write_text(
+        'schema = "satcheck.scene/1"\nunits = "mm"\n'
+        + "".join(
+            f'[[bodies]]\nid = "{name}"\nposition = [0, 0, {z}]\n'
+            f'shape = {{type = "box", size = {size}}}\n'
+            for name, z, size in (("top", 0, [800, 800, 200]), ("leg", sunk - 450, [60, 60, 700]))
+        )
+    )
+
+
+REPORTS = {
+    "each": ("each", "table.toml", "-o", "report.json"),
+    "batch": ("batch", "table.toml", "-o", "report.jsonl"),
+    "check": ("table.toml", "-o", "report.json"),
+}
+
+
+@pytest.mark.parametrize("command", ["each", "batch", "check"])
+def test_a_leg_that_sinks_deeper_is_caught_without_any_option(command: str, tmp_path: Path) -> None:
+    def gate() -> Ran:
+        *arguments, report = REPORTS[command]
+        return satcheck(*arguments, f"gate_{report}", "--baseline", "known.json", cwd=tmp_path)
+
+    table(tmp_path, 2.0)
+    satcheck(*REPORTS[command], cwd=tmp_path)
+    report = REPORTS[command][-1]
+    if command == "batch":  # a baseline is made of reports
+        satcheck("report", report, "-o", "report.json", cwd=tmp_path)
+        report = "report.json"
+    written = satcheck("baseline", "write", "known.json", report, cwd=tmp_path)
+    assert (written.code, "1 added" in written.out) == (0, True)
+    assert gate().code == 0
+    for made in tmp_path.glob("gate_*"):
+        made.unlink()
+    table(tmp_path, 91.0)
+    assert gate().code == 1
+
+
+def test_overlaps_of_unknown_depth_are_accepted_only_if_told(tmp_path: Path) -> None:
+    table(tmp_path, 2.0)
+    satcheck("table.toml", "--no-depth", "-o", "report.json", cwd=tmp_path)
+    write = ("baseline", "write", "known.json", "report.json")
+    refused = satcheck(*write, cwd=tmp_path)
+    assert (refused.code, "1 overlap of unknown depth" in refused.err) == (2, True)
+    assert "--depth" in refused.err
+    assert not (tmp_path / "known.json").exists()
+    assert satcheck(*write, "--without-figures", cwd=tmp_path).code == 0
+    gate = satcheck("table.toml", "--baseline", "known.json", cwd=tmp_path)
+    assert gate.code == 0
+    assert "PASS: no new or worse finding, 1 accepted without figures." in gate.out
+    satcheck("table.toml", "-o", "report.json", cwd=tmp_path)
+    satcheck("baseline", "update", "known.json", "report.json", cwd=tmp_path)
+    table(tmp_path, 91.0)
+    assert satcheck("table.toml", "--baseline", "known.json", cwd=tmp_path).code == 1
+
+
+def test_a_stored_baseline_without_figures_proves_nothing() -> None:
+    bare = replace(KNOWN, depth=None)
+    shallow, unmeasured = DEEPER, replace(DEEPER, depth=None, depth_bounds=None)
+    assert [state(bare, now) for now in (shallow, unmeasured)] == ["undecided"] * 2
+    accepted = replace(bare, unmeasured=True)
+    assert [state(accepted, now) for now in (shallow, unmeasured)] == ["accepted"] * 2
+    assert state(accepted, replace(DEEPER, relation="contains")) == "worse"
+
+
+def shell(folder: Path, units: str = "mm") -> None:
+    """A scene of an open shell with a box in its mouth: the fill of the hole decides."""
+    write(folder, shell=open_box(), part=unit_box(1, 1, 3.5))
+    (folder / "pot.toml").write_text(
+        f'schema = "satcheck.scene/1"\nunits = "{units}"\n'
+        '[[bodies]]\nid = "pot"\nmesh = "shell.obj"\n[[bodies]]\nid = "lid"\nmesh = "part.obj"\n'
+    )
+
+
+def test_an_undecided_pair_is_accepted_only_if_told_and_for_the_same_reason(tmp_path: Path) -> None:
+    shell(tmp_path)
+    for gate in (("each", "pot.toml"), ("pot.toml",)):
+        known = tmp_path / "known.json"
+        known.unlink(missing_ok=True)
+        satcheck(*gate, "-o", "report.json", cwd=tmp_path)
+        write_it = ("baseline", "write", "known.json", "report.json")
+        satcheck(*write_it, cwd=tmp_path)
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 3
+        known.unlink()
+        satcheck(*write_it, "--undecided", "--reason", "a pot has no lid", cwd=tmp_path)
+        accepted = json.loads(known.read_text())["undecided"]
+        assert [each["reason_code"] for each in accepted] == ["open-hole"]
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 0
+        known.write_text(known.read_text().replace("open-hole", "units-unknown"))
+        assert satcheck(*gate, "--baseline", "known.json", cwd=tmp_path).code == 3
+
+
+def test_an_accepted_undecided_pair_is_named(tmp_path: Path) -> None:
+    shell(tmp_path)
+    satcheck("pot.toml", "-o", "report.json", cwd=tmp_path)
+    satcheck("baseline", "write", "known.json", "report.json", "--undecided", cwd=tmp_path)
+    ran = satcheck("pot.toml", "--baseline", "known.json", "--format", "json", cwd=tmp_path)
+    assert "1 accepted undecided (pot and lid)" in ran.document["message"]
+    (finding,) = ran.document["findings"]
+    assert (finding["relation"], finding["baseline_state"]) == ("indeterminate", "accepted")
+    assert "[baseline: accepted undecided]" in finding["message"]
+    assert ran.document["summary"]["pairs"]["indeterminate"] == 1
+
+
+def test_other_units_are_a_reason_too_and_an_unreadable_body_is_none(tmp_path: Path) -> None:
+    (tmp_path / "box.obj").write_text((SAMPLES / "box.obj").read_text())
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path)
+    (tmp_path / "lost.obj").write_text("v 0 0 0\n")
+    files = ("box.obj", "gripper.glb", "lost.obj", "-o", "report.json")
+    satcheck(*files, cwd=tmp_path)
+    findings = json.loads((tmp_path / "report.json").read_text())["findings"]
+    codes = {(f["a"], f["b"]): f["reason_code"] for f in findings if f["undecided"]}
+    assert set(codes.values()) == {"units-unknown", None}
+    assert all((code is None) == ("lost" in pair) for pair, code in codes.items())

@@ -122,7 +122,7 @@ def test_github_annotations() -> None:
     assert [line.split(" ")[0] for line in lines[3:6]] == ["::warning", "::warning", "::notice"]
     assert lines[-1].startswith("satcheck: all: ")
     only = render({"satcheck": MIXED}, "github").splitlines()[-1]
-    assert only.startswith("satcheck: FAIL: block and deeper overlap (depth 2); ")
+    assert only.startswith("satcheck: FAIL: block and deeper overlap (2 to pull apart); ")
 
 
 def test_a_name_cannot_forge_an_annotation() -> None:
@@ -398,4 +398,4 @@ def test_a_body_that_leaves_its_region_fails_in_every_format(tmp_path: Path) -> 
 @pytest.mark.parametrize("form", ["table", "github", "junit", "sarif", "markdown"])
 def test_every_format_prints_the_same_message(form: str) -> None:
     said = satcheck(*PUSHED, "--format", form).out.replace("\\", "")
-    assert "box and box_pushed overlap (thickness 1, depth 1)" in said
+    assert "box and box_pushed overlap (thickness 1, 1 to pull apart)" in said

@@ -51,7 +51,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (THICK,),
             (
                 "2 bodies, 1 pair: 1 penetrating.",
-                "FAIL: block and block_pushed overlap (thickness 0.5, depth 1). "
+                "FAIL: block and block_pushed overlap (thickness 0.5, 1 to pull apart). "
                 "Next: -o report.html shows it in 3-D.",
             ),
         ),
@@ -60,9 +60,10 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (
                 "2 bodies, 5 pairs: 3 penetrating, 1 containing, 1 indeterminate. "
                 "1 pair hits while moving.",
-                "FAIL: block and other overlap; "
-                "a_rather_long_name contains another_rather_long_name (depth 1.24123 .. 1.25001); "
-                "block and block_pushed overlap (thickness 0.5, depth 1); and 1 more pair. "
+                "FAIL: a_rather_long_name contains another_rather_long_name "
+                "(1.24123 .. 1.25001 to pull apart); "
+                "block and block_pushed overlap (thickness 0.5, 1 to pull apart); "
+                "block and other overlap; and 1 more pair. "
                 "1 pair is indeterminate. Next: --depth measures the overlaps.",
             ),
         ),
@@ -154,7 +155,10 @@ def test_what_hulls_cannot_prove_asks_for_accuracy() -> None:
     made = report(ESTIMATE)
     made = with_messages(replace(made, settings=replace(made.settings, accuracy="hull")))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert "FAIL: block and perhaps possibly overlap (depth at most 2). Next: --accuracy" in text
+    assert (
+        "FAIL: block and perhaps possibly overlap (at most 2 to pull apart). Next: --accuracy"
+        in text
+    )
 
 
 def test_an_internal_error_is_no_unusable_input() -> None:

@@ -190,7 +190,10 @@ def test_top_takes_the_worst_before_parts_are_grouped() -> None:
     text = render(report(*pairs), PLAIN_PAGE, explain=False, timings=True, top=2)
     assert "arm" in text
     assert "hand/y │" not in text
-    assert "FAIL: hand/x and box overlap (depth 3); arm and box overlap (depth 2); hand/y" in text
+    assert (
+        "FAIL: hand/x and box overlap (3 to pull apart); arm and box overlap (2 to pull apart); "
+        "hand/y" in text
+    )
 
 
 def test_pairs_of_parts_are_grouped_in_either_order() -> None:
@@ -236,7 +239,7 @@ def test_top_limits_rows_and_nothing_else() -> None:
     assert "block_pushed │" not in text
     assert "2 more pairs not shown (--top 1)" in text
     assert "1 penetrating, 1 containing, 1 indeterminate" in text
-    assert f"{PENETRATING.a} and {PENETRATING.b} overlap (depth 1)" in text
+    assert f"{PENETRATING.a} and {PENETRATING.b} overlap (1 to pull apart)" in text
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,7 @@ def test_the_page_shows_the_worst_finding_first(folder: Path) -> None:
     assert page.tags.count("img") == 2
     assert all(link.startswith("data:image/png;base64,") for link in page.links)
     assert "FAIL: 2 assets: 2 fail" in page.text
-    assert "overlap (thickness 1, depth 1); moving" in page.text
+    assert "overlap (thickness 1, 1 to pull apart); moving" in page.text
 
 
 def test_top_limits_the_pictures(folder: Path) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import random
+import tracemalloc
 
 import pytest
 
-from satcheck.core import box_gap, close_pairs
+from satcheck.core import ClosePairs, box_gap
 
 Point = tuple[float, float, float]
 Box = tuple[Point, Point]
@@ -32,6 +33,23 @@ def boxes_of_all_forms(seed: int, count: int, span: float) -> list[Box]:
         size = [source.uniform(0.5, 1) * length for length in form]
         boxes.append(box_at(low, size))
     return boxes
+
+
+def close_pairs(
+    boxes: list[Box],
+    reach: list[float],
+    kinds: list[int],
+    exempt_kinds: list[tuple[int, int]] | None = None,
+    exempt: list[tuple[int, int]] | None = None,
+) -> list[tuple[int, int]]:
+    """All pairs; taken a few at a time, they are the same ones."""
+    found = ClosePairs(boxes, reach, kinds, exempt_kinds or [], exempt or [])
+    first = found.take(3)
+    pairs = first + found.take()
+    assert len(first) == min(3, len(pairs))
+    assert found.take() == []
+    assert found.count() == len(pairs)
+    return pairs
 
 
 def among_all_pairs(boxes: list[Box], reach: list[float]) -> list[tuple[int, int]]:
@@ -103,3 +121,17 @@ def test_one_box_has_no_pair() -> None:
 def test_lengths_have_to_agree() -> None:
     with pytest.raises(ValueError, match="differ in length"):
         close_pairs([UNIT], [0.0, 0.0], [0])
+
+
+def test_pairs_need_memory_only_as_they_are_taken() -> None:
+    """A report stops long before the last pair of a crowd."""
+    crowd = [UNIT] * 3000
+    tracemalloc.start()
+    try:
+        found = ClosePairs(crowd, [0.0] * len(crowd), [0] * len(crowd))
+        assert len(found.take(10)) == 10
+        assert found.count() == len(crowd) * (len(crowd) - 1) // 2
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < found.count()  # less than a byte for each pair

@@ -12,8 +12,8 @@ from satcheck.verify import Rejected
 from satcheck.verify.excuse import neither_passes
 from satcheck.verify.pairs import Pair
 from satcheck.verify.surfaces import meeting
-from tests.audit.certify.test_thickness import prism
 from tests.audit.shapes import Mesh, box, bracket, moved, unit_box
+from tests.audit.stages.certificate.test_thickness import prism
 from tests.audit.stages.test_explained import PLATE, SPIKE
 from tests.audit.stages.test_thickness import wedge
 from tests.verify.reports import pieces, turned

@@ -12,8 +12,8 @@ from satcheck.verify import Rejected
 from satcheck.verify import excuse as module
 from satcheck.verify.excuse import reaches_no_deeper
 from satcheck.verify.surfaces import meeting
-from tests.audit.certify.test_thickness import prism
 from tests.audit.shapes import Mesh, box, bracket, unit_box
+from tests.audit.stages.certificate.test_thickness import prism
 from tests.verify.test_cover import pair_of
 from tests.verify.test_passing import random_rods, ring
 

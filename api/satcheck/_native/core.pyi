@@ -238,13 +238,19 @@ def largest_stretch(matrix: Sequence[float]) -> float: ...
 def largest_placed(matrix: Sequence[float], largest: float) -> float: ...
 def box_gap(a: Box3, b: Box3) -> float: ...
 def order_along_curve(boxes: Sequence[Box3]) -> list[int]: ...
-def close_pairs(
-    boxes: Sequence[Box3],
-    reach: Sequence[float],
-    kinds: Sequence[int],
-    exempt_kinds: Sequence[tuple[int, int]] = ...,
-    exempt: Sequence[tuple[int, int]] = ...,
-) -> list[tuple[int, int]]: ...
+
+class ClosePairs:
+    def __new__(
+        cls,
+        boxes: Sequence[Box3],
+        reach: Sequence[float],
+        kinds: Sequence[int],
+        exempt_kinds: Sequence[tuple[int, int]] = ...,
+        exempt: Sequence[tuple[int, int]] = ...,
+    ) -> ClosePairs: ...
+    def take(self, most: int = ...) -> list[tuple[int, int]]: ...
+    def count(self) -> int: ...
+
 def check_pair(
     a: Shape,
     b: Shape,

@@ -15,6 +15,7 @@ from satcheck.audit.messages import answer_message, kind_of
 from satcheck.audit.words import counted
 from satcheck.cli.formats.summary import config_line, summary_line
 from satcheck.cli.output import harmless, issue_line
+from satcheck.report.baseline import HELD
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import OUTSIDE_REGION, UNSUPPORTED
 from satcheck.report.verdict import fails, is_unmet
@@ -73,10 +74,10 @@ def _case(suite: ElementTree.Element, file: str, name: str) -> ElementTree.Eleme
 
 def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
     text = finding.message
-    if finding.undecided is not None:
-        _say(case, "error", "undecided", text)
-    elif finding.baseline_state == "unchanged":
+    if finding.baseline_state in HELD:
         ElementTree.SubElement(case, "skipped", message=_clean(text))
+    elif finding.undecided is not None:
+        _say(case, "error", "undecided", text)
     elif fails(finding, report.settings.fail_on):
         _say(case, "failure", kind_of(finding), text)
 

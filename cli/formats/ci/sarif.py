@@ -70,6 +70,7 @@ def _invocation(reports: Reports, left_out: int) -> dict[str, Any]:
 _BASELINE_STATES = {
     "new": "new",
     "unchanged": "unchanged",
+    "accepted": "unchanged",
     "worse": "updated",
     "undecided": "updated",
 }

@@ -1,7 +1,6 @@
-// Method: one tree over all boxes, walked against itself: Gottschalk, Lin, Manocha, "OBBTree: A
-// Hierarchical Structure for Rapid Interference Detection" (1996), the simultaneous descent, on the tree of
-// bvh.cpp. Unlike a sweep along an axis, it takes time near n log n if there are few pairs. Each box is grown outward
-// by its reach, so that the walk misses no pair. The gap of the boxes themselves then decides.
+// Method: one tree over all boxes, that of bvh.cpp, walked once for each box. Unlike a sweep along an axis, it takes time
+// near n log n if there are few pairs. Each box is grown outward by its reach, so that the walk misses no pair. The gap
+// of the boxes themselves then decides.
 #include "ladder/broad_phase.hpp"
 
 #include <algorithm>
@@ -9,10 +8,11 @@
 
 #include "base/rounding.hpp"
 #include "ladder/world_box.hpp"
-#include "mesh/bvh.hpp"
 
 namespace satcheck {
 namespace {
+
+constexpr std::uint32_t kMixed = 0xFFFFFFFF;
 
 // Contains every point within `reach` of the box, rounding included; also if two reaches are summed first.
 Aabb grown(const Aabb& box, double reach) {
@@ -23,116 +23,91 @@ Aabb grown(const Aabb& box, double reach) {
           {above(box.max.x), above(box.max.y), above(box.max.z)}};
 }
 
-double half_area(const Aabb& box) {
-  const Vec3 e = box.max - box.min;
-  return e.x * e.y + e.y * e.z + e.z * e.x;
+// pairs: sorted.
+bool holds(const std::vector<IndexPair>& pairs, std::uint32_t i, std::uint32_t j) {
+  return !pairs.empty() && std::binary_search(pairs.begin(), pairs.end(), IndexPair{std::min(i, j), std::max(i, j)});
 }
-
-// A set of pairs, with fast look-ups.
-class PairSet {
- public:
-  explicit PairSet(std::vector<IndexPair> pairs) : pairs_(std::move(pairs)) {
-    std::sort(pairs_.begin(), pairs_.end());
-  }
-  bool holds(std::uint32_t i, std::uint32_t j) const {
-    return !pairs_.empty() && std::binary_search(pairs_.begin(), pairs_.end(), IndexPair{std::min(i, j), std::max(i, j)});
-  }
-
- private:
-  std::vector<IndexPair> pairs_;
-};
-
-class SelfTraversal {
- public:
-  explicit SelfTraversal(CloseQuery query)
-      : boxes_(std::move(query.boxes)), reach_(std::move(query.reach)), kind_(std::move(query.kind)),
-        exempt_kinds_(std::move(query.exempt_kinds)), exempt_(std::move(query.exempt)) {
-    std::vector<Aabb> reached(boxes_.size());
-    for (std::size_t i = 0; i < boxes_.size(); ++i) reached[i] = grown(boxes_[i], reach_[i]);
-    bvh_ = build_bvh_by_form(reached);
-    find_node_kinds();
-  }
-
-  std::vector<IndexPair> run() {
-    if (bvh_.nodes.empty()) return {};
-    std::vector<IndexPair> stack{{0, 0}};
-    while (!stack.empty()) {
-      const auto [i, j] = stack.back();
-      stack.pop_back();
-      const BvhNode &m = bvh_.nodes[i], &n = bvh_.nodes[j];
-      if (!meet(m.box, n.box) || are_exempt(node_kind_[i], node_kind_[j])) continue;
-      if (i == j && m.is_leaf()) {
-        test_within(m);
-      } else if (i == j) {
-        stack.insert(stack.end(), {{m.first, m.first}, {m.first + 1, m.first + 1}, {m.first, m.first + 1}});
-      } else if (m.is_leaf() && n.is_leaf()) {
-        test_leaves(m, n);
-      } else if (n.is_leaf() || (!m.is_leaf() && half_area(m.box) >= half_area(n.box))) {
-        stack.insert(stack.end(), {{m.first, j}, {m.first + 1, j}});
-      } else {
-        stack.insert(stack.end(), {{i, n.first}, {i, n.first + 1}});
-      }
-    }
-    std::sort(pairs_.begin(), pairs_.end());
-    return std::move(pairs_);
-  }
-
- private:
-  static constexpr std::uint32_t kMixed = 0xFFFFFFFF;
-
-  bool are_exempt(std::uint32_t kind_a, std::uint32_t kind_b) const {
-    return kind_a != kMixed && kind_b != kMixed && exempt_kinds_.holds(kind_a, kind_b);
-  }
-
-  // The kind of all boxes below each node. Children come after their parents.
-  void find_node_kinds() {
-    node_kind_.resize(bvh_.nodes.size());
-    for (std::size_t k = bvh_.nodes.size(); k-- > 0;) {
-      const BvhNode& node = bvh_.nodes[k];
-      if (node.is_leaf()) {
-        node_kind_[k] = kind_[bvh_.order[node.first]];
-        for (std::uint32_t i = node.first + 1; i < node.first + node.count; ++i) {
-          if (kind_[bvh_.order[i]] != node_kind_[k]) node_kind_[k] = kMixed;
-        }
-      } else {
-        const std::uint32_t left = node_kind_[node.first], right = node_kind_[node.first + 1];
-        node_kind_[k] = left == right ? left : kMixed;
-      }
-    }
-  }
-
-  void test_within(const BvhNode& leaf) {
-    for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
-      for (std::uint32_t l = k + 1; l < leaf.first + leaf.count; ++l) test(k, l);
-    }
-  }
-
-  void test_leaves(const BvhNode& m, const BvhNode& n) {
-    for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
-      if (!meet(bvh_.boxes[k], n.box)) continue;
-      for (std::uint32_t l = n.first; l < n.first + n.count; ++l) test(k, l);
-    }
-  }
-
-  void test(std::uint32_t k, std::uint32_t l) {
-    if (!meet(bvh_.boxes[k], bvh_.boxes[l])) return;
-    const std::uint32_t i = bvh_.order[k], j = bvh_.order[l];
-    if (!(box_gap(boxes_[i], boxes_[j]) <= reach_[i] + reach_[j])) return;
-    if (exempt_kinds_.holds(kind_[i], kind_[j]) || exempt_.holds(i, j)) return;
-    pairs_.push_back({std::min(i, j), std::max(i, j)});
-  }
-
-  const std::vector<Aabb> boxes_;
-  const std::vector<double> reach_;
-  const std::vector<std::uint32_t> kind_;
-  const PairSet exempt_kinds_, exempt_;
-  Bvh bvh_;
-  std::vector<std::uint32_t> node_kind_;
-  std::vector<IndexPair> pairs_;
-};
 
 }  // namespace
 
-std::vector<IndexPair> close_pairs(CloseQuery query) { return SelfTraversal(std::move(query)).run(); }
+ClosePairs::ClosePairs(CloseQuery query) : query_(std::move(query)) {
+  std::sort(query_.exempt_kinds.begin(), query_.exempt_kinds.end());
+  std::sort(query_.exempt.begin(), query_.exempt.end());
+  std::vector<Aabb> reached(query_.boxes.size());
+  for (std::size_t i = 0; i < reached.size(); ++i) reached[i] = grown(query_.boxes[i], query_.reach[i]);
+  bvh_ = build_bvh_by_form(reached);
+  sum_up_nodes();
+}
+
+void ClosePairs::sum_up_nodes() {
+  below_.resize(bvh_.nodes.size());
+  const auto join = [](Below& sum, const Below& more) {
+    sum = {sum.kind == more.kind ? sum.kind : kMixed, std::max(sum.last, more.last)};
+  };
+  for (std::size_t k = bvh_.nodes.size(); k-- > 0;) {  // children come after their parents
+    const BvhNode& node = bvh_.nodes[k];
+    if (node.is_leaf()) {
+      const auto of_box = [&](std::uint32_t place) {
+        return Below{query_.kind[bvh_.order[place]], bvh_.order[place]};
+      };
+      below_[k] = of_box(node.first);
+      for (std::uint32_t l = node.first + 1; l < node.first + node.count; ++l) join(below_[k], of_box(l));
+    } else {
+      below_[k] = below_[node.first];
+      join(below_[k], below_[node.first + 1]);
+    }
+  }
+}
+
+bool ClosePairs::are_exempt(std::uint32_t kind_a, std::uint32_t kind_b) const {
+  return kind_b != kMixed && holds(query_.exempt_kinds, kind_a, kind_b);
+}
+
+template <class Found>
+void ClosePairs::visit_partners(std::uint32_t i, const Found& found) const {
+  const Aabb &box = query_.boxes[i], reached = grown(box, query_.reach[i]);
+  const std::uint32_t kind = query_.kind[i];
+  std::vector<std::uint32_t> stack{0};
+  stack.reserve(kUsualDepth);
+  while (!stack.empty()) {
+    const std::uint32_t k = stack.back();
+    const BvhNode& node = bvh_.nodes[k];
+    stack.pop_back();
+    if (below_[k].last <= i || !meet(node.box, reached) || are_exempt(kind, below_[k].kind)) continue;
+    if (!node.is_leaf()) {
+      stack.insert(stack.end(), {node.first, node.first + 1});
+      continue;
+    }
+    for (std::uint32_t l = node.first; l < node.first + node.count; ++l) {
+      const std::uint32_t j = bvh_.order[l];
+      if (j <= i || !meet(bvh_.boxes[l], reached)) continue;
+      if (!(box_gap(box, query_.boxes[j]) <= query_.reach[i] + query_.reach[j])) continue;
+      if (!are_exempt(kind, query_.kind[j]) && !holds(query_.exempt, i, j)) found(j);
+    }
+  }
+}
+
+std::vector<IndexPair> ClosePairs::take(std::size_t most) {
+  std::vector<IndexPair> pairs;
+  while (pairs.size() < most) {
+    if (!partners_.empty()) {
+      pairs.push_back({current_, partners_.back()});
+      partners_.pop_back();
+    } else if (next_ < query_.boxes.size()) {
+      current_ = next_++;
+      visit_partners(current_, [&](std::uint32_t j) { partners_.push_back(j); });
+      std::sort(partners_.rbegin(), partners_.rend());
+    } else {
+      break;
+    }
+  }
+  return pairs;
+}
+
+std::size_t ClosePairs::count() const {
+  std::size_t pairs = 0;
+  for (std::uint32_t i = 0; i < query_.boxes.size(); ++i) visit_partners(i, [&](std::uint32_t) { ++pairs; });
+  return pairs;
+}
 
 }  // namespace satcheck

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "base/vec.hpp"
+#include "mesh/bvh.hpp"
 
 namespace satcheck {
 
@@ -21,7 +22,34 @@ struct CloseQuery {
   std::vector<IndexPair> exempt_kinds, exempt;
 };
 
-// The close pairs i < j, sorted.
-std::vector<IndexPair> close_pairs(CloseQuery query);
+// The close pairs (i, j), i < j, sorted. They are found body by body, as far as they are taken, so that they need no
+// memory of their own.
+class ClosePairs {
+ public:
+  explicit ClosePairs(CloseQuery query);
+  // The next pairs, at most `most`; fewer only at the end.
+  std::vector<IndexPair> take(std::size_t most);
+  // The number of all close pairs, taken or not.
+  std::size_t count() const;
+
+ private:
+  // Calls found(j) for the boxes j > i close to box i, in any order.
+  template <class Found>
+  void visit_partners(std::uint32_t i, const Found& found) const;
+  bool are_exempt(std::uint32_t kind_a, std::uint32_t kind_b) const;
+  void sum_up_nodes();
+
+  // Of all boxes below a node: their kind, or that it is mixed, and the highest number.
+  struct Below {
+    std::uint32_t kind, last;
+  };
+
+  CloseQuery query_;
+  Bvh bvh_;  // over the boxes grown by their reaches
+  std::vector<Below> below_;
+  std::uint32_t next_ = 0;  // the box whose partners come after those in partners_
+  std::uint32_t current_ = 0;
+  std::vector<std::uint32_t> partners_;  // of current_, not yet taken, the highest first
+};
 
 }  // namespace satcheck

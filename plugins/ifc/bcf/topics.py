@@ -31,6 +31,7 @@ Status = Literal["Open", "ReOpened", "Closed"]
 STATUSES: tuple[Status, ...] = ("Open", "ReOpened", "Closed")
 _BESIDE_BASELINE: dict[str, Status] = {
     "unchanged": "Closed",
+    "accepted": "Closed",
     "worse": "ReOpened",
     "undecided": "ReOpened",
 }

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Finding, Settings, check
+from satcheck.audit.stages import explained
 from satcheck.scene import load_scene
 from tests.audit.shapes import Mesh, box, open_box, unit_box, write
 from tests.audit.stages.test_thickness import WEDGE_HEIGHT, WEDGE_THICKNESS, only, wedge
@@ -38,6 +39,15 @@ def test_the_band_ends_at_the_thickness(tmp_path: Path, tolerance: float, relati
     assert found.depth == pytest.approx(WEDGE_HEIGHT)
     swapped = only(tmp_path, wedge(), unit_box(), tolerance=tolerance)
     assert swapped.relation == relation
+
+
+def test_a_thickness_away_from_the_band_needs_no_proof_to_the_last_digit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(explained, "_fit_of_convex", None)
+    monkeypatch.setattr(explained, "_fit", None)
+    found = only(tmp_path, unit_box(), wedge(), tolerance=1.02 * WEDGE_THICKNESS, depth=False)
+    assert (found.relation, found.reason) == ("touching", None)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,14 @@ from typing import Any
 import numpy as np
 
 from satcheck.audit.body import PlacedBody
-from satcheck.audit.certify.maker import Maker, axis_of, exact_number, exact_point, leading_axes
 from satcheck.audit.pair import Pair
+from satcheck.audit.stages.certificate.maker import (
+    Maker,
+    axis_of,
+    exact_number,
+    exact_point,
+    leading_axes,
+)
 from satcheck.core.curved.exact.pair import proof_of
 from satcheck.core.curved.signed import Signed, convex_pair
 from satcheck.report.certificate import AxisProof, Ends, NestedProof, OnBody, PointProof, Proof

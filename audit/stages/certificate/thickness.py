@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 from msgspec import UNSET
 
 from satcheck import core
-from satcheck.audit.certify.maker import NoCertificate
+from satcheck.audit.stages.certificate.maker import NoCertificate
 from satcheck.audit.stages.explained import (
     ball_in,
     deeper,

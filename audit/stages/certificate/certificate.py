@@ -10,9 +10,10 @@ from msgspec import UNSET
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.certify.cover import cover
-from satcheck.audit.certify.curved import CurvedMaker
-from satcheck.audit.certify.maker import (
+from satcheck.audit.draft import Draft
+from satcheck.audit.stages.certificate.cover import cover
+from satcheck.audit.stages.certificate.curved import CurvedMaker
+from satcheck.audit.stages.certificate.maker import (
     AXES,
     Maker,
     NoCertificate,
@@ -22,9 +23,9 @@ from satcheck.audit.certify.maker import (
     leading_axes,
     or_unset,
 )
-from satcheck.audit.certify.thickness import cells, excuse
-from satcheck.audit.draft import Draft
+from satcheck.audit.stages.certificate.thickness import cells, excuse
 from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
+from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.report.certificate import (
     AxisProof,
     Band,
@@ -49,7 +50,26 @@ from satcheck.verify.in_plane import reaching
 from satcheck.verify.pairs import vector
 
 
-def certified(draft: Draft, finding: Finding) -> Certificate | NoCertificate:
+def with_certificate(finding: Finding, draft: Draft) -> Finding:
+    """Return the finding with its evidence, or with a stage that says why there is none."""
+    certificate: Certificate | NoCertificate = NoCertificate(
+        "a sweep of moving bodies leaves no evidence"
+    )
+    if finding.motion is None:
+        try:
+            certificate = _certified(draft, finding)
+        except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
+            not_for_lack_of_memory(error)
+            certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
+    if isinstance(certificate, NoCertificate):
+        draft.record("certificate", "none", certificate.reason)
+        return replace(finding, plan=tuple(draft.stages))
+    kind = certificate.relation.__struct_config__.tag
+    draft.record("certificate", str(kind), "accepted by the checker")
+    return replace(finding, certificate=certificate, plan=tuple(draft.stages))
+
+
+def _certified(draft: Draft, finding: Finding) -> Certificate | NoCertificate:
     """A certificate that the checker accepts, or why there is none."""
     pair = draft.pair
     if finding.exact_relation is None:

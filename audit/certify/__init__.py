@@ -1,9 +1,0 @@
-"""Certificates: the evidence for a finding. The results of the solver serve as hints.
-
-Nothing here is trusted: `satcheck.verify` judges each certificate before it goes into a report.
-"""
-
-from satcheck.audit.certify.certificate import certified
-from satcheck.audit.certify.maker import NoCertificate
-
-__all__ = ["NoCertificate", "certified"]
