@@ -24,6 +24,7 @@ from satcheck.report.report import (
     CROSS_CHECK,
     NO_ANSWER,
     NOT_AVAILABLE,
+    NOTHING_TO_CHECK,
     OF_ANSWERS,
     ON_TRIANGLES,
 )
@@ -175,7 +176,7 @@ def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
     more: Counter[str] = Counter()
     idle: Counter[str] = Counter()
     for issue in report.issues:
-        if issue.severity == "error" or issue.code in OF_ANSWERS:
+        if issue.severity == "error" or issue.code in (*OF_ANSWERS, NOTHING_TO_CHECK):
             continue
         is_mesh = issue.code in MESHES
         in_rows = issue.body in ids if issue.body else issue.file in files

@@ -82,7 +82,7 @@ def render(
         columns = columns_of(shown, report, explain=explain, timings=timings)
         lines += table(columns, page, list(map(_style, shown)))
     said = [*hidden(len(told) - len(shown), "pair"), *_passing(report, usable, told)]
-    said += all_begin(root)
+    said += all_begin(root) if shown else []
     lines += fitted_each(said, page)
     lines += component_lines(page, shown)
     lines += support_lines(report, page)
