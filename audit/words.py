@@ -49,8 +49,8 @@ def stated(value: float) -> str:
 
 def bounds(low: float, high: float) -> str:
     """Return `0.504 ±0.003`: a middle and a half-width that contain the proven interval, or one
-    number where both ends are the same to ROUNDOFF."""
-    if high - low <= ROUNDOFF * abs(high):
+    number where the figure is exact."""
+    if high - low <= EXACT_WIDTH * abs(high):
         return number(high)
     least, most = Decimal(low), Decimal(high)
     size = max(abs(low / 2 + high / 2), high / 2 - low / 2)
@@ -125,9 +125,7 @@ def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
     if proven is None:
         return ""
     low, high = proven
-    if high - low <= EXACT_WIDTH * high:
-        return number(high)
-    return bounded + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)
+    return bounded + at_most(high) if low <= NEGLIGIBLE * high < high else bounds(low, high)
 
 
 def is_unusable(body: BodyReport) -> bool:

@@ -20,6 +20,7 @@ from satcheck.audit.words import (
     stated,
     vector,
 )
+from satcheck.report.judge import EXACT_WIDTH
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 
@@ -78,7 +79,7 @@ def test_what_is_shown_contains_the_interval(first: float, second: float) -> Non
     low, high = sorted((first, second))
     shown = bounds(low, high).split(" ±")
     if len(shown) == 1:
-        assert high - low <= ROUNDOFF * high
+        assert high - low <= EXACT_WIDTH * high
         return
     middle, half = map(Fraction, shown)
     assert middle - half <= Fraction(low) * (1 + Fraction(ROUNDOFF))
