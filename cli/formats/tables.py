@@ -14,6 +14,7 @@ from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
+from msgspec.structs import replace
 from rich import box
 from rich.cells import cell_len, chop_cells
 from rich.console import Console
@@ -70,6 +71,10 @@ def table(columns: Sequence[Column], page: Page, styles: Sequence[str] | None = 
     styles: of each row, in the columns that are graded.
     """
     styles = [""] * len(columns[0].cells) if styles is None else styles
+    columns = [
+        replace(column, cells=tuple(map(harmless, column.cells))) if column.named else column
+        for column in columns
+    ]
     widths = _widths(columns, page.width)
     if widths is None:
         return list(_paragraphs(columns, page, styles))
@@ -93,11 +98,13 @@ def table(columns: Sequence[Column], page: Page, styles: Sequence[str] | None = 
 
 
 def fitted(text: str, page: Page, style: str = "") -> list[str]:
-    """Return the text as lines of the page."""
+    """Return the text as lines of the page. All but the first are indented: no name in it can pass
+    for a line of our own."""
     lines = text.split("\n")
-    if not (style and page.colour) and all(cell_len(line) <= page.width for line in lines):
-        return lines
-    return _drawn(Text(text, style), page)
+    if (style and page.colour) or any(cell_len(line) > page.width for line in lines):
+        narrow = page._replace(width=max(page.width - INDENT, 1))
+        lines = _drawn(Text(text, style), narrow)
+    return [lines[0], *(f"{' ' * INDENT}{line}" for line in lines[1:])]
 
 
 def fitted_each(texts: Iterable[str], page: Page) -> list[str]:
@@ -133,14 +140,16 @@ def aligned(rows: Iterable[Sequence[str]], page: Page, *, bold: bool = True) -> 
 
 def broken(name: str, width: int) -> str:
     """Return the name in lines of at most `width`, ended after `_`, `-`, `.`, `/` or a space where
-    one is there."""
+    one is there. All but the first are indented, as those of a text."""
+    if cell_len(name) <= width:
+        return name
     lines = [""]
     for piece in _PIECES.findall(name):
-        if cell_len(lines[-1]) + cell_len(piece) > width and lines[-1]:
+        if cell_len(lines[-1]) + cell_len(piece) >= width and lines[-1]:
             lines.append("")
         lines[-1] += piece
-        lines[-1:] = chop_cells(lines[-1], width) or [""]
-    return "\n".join(lines)
+        lines[-1:] = chop_cells(lines[-1], width - 1) or [""]
+    return "\n ".join(lines)
 
 
 def _widths(columns: Sequence[Column], room: int) -> list[int] | None:

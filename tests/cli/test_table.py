@@ -259,10 +259,11 @@ def test_top_limits_rows_and_nothing_else() -> None:
 @pytest.mark.parametrize(
     ("name", "width", "lines"),
     [
-        ("l_bracket", 6, "l_\nbracke\nt"),
-        ("peg_in_arm", 8, "peg_in_\narm"),
+        ("l_bracket", 7, "l_\n bracke\n t"),
+        ("peg_in_arm", 8, "peg_in_\n arm"),
         ("rod", 8, "rod"),
-        ("歯車_a", 5, "歯車_\na"),
+        ("歯車_a", 6, "歯車_a"),
+        ("歯車_ab", 6, "歯車_\n ab"),
     ],
 )
 def test_names_are_broken_after_a_separator(name: str, width: int, lines: str) -> None:
