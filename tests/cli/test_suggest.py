@@ -71,7 +71,7 @@ def test_the_rules_can_be_given_beside_the_scene(tmp_path: Path) -> None:
     rules.write_text(ran.out, encoding="utf-8")
     ran = satcheck(str(path), str(rules))
     assert ran.code == 0
-    assert ran.out.endswith("PASS: No pair was checked: 1 allowed by rules.\n")
+    assert ran.out.endswith("PASS: no pair was checked: 1 allowed by rules.\n")
     again = satcheck("suggest", str(path), str(rules))
     assert tomllib.loads(again.out) == {"schema": "satcheck.scene/1", "bodies": []}
 
